@@ -60,7 +60,7 @@ bool error_map_write(struct film *film, float exposure, const char *path,
     if (map == NULL)
         ok = fail(err, "%s: out of memory for %dx%d pixels", path, width,
                   height);
-    else if (!film_error_map(film, exposure, map))
+    else if (!film_error_map(film, exposure, NULL, map))
         ok = fail(err,
                   "%s: found a pixel with less than two samples, which has no "
                   "known error",

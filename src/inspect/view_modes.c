@@ -258,9 +258,11 @@ static bool find_errors(struct view_mode *s, struct film *film)
     if (s->error_spp == p.spp_done && s->error_restart_ns == of->restart_ns)
         return s->error_spp > 0;
     s->error_spp = 0;
+    need_pool(s);
     if (!p.film_error.is_known ||
         !need_numbers(s, (size_t)film->width * (size_t)film->height) ||
-        !film_error_map(film, session_develop(of).exposure, s->numbers))
+        !film_error_map(film, session_develop(of).exposure, s->pool,
+                        s->numbers))
         return false;
     s->error_spp = p.spp_done;
     s->error_restart_ns = of->restart_ns;

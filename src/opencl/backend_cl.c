@@ -92,12 +92,12 @@ static bool cl_load(struct backend *base, struct host_world *host,
                     const struct world *world, struct error *err)
 {
     struct backend_cl *b = (struct backend_cl *)base;
-    struct pool *pool = world_pool(host);
     bool ok;
 
     cl_world_free(&b->world, &b->machine);
-    ok = bvh_build(&b->bvh, world, pool, err);
-    pool_destroy(pool);
+    if (base->pool == NULL)
+        base->pool = world_pool(host);
+    ok = bvh_build(&b->bvh, world, base->pool, err);
     base->tree_bytes = bvh_bytes(&b->bvh);
     return ok;
 }
@@ -453,6 +453,7 @@ static void cl_destroy(struct backend *base)
     cl_kernels_free(&b->special, &b->machine);
     cl_kernels_free(&b->full, &b->machine);
     cl_machine_close(&b->machine);
+    pool_destroy(base->pool);
     pthread_mutex_destroy(&b->lock);
     free(b->text);
     free(b);

@@ -2,7 +2,11 @@
 #include "picture/film_error.h"
 
 #include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "base/memory.h"
 
 /* Pixels of a tile, which is processed in memory on the stack. */
 #define SIDE 32
@@ -281,32 +285,79 @@ static int tiles_in(int length)
     return (length + SIDE - 1) / SIDE;
 }
 
-/* Reads tile i of the film and weighs it. Returns false if a pixel in it or
- * around it has a half without a sample. */
-static bool take_tile(struct film *f, int i, float exposure, struct tile *t,
+/* Work of a pool on the rows of tiles: their totals, or a map. */
+struct job {
+    struct film *film;
+    float exposure;
+    const struct cancel *cancel; /* NULL: none */
+    struct total *totals;        /* one for each row of tiles */
+    float *map;                  /* mean squares of pixels */
+    atomic_bool is_unknown;      /* a half of a pixel has no sample */
+};
+
+/* Reads the tile at (x0, y0) and weighs it. Returns false after a cancel, and
+ * if a pixel of the film has a half without a sample. */
+static bool take_tile(struct job *j, int x0, int y0, struct tile *t,
                       struct weighted *weighted)
 {
-    int columns = tiles_in(f->width);
-    double black = 0.1 * exp2(-(double)exposure);
+    double black = 0.1 * exp2(-(double)j->exposure);
 
-    read_tile(t, f, i % columns * SIDE, i / columns * SIDE);
+    if (atomic_load(&j->is_unknown) ||
+        (j->cancel != NULL && cancel_requested(j->cancel)))
+        return false;
+    read_tile(t, j->film, x0, y0);
     for (int c = 0; c < 3; c++)
         weigh(t, c, (float)(black * black), weighted->e[c]);
+    if (!t->is_known)
+        atomic_store(&j->is_unknown, true);
     return t->is_known;
 }
 
-struct film_error film_error(struct film *f, float exposure)
+static void add_row_of_tiles(void *context, uint32_t row, int worker)
 {
-    struct total total = {0};
-    struct weighted weighted;
+    struct job *j = context;
+    struct weighted w;
     struct tile t;
 
-    for (int i = 0; i < tiles_in(f->width) * tiles_in(f->height); i++) {
-        if (!take_tile(f, i, exposure, &t, &weighted))
-            return (struct film_error){0};
-        add_tile(&total, &t, &weighted);
+    (void)worker;
+    for (int x = 0; x < j->film->width; x += SIDE)
+        if (take_tile(j, x, (int)row * SIDE, &t, &w))
+            add_tile(&j->totals[row], &t, &w);
+}
+
+static void add_total(struct total *to, const struct total *t)
+{
+    to->squares += t->squares;
+    to->fourths += t->fourths;
+    to->neighbours += t->neighbours;
+    to->pair_count += t->pair_count;
+    to->cubes += t->cubes;
+    to->corner_count += t->corner_count;
+    for (int i = 0; i < BINS; i++) {
+        to->bin_counts[i] += t->bin_counts[i];
+        to->bin_squares[i] += t->bin_squares[i];
     }
-    return conclude(&total, (double)f->width * (double)f->height);
+}
+
+struct film_error film_error(struct film *f, float exposure, struct pool *pool,
+                             const struct cancel *cancel)
+{
+    struct job j = {.film = f, .exposure = exposure, .cancel = cancel};
+    int rows = tiles_in(f->height);
+    struct film_error error = {0};
+
+    j.totals = alloc_array((size_t)rows, sizeof *j.totals);
+    if (j.totals == NULL)
+        return error;
+    pool_each(pool, (uint32_t)rows, add_row_of_tiles, &j);
+    /* in order, so that the threads do not change the bits */
+    for (int i = 1; i < rows; i++)
+        add_total(&j.totals[0], &j.totals[i]);
+    if (!atomic_load(&j.is_unknown) &&
+        (cancel == NULL || !cancel_requested(cancel)))
+        error = conclude(&j.totals[0], (double)f->width * (double)f->height);
+    free(j.totals);
+    return error;
 }
 
 /* Replaces `count` numbers, `step` floats apart, by the means of the 5 around
@@ -328,20 +379,33 @@ static void average(float *x, int count, size_t step)
     }
 }
 
-bool film_error_map(struct film *f, float exposure, float *map)
+static void map_row_of_tiles(void *context, uint32_t row, int worker)
 {
-    struct weighted weighted;
+    struct job *j = context;
+    size_t width = (size_t)j->film->width;
+    struct weighted w;
     struct tile t;
-    size_t width = (size_t)f->width;
 
-    for (int i = 0; i < tiles_in(f->width) * tiles_in(f->height); i++) {
-        if (!take_tile(f, i, exposure, &t, &weighted))
-            return false;
+    (void)worker;
+    for (int x0 = 0; x0 < j->film->width; x0 += SIDE) {
+        if (!take_tile(j, x0, (int)row * SIDE, &t, &w))
+            return;
         for (int y = 0; y < t.height; y++)
             for (int x = 0; x < t.width; x++)
-                map[(size_t)(t.y0 + y) * width + (size_t)(t.x0 + x)] =
-                    product(&weighted, x, y, x, y) / 3.0f;
+                j->map[(size_t)(t.y0 + y) * width + (size_t)(t.x0 + x)] =
+                    product(&w, x, y, x, y) / 3.0f;
     }
+}
+
+bool film_error_map(struct film *f, float exposure, struct pool *pool,
+                    float *map)
+{
+    struct job j = {.film = f, .exposure = exposure, .map = map};
+    size_t width = (size_t)f->width;
+
+    pool_each(pool, (uint32_t)tiles_in(f->height), map_row_of_tiles, &j);
+    if (atomic_load(&j.is_unknown))
+        return false;
     for (int y = 0; y < f->height; y++)
         average(map + (size_t)y * width, f->width, 1);
     for (size_t x = 0; x < width; x++)

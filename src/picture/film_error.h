@@ -26,6 +26,7 @@
 
 #include <stdbool.h>
 
+#include "base/thread_pool.h"
 #include "picture/film.h"
 
 struct film_error {
@@ -43,10 +44,15 @@ struct film_error {
 bool film_pixel_error(const struct film *film, size_t at, float mean[3],
                       float e[3]);
 
-struct film_error film_error(struct film *film, float exposure);
+/* Estimates the error of the film. It has the same bits with any pool; NULL is
+ * the caller's thread. The error is unknown after a cancel (NULL: none), and if
+ * memory is out. */
+struct film_error film_error(struct film *film, float exposure,
+                             struct pool *pool, const struct cancel *cancel);
 
 /* Writes the error of each pixel, as a root mean square over the 5 x 5 pixels
- * around it. Returns false if the error is unknown. */
-bool film_error_map(struct film *film, float exposure, float *map);
+ * around it. The pool may be NULL. Returns false if the error is unknown. */
+bool film_error_map(struct film *film, float exposure, struct pool *pool,
+                    float *map);
 
 #endif

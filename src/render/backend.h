@@ -39,6 +39,7 @@ struct backend {
     const char *device; /* name of the device and */
     const char *driver; /* version of its driver, or NULL */
     int thread_count;
+    struct pool *pool;   /* of the host, idle between passes; NULL: none */
     uint64_t tree_bytes; /* size of the tree that load() built or found */
     /* version of the loaded WORLD_SHAPE; 0 if none is loaded */
     uint64_t shape;

@@ -15,7 +15,6 @@
 struct backend_cpu {
     struct backend base;
     const struct cpu_kernel *full_kernel; /* with all features */
-    struct pool *pool;
     /* from begin() */
     const struct cpu_kernel *kernel; /* smallest build for the world */
     struct bvh8_world world;
@@ -152,9 +151,7 @@ static void render_block(void *context, uint32_t item, int worker)
 static bool cpu_load(struct backend *base, struct host_world *host,
                      const struct world *world, struct error *err)
 {
-    struct backend_cpu *b = (struct backend_cpu *)base;
-
-    if (!world_ensure_tree(host, world, b->pool, err))
+    if (!world_ensure_tree(host, world, base->pool, err))
         return false;
     base->tree_bytes = bvh8_bytes(world_tree(host));
     return true;
@@ -194,21 +191,21 @@ static enum pass_result cpu_pass(struct backend *base, const struct pass *pass,
     j.count = j.columns * (uint32_t)((b->film->height + side - 1) / side);
     while (j.bits < 32 && (1u << j.bits) < j.count)
         j.bits++;
-    pool_run(b->pool, j.count, render_block, &j, cancel);
+    pool_run(base->pool, j.count, render_block, &j, cancel);
     /* blocks in progress may be incomplete after a cancel */
     return cancel_requested(cancel) ? PASS_CANCELLED : PASS_DONE;
 }
 
 static uint64_t cpu_cpu_ns(const struct backend *base, int thread)
 {
-    return pool_cpu_ns(((const struct backend_cpu *)base)->pool, thread);
+    return pool_cpu_ns(base->pool, thread);
 }
 
 static void cpu_destroy(struct backend *base)
 {
     struct backend_cpu *b = (struct backend_cpu *)base;
 
-    pool_destroy(b->pool);
+    pool_destroy(base->pool);
     free(b);
 }
 
@@ -222,14 +219,14 @@ struct backend *backend_cpu_create(int thread_count,
         fail(err, "render: out of memory");
         return NULL;
     }
-    b->pool = pool_create(thread_count, err);
-    if (b->pool == NULL) {
+    b->base.pool = pool_create(thread_count, err);
+    if (b->base.pool == NULL) {
         free(b);
         return NULL;
     }
     b->full_kernel = paths;
     b->base.name = "cpu";
-    b->base.thread_count = pool_thread_count(b->pool);
+    b->base.thread_count = pool_thread_count(b->base.pool);
     b->base.load = cpu_load;
     b->base.unload = cpu_unload;
     b->base.begin = cpu_begin;

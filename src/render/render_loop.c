@@ -42,7 +42,9 @@ struct render {
     uint64_t run_before_ns; /* total of earlier runs of the picture */
     uint64_t build_ns;
     uint64_t first_picture_ns;
+    bool has_error; /* film_error is that of the last pass */
     struct film_error film_error;
+    struct film_error cut_error; /* of a film that the time has cut */
     struct error_trend error_trend;
     struct error error;
     /* set while the render thread is parked */
@@ -161,41 +163,83 @@ static enum render_limit limit_at_pass_end(const struct render *r)
     return render_limits_at(&r->limits, r->spp_done, &r->film_error);
 }
 
-static void estimate_error(struct render *r)
+static struct film_error estimate(struct render *r)
 {
-    struct film_error e = film_error(&r->films.film, r->job.exposure);
+    return film_error(&r->films.film, r->job.exposure, r->backend->pool,
+                      &r->cancel);
+}
 
+/* Finds the error at the end of a pass, unless it is known already. */
+static enum pass_result estimate_pass(struct render *r)
+{
+    struct film_error e;
+
+    if (r->has_error)
+        return PASS_DONE;
+    e = estimate(r);
+    if (cancel_requested(&r->cancel))
+        return PASS_CANCELLED;
     pthread_mutex_lock(&r->lock);
     r->film_error = e;
+    r->has_error = true;
     if (e.is_known)
         error_trend_add(&r->error_trend, r->spp_done, e.high);
     pthread_mutex_unlock(&r->lock);
+    return PASS_DONE;
+}
+
+static bool is_out_of_time(const struct render *r)
+{
+    return r->cancel.deadline_ns != 0 && clock_ns() >= r->cancel.deadline_ns;
+}
+
+/* Finds the error of a film that the limit of time has cut within a pass. */
+static void estimate_cut(struct render *r)
+{
+    struct film_error e;
+
+    r->cancel.deadline_ns = 0; /* requests still count */
+    e = estimate(r);
+    pthread_mutex_lock(&r->lock);
+    r->cut_error = e;
+    pthread_mutex_unlock(&r->lock);
+}
+
+static enum pass_result run_film_pass(struct render *r)
+{
+    uint64_t *spp_done = &r->spp_done;
+    uint64_t target = is_stepping(r) ? *spp_done + 1
+                                     : pass_plan_next(*spp_done, r->limits.spp,
+                                                      is_adaptive(r));
+    enum pass_result result;
+
+    if (pass_plan_has_targets(*spp_done, is_adaptive(r)) &&
+        !adaptive_next_pass(&r->films.adaptive, &r->films.film, r->job.exposure,
+                            *spp_done, &target, &r->error))
+        return PASS_FAILED;
+    result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
+    if (result != PASS_DONE)
+        return result;
+    r->has_error = false;
+    return estimate_pass(r);
 }
 
 /* Renders the film until a limit, the last step, a cancel or an error. */
 static enum pass_result run_film(struct render *r)
 {
-    uint64_t *spp_done = &r->spp_done;
     enum pass_result result =
         begin(r, &r->job.world, &r->films.film, r->job.crop.x, r->job.crop.y);
 
+    if (result == PASS_DONE) /* a halt may have come between pass and error */
+        result = estimate_pass(r);
     while (result == PASS_DONE && limit_at_pass_end(r) == RENDER_LIMIT_NONE) {
-        uint64_t target =
-            is_stepping(r)
-                ? *spp_done + 1
-                : pass_plan_next(*spp_done, r->limits.spp, is_adaptive(r));
-
-        if (pass_plan_has_targets(*spp_done, is_adaptive(r)) &&
-            !adaptive_next_pass(&r->films.adaptive, &r->films.film,
-                                r->job.exposure, *spp_done, &target, &r->error))
-            return PASS_FAILED;
-        result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
-        if (result == PASS_DONE)
-            estimate_error(r);
+        result = run_film_pass(r);
         if (result == PASS_DONE && was_last_step(r) &&
             limit_at_pass_end(r) == RENDER_LIMIT_NONE)
             result = PASS_CANCELLED;
     }
+    if (result == PASS_CANCELLED && is_out_of_time(r))
+        estimate_cut(r);
     return result;
 }
 
@@ -291,6 +335,7 @@ static void start_run(struct render *r, uint64_t steps)
     r->steps = steps;
     r->state = RENDER_RUNNING;
     r->stopped_by = RENDER_LIMIT_NONE;
+    r->cut_error = (struct film_error){0};
     r->has_job = true;
     r->run_begin_ns = clock_ns();
     r->cancel.deadline_ns =
@@ -312,6 +357,7 @@ bool render_start(struct render *r, const struct render_job *job,
     r->draft_spp_done = 0;
     r->run_before_ns = 0;
     r->first_picture_ns = 0;
+    r->has_error = true; /* that of no sample is unknown */
     r->film_error = (struct film_error){0};
     r->error_trend = (struct error_trend){.count = 0};
     r->build_ns = 0;
@@ -393,7 +439,9 @@ struct render_progress render_progress(struct render *r)
         p.render_ns += clock_ns() - r->run_begin_ns;
     p.build_ns = r->build_ns;
     p.first_picture_ns = r->first_picture_ns;
-    p.film_error = r->film_error;
+    p.film_error = r->stopped_by == RENDER_LIMIT_TIME && r->cut_error.is_known
+                       ? r->cut_error
+                       : r->film_error;
     p.error_exponent = error_trend_exponent(&r->error_trend);
     p.draft_is_coarse = r->films.draft.width > 0 && r->draft_spp_done == 0;
     if (r->state == RENDER_FAILED)

@@ -77,8 +77,9 @@ struct render_progress {
     /* time until every point of the coarsest grid had a sample, in the draft if
      * there is one; 0: not yet */
     uint64_t first_picture_ns;
-    struct film_error film_error; /* at the end of the last pass */
-    double error_exponent;        /* of its course: error_trend.h */
+    /* at the end of the last pass, or where the limit of time cut one */
+    struct film_error film_error;
+    double error_exponent; /* of its course: error_trend.h */
     struct error error;
 };
 

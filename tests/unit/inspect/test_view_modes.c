@@ -163,7 +163,7 @@ static void errors_are_those_of_the_film(void **state)
         render(&s, 8);
         view_mode_preview(&show, render_film(s.render), NULL, &f);
         assert_true(film_error_map(render_film(s.render),
-                                   session_develop(&s).exposure, map));
+                                   session_develop(&s).exposure, NULL, map));
         for (int k = 0; k < WIDTH * HEIGHT; k++)
             frame_dot(&expected, k % WIDTH, k / WIDTH, error_map_color(map[k]));
         assert_memory_equal(f.rgb, expected.rgb, 3 * WIDTH * HEIGHT);

@@ -77,7 +77,7 @@ static void the_error_is_that_of_the_noise(void **state)
         struct film_error e;
 
         fill(&film, &(struct noise){1, 0.5}, spp[i]);
-        e = film_error(&film, 0);
+        e = film_error(&film, 0, NULL, NULL);
         assert_true(e.is_known && e.is_resolved);
         check_close(e.error, 1 / sqrt(spp[i] * 1.01), 0.03 * e.error);
         assert_true(e.low < e.error && e.error < e.high);
@@ -104,7 +104,7 @@ static void intervals_are_calibrated(void **state)
             double truth;
 
             fill(&film, &noises[i], spp[i]);
-            e = film_error(&film, 0);
+            e = film_error(&film, 0, NULL, NULL);
             truth = true_error(&film, noises[i].mean, 0);
             inside += e.low <= truth && truth <= e.high;
         }
@@ -125,13 +125,13 @@ static void the_error_is_relative_to_white(void **state)
     make(&film);
     state_of_random = 7;
     fill(&film, &(struct noise){0.25, 0.5}, 8);
-    error = film_error(&film, 0).error;
+    error = film_error(&film, 0, NULL, NULL).error;
     state_of_random = 7;
     fill(&film, &(struct noise){256, 0.5}, 8);
-    check_close(film_error(&film, -10).error, error, 1e-6 * error);
-    assert_true(film_error(&film, 0).error > error);
+    check_close(film_error(&film, -10, NULL, NULL).error, error, 1e-6 * error);
+    assert_true(film_error(&film, 0, NULL, NULL).error > error);
     fill(&film, &(struct noise){1e-6, 0.5}, 8);
-    check_at_most(film_error(&film, 0).error, 1e-5);
+    check_at_most(film_error(&film, 0, NULL, NULL).error, 1e-5);
     film_free(&film);
 }
 
@@ -144,14 +144,14 @@ static void one_sample_says_nothing(void **state)
 
     (void)state;
     make(&film);
-    assert_false(film_error(&film, 0).is_known);
+    assert_false(film_error(&film, 0, NULL, NULL).is_known);
     fill(&film, &(struct noise){1, 0.5}, 1);
-    e = film_error(&film, 0);
-    assert_false(e.is_known || film_error_map(&film, 0, map));
+    e = film_error(&film, 0, NULL, NULL);
+    assert_false(e.is_known || film_error_map(&film, 0, NULL, map));
     fill(&film, &(struct noise){1, 0.5}, 2);
-    assert_true(film_error(&film, 0).is_known);
+    assert_true(film_error(&film, 0, NULL, NULL).is_known);
     film_clear(&film);
-    assert_false(film_error(&film, 0).is_known);
+    assert_false(film_error(&film, 0, NULL, NULL).is_known);
     film_free(&film);
 }
 
@@ -165,7 +165,7 @@ static void fireflies_are_unresolved(void **state)
     make(&film);
     fill(&film, &(struct noise){1, 0.5}, 16);
     film_add_row(&film, 30, 31, 1, 1, &flash, NULL, (const int[]){1});
-    assert_false(film_error(&film, 0).is_resolved);
+    assert_false(film_error(&film, 0, NULL, NULL).is_resolved);
     film_free(&film);
 }
 
@@ -190,7 +190,7 @@ static void maps_show_where_the_noise_is(void **state)
             counts[x] = 16;
         film_add_row(&film, 0, y, 1, SIDE, samples, NULL, counts);
     }
-    assert_true(film_error_map(&film, 0, map));
+    assert_true(film_error_map(&film, 0, NULL, map));
     for (int i = 0; i < PIXELS; i++) {
         int x = i % SIDE;
 
@@ -223,14 +223,49 @@ static void odd_pictures_have_numbers(void **state)
             for (int x = 0; x < sides[i][0]; x++)
                 film_add_row(&film, x, y, 1, 1, samples, NULL,
                              (const int[]){4});
-        e = film_error(&film, 0);
+        e = film_error(&film, 0, NULL, NULL);
         assert_true(e.is_known && isfinite(e.error) && isfinite(e.high));
         assert_true(e.low >= 0 && e.low <= e.error && e.error <= e.high);
-        assert_true(film_error_map(&film, 0, map));
+        assert_true(film_error_map(&film, 0, NULL, map));
         for (int k = 0; k < sides[i][0] * sides[i][1]; k++)
             assert_true(isfinite(map[k]));
         film_free(&film);
     }
+}
+
+static void assert_same_error(struct film_error a, struct film_error b)
+{
+    assert_true(a.is_known == b.is_known && a.is_resolved == b.is_resolved);
+    assert_true(a.error == b.error && a.low == b.low && a.high == b.high);
+}
+
+/* Threads change nothing, and an error that was cancelled is unknown. */
+static void threads_give_the_same_bits(void **state)
+{
+    struct cancel cancel = {0};
+    static float alone[PIXELS], map[PIXELS];
+    struct film_error error;
+    struct film film;
+    struct error err;
+
+    (void)state;
+    make(&film);
+    fill(&film, &(struct noise){1, 0.5}, 4);
+    error = film_error(&film, 0, NULL, NULL);
+    assert_true(film_error_map(&film, 0, NULL, alone));
+    for (int threads = 1; threads <= 4; threads++) {
+        struct pool *pool = pool_create(threads, &err);
+
+        assert_non_null(pool);
+        assert_same_error(film_error(&film, 0, pool, &cancel), error);
+        assert_true(film_error_map(&film, 0, pool, map));
+        assert_memory_equal(map, alone, sizeof map);
+        cancel_request(&cancel);
+        assert_false(film_error(&film, 0, pool, &cancel).is_known);
+        cancel_reset(&cancel);
+        pool_destroy(pool);
+    }
+    film_free(&film);
 }
 
 int main(void)
@@ -243,6 +278,7 @@ int main(void)
         cmocka_unit_test(fireflies_are_unresolved),
         cmocka_unit_test(maps_show_where_the_noise_is),
         cmocka_unit_test(odd_pictures_have_numbers),
+        cmocka_unit_test(threads_give_the_same_bits),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -295,6 +295,7 @@ static void pictures_without_error_end(void **state)
     start(r, &m, 40, true, 0);
     assert_true(render_wait(r, 60000));
     assert_int_equal(render_film(r)->counts[0], 40);
+    assert_true(render_progress(r).is_adaptive);
     close_render(r);
     mesh_free(&m);
 }

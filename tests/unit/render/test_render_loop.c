@@ -231,6 +231,43 @@ static void time_ends_a_render(void **state)
     mesh_free(&m);
 }
 
+/* The stated error is that of the film at the end of the time, also within a
+ * pass. Halts between a pass and its error change neither bits nor errors. */
+static void errors_belong_to_the_film(void **state)
+{
+    struct render *r = open_render(2), *halted = open_render(2);
+    struct render_progress p, q;
+    struct render_job job;
+    struct film_error e;
+    struct mesh m;
+    struct error err;
+
+    (void)state;
+    make_room(&m);
+    job = job_of(&m, 0);
+    job.limits = (struct render_limits){.time_ns = 300000000};
+    assert_true(render_start(r, &job, &err));
+    p = wait_for_done(r);
+    e = film_error(render_film(r), 0, NULL, NULL);
+    assert_true(p.film_error.is_known);
+    check_close(p.film_error.error, e.error, 0);
+    check_close(p.film_error.high, e.high, 0);
+    job.limits = (struct render_limits){.spp = 40};
+    assert_true(render_start(r, &job, &err));
+    assert_true(render_start(halted, &job, &err));
+    while (!render_wait(halted, 1)) {
+        render_halt(halted);
+        render_resume(halted, job.limits);
+    }
+    p = wait_for_done(r);
+    q = wait_for_done(halted);
+    check_close(q.film_error.high, p.film_error.high, 0);
+    assert_false(q.is_adaptive);
+    close_render(r);
+    close_render(halted);
+    mesh_free(&m);
+}
+
 /* A time that is over before the first sample gives an empty film. */
 static void no_time_gives_no_sample(void **state)
 {
@@ -444,6 +481,7 @@ int main(void)
         cmocka_unit_test(instruction_sets_give_the_same_bits),
         cmocka_unit_test(halts_lose_and_repeat_no_samples),
         cmocka_unit_test(time_ends_a_render),
+        cmocka_unit_test(errors_belong_to_the_film),
         cmocka_unit_test(no_time_gives_no_sample),
         cmocka_unit_test(restarts_show_nothing_old),
         cmocka_unit_test(a_crop_is_part_of_the_whole),
