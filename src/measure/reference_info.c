@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +15,7 @@
 #include "base/json.h"
 #include "base/memory.h"
 
-/* Finds the number of a member of the object. */
+/* Finds the finite number of a member of the object. */
 static bool find_number(const char *json, const char *name, double *number)
 {
     char key[64];
@@ -26,7 +27,7 @@ static bool find_number(const char *json, const char *name, double *number)
         return false;
     at += strlen(key);
     at += strspn(at, " \t\r\n");
-    return decimal_parse(&at, json + strlen(json), number);
+    return decimal_parse(&at, json + strlen(json), number) && isfinite(*number);
 }
 
 static void parse(struct reference_info *info, const char *json)
@@ -39,7 +40,7 @@ static void parse(struct reference_info *info, const char *json)
         info->relmse_low = info->relmse_high = 0;
     if (!find_number(json, "first_seed", &info->first_seed) ||
         !find_number(json, "seeds", &info->seed_count))
-        info->seed_count = 0;
+        info->first_seed = info->seed_count = 0;
 }
 
 char *reference_info_path(const char *picture_path)

@@ -5,6 +5,16 @@
 
 #define ARGUMENTS_MAX 64
 
+static void check(const struct options *o)
+{
+    require(o->show_help || o->show_version || o->scene_path ||
+                o->list_devices || o->probe ||
+                (o->picture_path && o->reference_path),
+            "a scene or two pictures");
+    require(o->error_limit >= 0 && o->error_limit <= 1, "an error");
+    require(o->time_ns <= UINT64_C(1000000000000000000), "a time");
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static char name[] = "glim";
@@ -20,10 +30,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     options_init(&options);
     if (!options_parse(&options, argc, argv, &err))
         fuzz_check_message(err.text);
-    else if (!options.show_help && !options.show_version)
-        require(options.scene_path || options.list_devices || options.probe ||
-                    (options.picture_path && options.reference_path),
-                "a scene or two pictures");
+    else
+        check(&options);
     free(text);
     return 0;
 }

@@ -55,12 +55,14 @@ static void other_files_are_no_error(void **state)
                                         "{\"relmse\": 1}",
                                         "{\"relmse\": \"x\", \"mse\": 1}",
                                         "{\"relmse\": nan, \"mse\": 1}",
+                                        "{\"relmse\": 1, \"mse\": inf}",
+                                        "{\"relmse\": 1e999, \"mse\": 1}",
                                         "{\"relmse\": -1, \"mse\": 1}",
                                         "{\"relmse\":",
                                         "{\"relmse\": 1, \"mse\": -1}"};
 
     (void)state;
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 10; i++) {
         put("d.json", texts[i]);
         assert_false(reference_info_read("d.pfm").is_known);
     }
