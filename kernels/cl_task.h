@@ -14,7 +14,7 @@
 #include "kernels/dialect.h"
 
 struct task {
-    uint64_t target;  /* samples that each pixel has after the pass */
+    uint64_t target;  /* samples after the pass, of each pixel or the mean */
     uint32_t samples; /* paths for a point */
     uint32_t first;   /* first point */
     uint32_t count;   /* number of points */
@@ -23,7 +23,7 @@ struct task {
     uint32_t width;   /* width of the film */
     uint32_t x0;      /* the film's corner in the picture */
     uint32_t y0;
-    uint32_t has_targets; /* 1: pixels have targets of their own */
+    uint32_t has_shares; /* 1: pixels have shares: sample_share.h */
     uint32_t pad;
 };
 

@@ -4,13 +4,13 @@
  */
 #include "kernels/camera_sample.h"
 #include "kernels/cl_task.h"
-#include "kernels/targets.h"
+#include "kernels/sample_share.h"
 
 __kernel void generate_rays(struct task task,
                             volatile __global const uint *cancel,
                             __global const struct settings *settings,
                             __global const ulong *counts,
-                            __global const uint *targets,
+                            __global const ushort *shares,
                             __global struct camera_sample *starts)
 {
     uint i = (uint)get_global_id(0);
@@ -20,9 +20,8 @@ __kernel void generate_rays(struct task task,
     if (point >= task.count || *cancel != 0)
         return;
     index = counts[task_pixel(task, point)] + i % task.samples;
-    if (task.has_targets != 0)
-        target = targets[target_index(task_x(task, point), task_y(task, point),
-                                      task.width)];
+    if (task.has_shares != 0)
+        target = share_samples(shares[task_pixel(task, point)], target);
     if (index < target) {
         struct settings s = *settings;
 

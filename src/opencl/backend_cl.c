@@ -55,8 +55,7 @@ struct backend_cl {
     struct bvh bvh;
     struct cl_world world;
     cl_mem cancel;
-    cl_mem targets; /* those of the pass with this version; NULL: none yet */
-    uint32_t target_version;
+    cl_mem shares; /* of adaptive sampling; NULL: none yet in this picture */
     const struct cancel *cancel_source;
 
     struct cl_film film;
@@ -163,7 +162,7 @@ static bool cl_begin(struct backend *base, const struct host_world *host,
     size_t pixel_count = (size_t)film->width * (size_t)film->height;
 
     choose_kernels(b, world->settings.features);
-    cl_machine_drop(&b->machine, &b->targets);
+    cl_machine_drop(&b->machine, &b->shares);
     b->x0 = (uint32_t)x0;
     b->y0 = (uint32_t)y0;
     return cl_world_update(&b->world, &b->machine, host, world, &b->bvh,
@@ -231,7 +230,7 @@ static bool enqueue_task(struct backend_cl *b, struct slot *s,
            cl_machine_set(&b->machine, k->generate, 1,
                           (cl_mem[]){b->cancel,
                                      b->world.buffers[CL_ARRAY_SETTINGS],
-                                     b->film.counts, b->targets, s->starts},
+                                     b->film.counts, b->shares, s->starts},
                           5, err) &&
            cl_machine_set(&b->machine, k->trace, 1,
                           (cl_mem[]){b->cancel, s->starts, s->samples,
@@ -288,7 +287,7 @@ static bool start_task(struct backend_cl *b, struct progress *p, struct slot *s,
                             .width = (uint32_t)b->film.film->width,
                             .x0 = b->x0,
                             .y0 = b->y0,
-                            .has_targets = p->pass->targets != NULL};
+                            .has_shares = p->pass->shares != NULL};
     s->begin_ns = clock_ns();
     s->reading.count = 0;
     p->next += s->task.count;
@@ -373,19 +372,18 @@ static bool bind_cancel(struct backend_cl *b, const struct cancel *cancel,
     return b->cancel != NULL;
 }
 
-/* Uploads the targets of a pass, unless the device has them. */
-static bool bind_targets(struct backend_cl *b, const struct pass *pass,
-                         struct error *err)
+/* Uploads the shares of pixels, unless the device has them. */
+static bool bind_shares(struct backend_cl *b, const struct pass *pass,
+                        struct error *err)
 {
-    if (pass->targets == NULL ||
-        (b->targets != NULL && b->target_version == pass->target_version))
+    const struct film *film = b->film.film;
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+
+    if (pass->shares == NULL || b->shares != NULL)
         return true;
-    cl_machine_drop(&b->machine, &b->targets);
-    b->targets = cl_machine_buffer(&b->machine, pass->targets,
-                                   pass->target_count * sizeof *pass->targets,
-                                   false, err);
-    b->target_version = pass->target_version;
-    return b->targets != NULL;
+    b->shares = cl_machine_buffer(&b->machine, pass->shares,
+                                  pixels * sizeof *pass->shares, false, err);
+    return b->shares != NULL;
 }
 
 /* Waits until a failed pass can no longer write to the host's memory. */
@@ -429,7 +427,7 @@ static enum pass_result cl_pass(struct backend *base, const struct pass *pass,
     };
 
     b->done_ns = 0;
-    if (!bind_cancel(b, cancel, err) || !bind_targets(b, pass, err) ||
+    if (!bind_cancel(b, cancel, err) || !bind_shares(b, pass, err) ||
         !run_tasks(b, &p, cancel, err)) {
         drain(b);
         return PASS_FAILED;
@@ -448,7 +446,7 @@ static void cl_destroy(struct backend *base)
     cl_film_free(&b->film, &b->machine);
     cl_unload(base);
     cl_machine_drop(&b->machine, &b->cancel);
-    cl_machine_drop(&b->machine, &b->targets);
+    cl_machine_drop(&b->machine, &b->shares);
     cl_kernels_free(&b->next, &b->machine);
     cl_kernels_free(&b->special, &b->machine);
     cl_kernels_free(&b->full, &b->machine);

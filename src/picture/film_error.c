@@ -16,6 +16,9 @@
 
 #define WIDE (SIDE + 2 * HALO)
 
+/* Instead of a colour of a chess board: the pixels of both. */
+#define ALL (-1)
+
 /* Limit of means and differences, below which sums of squares are finite. */
 #define LARGEST 1e18f
 
@@ -35,6 +38,7 @@
  * channel. Pixels beyond the film are 0 and have is_inside 0. */
 struct tile {
     int x0, y0, width, height; /* without the pixels around */
+    int colour; /* of a chess board, whose other pixels are left out; or ALL */
     bool is_known;
     float mean[3][WIDE][WIDE];
     float e[3][WIDE][WIDE];
@@ -63,12 +67,16 @@ bool film_pixel_error(const struct film *f, size_t at, float mean[3],
     return true;
 }
 
-/* Reads pixel `at` of the film. Returns false if a half of it has no sample. */
+/* Reads pixel (x, y) of the film, unless it has another colour. Returns false
+ * if a half of it has no sample. */
 static bool read_pixel(struct tile *t, int row, int column,
-                       const struct film *f, size_t at)
+                       const struct film *f, int x, int y)
 {
+    size_t at = (size_t)y * (size_t)f->width + (size_t)x;
     float mean[3], e[3];
 
+    if (t->colour != ALL && ((x + y) & 1) != t->colour)
+        return true;
     if (!film_pixel_error(f, at, mean, e))
         return false;
     for (int c = 0; c < 3; c++) {
@@ -90,18 +98,17 @@ static void read_row(struct tile *t, struct film *f, int row)
     if (last > f->width - t->x0 + HALO)
         last = f->width - t->x0 + HALO;
     film_lock_row(f, y);
-    for (int i = first; i < last; i++) {
-        size_t x = (size_t)(t->x0 + i - HALO);
-
-        if (!read_pixel(t, row, i, f, (size_t)y * (size_t)f->width + x))
+    for (int i = first; i < last; i++)
+        if (!read_pixel(t, row, i, f, t->x0 + i - HALO, y))
             t->is_known = false;
-    }
     film_unlock_row(f, y);
 }
 
-static void read_tile(struct tile *t, struct film *f, int x0, int y0)
+static void read_tile(struct tile *t, struct film *f, int colour, int x0,
+                      int y0)
 {
     memset(t, 0, sizeof *t);
+    t->colour = colour;
     t->x0 = x0;
     t->y0 = y0;
     t->width = f->width - x0 < SIDE ? f->width - x0 : SIDE;
@@ -292,6 +299,7 @@ struct job {
     const struct cancel *cancel; /* NULL: none */
     struct total *totals;        /* one for each row of tiles */
     float *map;                  /* mean squares of pixels */
+    int colour;                  /* of the pixels, or ALL */
     atomic_bool is_unknown;      /* a half of a pixel has no sample */
 };
 
@@ -305,7 +313,7 @@ static bool take_tile(struct job *j, int x0, int y0, struct tile *t,
     if (atomic_load(&j->is_unknown) ||
         (j->cancel != NULL && cancel_requested(j->cancel)))
         return false;
-    read_tile(t, j->film, x0, y0);
+    read_tile(t, j->film, j->colour, x0, y0);
     for (int c = 0; c < 3; c++)
         weigh(t, c, (float)(black * black), weighted->e[c]);
     if (!t->is_known)
@@ -342,7 +350,10 @@ static void add_total(struct total *to, const struct total *t)
 struct film_error film_error(struct film *f, float exposure, struct pool *pool,
                              const struct cancel *cancel)
 {
-    struct job j = {.film = f, .exposure = exposure, .cancel = cancel};
+    struct job j = {.film = f,
+                    .exposure = exposure,
+                    .colour = ALL,
+                    .cancel = cancel};
     int rows = tiles_in(f->height);
     struct film_error error = {0};
 
@@ -397,14 +408,26 @@ static void map_row_of_tiles(void *context, uint32_t row, int worker)
     }
 }
 
+/* Writes the squared errors of the pixels of a colour, or of ALL. Returns false
+ * if one has a half without a sample. */
+static bool find_squares(struct film *f, float exposure, int colour,
+                         struct pool *pool, float *squares)
+{
+    struct job j = {.film = f,
+                    .exposure = exposure,
+                    .colour = colour,
+                    .map = squares};
+
+    pool_each(pool, (uint32_t)tiles_in(f->height), map_row_of_tiles, &j);
+    return !atomic_load(&j.is_unknown);
+}
+
 bool film_error_map(struct film *f, float exposure, struct pool *pool,
                     float *map)
 {
-    struct job j = {.film = f, .exposure = exposure, .map = map};
     size_t width = (size_t)f->width;
 
-    pool_each(pool, (uint32_t)tiles_in(f->height), map_row_of_tiles, &j);
-    if (atomic_load(&j.is_unknown))
+    if (!find_squares(f, exposure, ALL, pool, map))
         return false;
     for (int y = 0; y < f->height; y++)
         average(map + (size_t)y * width, f->width, 1);
@@ -413,4 +436,10 @@ bool film_error_map(struct film *f, float exposure, struct pool *pool,
     for (size_t i = 0; i < width * (size_t)f->height; i++)
         map[i] = sqrtf(map[i]);
     return true;
+}
+
+bool film_error_squares(struct film *f, float exposure, int colour,
+                        struct pool *pool, float *squares)
+{
+    return find_squares(f, exposure, colour, pool, squares);
 }

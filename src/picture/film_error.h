@@ -55,4 +55,11 @@ struct film_error film_error(struct film *film, float exposure,
 bool film_error_map(struct film *film, float exposure, struct pool *pool,
                     float *map);
 
+/* Writes the squared relative error of each pixel of one colour of a chess
+ * board: 0 for those with even x + y, or 1. It depends on pixels of that colour
+ * only. Pixels of the other one get 0. Returns false if the error is unknown.
+ */
+bool film_error_squares(struct film *film, float exposure, int colour,
+                        struct pool *pool, float *squares);
+
 #endif

@@ -25,10 +25,9 @@ enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
  * many. */
 struct pass {
     int stride;
-    uint64_t target;         /* of each pixel */
-    const uint32_t *targets; /* instead, for adaptive sampling: targets.h */
-    uint32_t target_count;   /* length of `targets` */
-    uint32_t target_version; /* of `targets`: equal ones have equal contents */
+    uint64_t target; /* of each pixel, or the mean of all */
+    /* shares of all pixels in the samples: kernels/sample_share.h; or NULL */
+    const uint16_t *shares;
     /* greatest number that a pixel needs; up to PASS_SAMPLES_MAX */
     uint32_t samples;
     uint32_t order; /* seed for the random order of blocks */

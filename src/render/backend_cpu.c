@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "render/cpu_dispatch.h"
 #include "kernels/sobol.h"
-#include "kernels/targets.h"
+#include "kernels/sample_share.h"
 
 /* Width and height of a block, in points of the pass's grid. */
 #define BLOCK_SIDE 8
@@ -70,10 +70,11 @@ struct row {
 
 static uint64_t target_of(const struct job *j, int x, int y)
 {
-    uint32_t width = (uint32_t)j->backend->film->width;
+    size_t width = (size_t)j->backend->film->width;
 
-    return j->pass.targets != NULL
-               ? j->pass.targets[target_index((uint32_t)x, (uint32_t)y, width)]
+    return j->pass.shares != NULL
+               ? share_samples(j->pass.shares[(size_t)y * width + (size_t)x],
+                               j->pass.target)
                : j->pass.target;
 }
 

@@ -2,13 +2,14 @@
 #include "render/pass_plan.h"
 
 #include "kernels/path_types.h"
+#include "kernels/sample_share.h"
 
 static uint64_t smaller(uint64_t a, uint64_t b)
 {
     return a < b ? a : b;
 }
 
-bool pass_plan_has_targets(uint64_t done, bool is_adaptive)
+bool pass_plan_has_shares(uint64_t done, bool is_adaptive)
 {
     return is_adaptive && done >= ADAPTIVE_FIRST;
 }
@@ -18,34 +19,21 @@ uint64_t pass_plan_next(uint64_t done, uint64_t limit, bool is_adaptive)
     uint64_t more = done == 0 ? 1 : smaller(done, SAMPLE_BLOCK);
     uint64_t target = done + more;
 
-    if (pass_plan_has_targets(done, is_adaptive))
-        target = smaller(done + ADAPTIVE_PASS, adaptive_round_end(done));
+    /* the decision has the same samples wherever a step or a limit stopped */
+    if (is_adaptive && done < ADAPTIVE_FIRST)
+        target = smaller(target, ADAPTIVE_FIRST);
     return limit != 0 ? smaller(target, limit) : target;
-}
-
-/* Returns the end of the pass with sample `spp`, where all passes after `done`
- * samples have the same size. */
-static uint64_t equal_passes_end(uint64_t done, uint64_t spp, uint64_t size)
-{
-    return done + (spp - done + size - 1) / size * size;
 }
 
 uint64_t pass_plan_end(uint64_t done, uint64_t spp, bool is_adaptive)
 {
     uint64_t equal_from = is_adaptive ? ADAPTIVE_FIRST : SAMPLE_BLOCK;
-    uint64_t round_end;
 
     while (done < spp && done < equal_from)
         done = pass_plan_next(done, 0, is_adaptive);
     if (done >= spp)
         return done;
-    if (!is_adaptive)
-        return equal_passes_end(done, spp, SAMPLE_BLOCK);
-    /* rounds end at multiples of their passes */
-    round_end = adaptive_round_end(done);
-    return spp > round_end
-               ? equal_passes_end(round_end, spp, ADAPTIVE_PASS)
-               : smaller(equal_passes_end(done, spp, ADAPTIVE_PASS), round_end);
+    return done + (spp - done + SAMPLE_BLOCK - 1) / SAMPLE_BLOCK * SAMPLE_BLOCK;
 }
 
 struct pass pass_plan_pass(uint64_t done, uint64_t target, int stride,
@@ -56,11 +44,9 @@ struct pass pass_plan_pass(uint64_t done, uint64_t target, int stride,
                         .samples = (uint32_t)(target - done),
                         .order = (uint32_t)target};
 
-    if (pass_plan_has_targets(done, adaptive->targets != NULL)) {
-        pass.targets = adaptive->targets;
-        pass.target_count = 2 * (uint32_t)adaptive->cells;
-        pass.target_version = adaptive->version;
-        pass.samples = ADAPTIVE_MOST;
+    if (pass_plan_has_shares(done, adaptive->shares != NULL)) {
+        pass.shares = adaptive->shares;
+        pass.samples *= SHARE_MOST / SHARE_ONE;
     }
     return pass;
 }

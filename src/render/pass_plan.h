@@ -14,9 +14,9 @@
 #include "picture/adaptive.h"
 #include "render/backend.h"
 
-/* Returns whether the passes after `done` samples have targets of adaptive
+/* Returns whether the passes after `done` samples have the shares of adaptive
  * sampling, in a render that is adaptive or not. */
-bool pass_plan_has_targets(uint64_t done, bool is_adaptive);
+bool pass_plan_has_shares(uint64_t done, bool is_adaptive);
 
 /* Returns the number of samples at the end of the pass after `done` samples,
  * which is at most `limit` (0: no limit). */
@@ -27,7 +27,7 @@ uint64_t pass_plan_next(uint64_t done, uint64_t limit, bool is_adaptive);
 uint64_t pass_plan_end(uint64_t done, uint64_t spp, bool is_adaptive);
 
 /* Returns the pass from `done` to `target` samples over a grid. `adaptive` has
- * its targets if pass_plan_has_targets(); they are lent to the pass. */
+ * decided the shares if pass_plan_has_shares(); they are lent to the pass. */
 struct pass pass_plan_pass(uint64_t done, uint64_t target, int stride,
                            const struct adaptive *adaptive);
 

@@ -35,7 +35,7 @@ static bool reset_adaptive(struct adaptive *a, const struct render_job *job,
         adaptive_free(a);
         return true;
     }
-    if (a->targets != NULL && a->width == width && a->height == height)
+    if (a->shares != NULL && a->width == width && a->height == height)
         return true;
     adaptive_free(a);
     return adaptive_init(a, width, height, err);
@@ -94,7 +94,7 @@ uint64_t render_films_draft_spp(const struct render_job *job)
 
 void render_films_count(const struct render_films *f, struct render_progress *p)
 {
-    p->is_adaptive = f->adaptive.targets != NULL;
+    p->is_adaptive = f->adaptive.shares != NULL;
     p->pixels = (uint64_t)f->film.width * (uint64_t)f->film.height;
     p->samples = atomic_load(&f->film.samples);
     p->samples_limit = p->spp_limit * p->pixels;

@@ -56,7 +56,7 @@ struct render {
 
 static bool is_adaptive(const struct render *r)
 {
-    return r->films.adaptive.targets != NULL;
+    return r->films.adaptive.shares != NULL;
 }
 
 static void note_first_picture(struct render *r)
@@ -213,9 +213,9 @@ static enum pass_result run_film_pass(struct render *r)
                                                       is_adaptive(r));
     enum pass_result result;
 
-    if (pass_plan_has_targets(*spp_done, is_adaptive(r)) &&
-        !adaptive_next_pass(&r->films.adaptive, &r->films.film, r->job.exposure,
-                            *spp_done, &target, &r->error))
+    if (pass_plan_has_shares(*spp_done, is_adaptive(r)) &&
+        !adaptive_decide(&r->films.adaptive, &r->films.film, r->job.exposure,
+                         r->backend->pool, &r->error))
         return PASS_FAILED;
     result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
     if (result != PASS_DONE)

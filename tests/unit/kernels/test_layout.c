@@ -71,7 +71,7 @@
       M(tally, saturated) M(tally, cut_paths)                                 \
     S(task) M(task, target) M(task, samples) M(task, first) M(task, count)    \
       M(task, columns) M(task, stride) M(task, width) M(task, x0)             \
-      M(task, y0) M(task, has_targets) M(task, pad)                           \
+      M(task, y0) M(task, has_shares) M(task, pad)                            \
     S(camera_sample) M(camera_sample, ray) M(camera_sample, sampler)
 /* clang-format on */
 

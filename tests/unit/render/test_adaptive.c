@@ -13,7 +13,7 @@
 #include "render/render_loop.h"
 #include "tests/unit/check.h"
 #include "tests/unit/mesh.h"
-#include "kernels/targets.h"
+#include "kernels/sample_share.h"
 
 #define WIDTH  16
 #define HEIGHT 12
@@ -151,21 +151,17 @@ static void the_mean_is_that_of_uniform_sampling(void **state)
 
 static uint64_t state_of_random = 1;
 
-/* Takes the samples that the targets want; in pixels from column x0 on the
- * light is 50 with a chance of 2 %, in the others 1. */
+/* Takes samples up to `mean` in the mean; in pixels from column x0 on the light
+ * is 50 with a chance of 2 %, in the others 1. */
 static void take_samples(struct film *film, const struct adaptive *a,
-                         uint64_t target, int x0)
+                         uint64_t mean, int x0)
 {
     for (int y = 0; y < film->height; y++)
         for (int x = 0; x < film->width; x++) {
-            uint64_t *count = &film->counts[y * film->width + x];
-            uint64_t end =
-                target <= ADAPTIVE_FIRST
-                    ? target
-                    : a->targets[target_index((uint32_t)x, (uint32_t)y,
-                                              (uint32_t)film->width)];
+            int at = y * film->width + x;
+            uint64_t end = share_samples(a->shares[at], mean);
 
-            while (*count < end) {
+            while (film->counts[at] < end) {
                 float light = x < x0                                  ? 1.0f
                               : check_random(&state_of_random) < 0.02 ? 50.0f
                                                                       : 0.0f;
@@ -174,6 +170,19 @@ static void take_samples(struct film *film, const struct adaptive *a,
                 film_add_row(film, x, y, 1, 1, &sample, NULL, (const int[]){1});
             }
         }
+}
+
+/* Renders a film of take_samples(). */
+static void take_film(struct film *film, struct adaptive *a, uint64_t mean,
+                      int x0)
+{
+    struct error err;
+
+    film_clear(film);
+    adaptive_reset(a);
+    take_samples(film, a, ADAPTIVE_FIRST, x0);
+    assert_true(adaptive_decide(a, film, 0, NULL, &err));
+    take_samples(film, a, mean, x0);
 }
 
 /* Pixels with rare light keep their mean of 1: if numbers of samples depended
@@ -185,68 +194,105 @@ static void rare_light_is_not_lost(void **state)
     struct film film;
     struct error err;
     float rgb[3 * 144];
-    double sum = 0, pilots = 0;
+    double sum = 0;
 
     (void)state;
     assert_true(film_init(&film, 12, 12, &err));
     assert_true(adaptive_init(&a, 12, 12, &err));
     for (int k = 0; k < 1000; k++) {
-        uint64_t done = ADAPTIVE_FIRST;
-
-        film_clear(&film);
-        adaptive_reset(&a);
-        take_samples(&film, &a, done, 0);
-        while (done < 64) {
-            uint64_t target = done + 8;
-
-            assert_true(adaptive_next_pass(&a, &film, 0, done, &target, &err));
-            take_samples(&film, &a, target, 0);
-            done = target;
-        }
+        take_film(&film, &a, 64, 0);
         film_linear(&film, rgb);
-        for (int i = 0; i < 144; i++) {
+        for (int i = 0; i < 144; i++)
             sum += (double)rgb[3 * i];
-            if (i % 2 == 0 && i / 12 % 2 == 0)
-                pilots += (double)rgb[3 * i];
-        }
     }
     check_close(sum / (1000 * 144), 1, 0.014);
-    check_close(pilots / (1000 * 36), 1, 0.028);
     adaptive_free(&a);
     film_free(&film);
 }
 
+/* The number of samples of a pixel does not depend on its own ones: a film that
+ * differs in one pixel, by any light, has the same share there. */
+static void a_share_does_not_depend_on_its_pixel(void **state)
+{
+    struct adaptive a[2] = {{0}, {0}};
+    struct film film;
+    struct error err;
+
+    (void)state;
+    assert_true(film_init(&film, 20, 14, &err));
+    for (int i = 0; i < 2; i++)
+        assert_true(adaptive_init(&a[i], 20, 14, &err));
+    for (int at = 0; at < 20 * 14; at++) {
+        bool changes = false;
+
+        for (int i = 0; i < 2; i++) {
+            struct path_sample flash = {{500, 200, 30}, 1, 0};
+
+            state_of_random = 7;
+            film_clear(&film);
+            adaptive_reset(&a[i]);
+            take_samples(&film, &a[i], ADAPTIVE_FIRST - 1, 3);
+            for (int x = 0; x < 20 * 14; x++)
+                film_add_row(&film, x % 20, x / 20, 1, 1,
+                             i == 1 && x == at
+                                 ? &flash
+                                 : &(struct path_sample){{1, 1, 1}, 1, 0},
+                             NULL, (const int[]){1});
+            assert_true(adaptive_decide(&a[i], &film, 0, NULL, &err));
+        }
+        assert_int_equal(a[0].shares[at], a[1].shares[at]);
+        for (int x = 0; x < 20 * 14; x++)
+            changes |= a[0].shares[x] != a[1].shares[x];
+        assert_true(changes);
+    }
+    for (int i = 0; i < 2; i++)
+        adaptive_free(&a[i]);
+    film_free(&film);
+}
+
 /* Where half of the picture has no noise, the other half gets nearly twice the
- * samples, and the calm one none after the first 16. All pixels together take
- * what was planned, but for the rounding of quotas. */
+ * samples, and the calm one an eighth after the first 16. All pixels together
+ * take what was planned, but for rounding. */
 static void samples_go_where_the_error_is(void **state)
 {
     struct adaptive a = {0};
     struct film film;
     struct error err;
     uint64_t noisy = 0, calm = 0;
-    uint64_t done = ADAPTIVE_FIRST;
 
     (void)state;
     assert_true(film_init(&film, 64, 64, &err));
     assert_true(adaptive_init(&a, 64, 64, &err));
-    take_samples(&film, &a, done, 32);
-    while (done < 256) {
-        uint64_t target = done + 8;
-
-        assert_true(adaptive_next_pass(&a, &film, 0, done, &target, &err));
-        take_samples(&film, &a, target, 32);
-        done = target;
-    }
+    take_film(&film, &a, 256, 32);
     for (int y = 0; y < 64; y++)
         for (int x = 0; x < 64; x++) {
             noisy += x >= 38 ? film.counts[y * 64 + x] : 0;
             calm += x < 26 ? film.counts[y * 64 + x] : 0;
         }
     assert_true((double)noisy / (26 * 64) > 1.7 * 256);
-    assert_true((double)calm / (26 * 64) == 16);
-    assert_true(atomic_load(&film.samples) <= 256 * 64 * 64);
-    assert_true(atomic_load(&film.samples) >= 250 * 64 * 64);
+    assert_true((double)calm / (26 * 64) == 16 + 240 / 8);
+    check_close((double)atomic_load(&film.samples), 256 * 64 * 64,
+                0.5 * 64 * 64);
+    adaptive_free(&a);
+    film_free(&film);
+}
+
+/* A single lamp before the dark: all but a few pixels have no error, and share
+ * what those cannot take. */
+static void a_few_noisy_pixels_take_four_times_the_samples(void **state)
+{
+    struct adaptive a = {0};
+    struct film film;
+    struct error err;
+
+    (void)state;
+    assert_true(film_init(&film, 64, 64, &err));
+    assert_true(adaptive_init(&a, 64, 64, &err));
+    take_film(&film, &a, 256, 63);
+    assert_int_equal(film.counts[64 * 32 + 63], 16 + 4 * 240);
+    assert_true(film.counts[64 * 32] > 100);
+    check_close((double)atomic_load(&film.samples), 256 * 64 * 64,
+                0.5 * 64 * 64);
     adaptive_free(&a);
     film_free(&film);
 }
@@ -259,8 +305,7 @@ static void assert_same_film(struct film *a, struct film *b)
                         3 * PIXELS * sizeof *a->odd_sums);
 }
 
-/* Threads and halts do not matter, nor does a limit that is raised later at the
- * end of a pass. */
+/* Threads and halts do not matter, nor does a limit that is raised later. */
 static void the_bits_are_the_same(void **state)
 {
     struct mesh m;
@@ -270,10 +315,12 @@ static void the_bits_are_the_same(void **state)
     make_scene(&m);
     start(one, &m, 144, true, 3);
     assert_true(render_wait(one, 60000));
-    start(many, &m, 40, true, 3);
+    start(many, &m, 13, true, 3);
+    assert_true(render_wait(many, 60000));
+    render_resume(many, (struct render_limits){.spp = 43});
     for (int i = 0; !render_wait(many, i % 5); i++) {
         render_halt(many);
-        render_resume(many, (struct render_limits){.spp = 40});
+        render_resume(many, (struct render_limits){.spp = 43});
     }
     render_resume(many, (struct render_limits){.spp = 144});
     assert_true(render_wait(many, 60000));
@@ -305,7 +352,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mean_is_that_of_uniform_sampling),
         cmocka_unit_test(rare_light_is_not_lost),
+        cmocka_unit_test(a_share_does_not_depend_on_its_pixel),
         cmocka_unit_test(samples_go_where_the_error_is),
+        cmocka_unit_test(a_few_noisy_pixels_take_four_times_the_samples),
         cmocka_unit_test(the_bits_are_the_same),
         cmocka_unit_test(pictures_without_error_end),
     };

@@ -3,6 +3,8 @@
 
 #include "render/pass_plan.h"
 
+#include "kernels/sample_share.h"
+
 /* Compares the ends of the passes after `done` samples. */
 static void check_passes(uint64_t done, bool is_adaptive, const uint64_t *ends,
                          int count)
@@ -22,14 +24,14 @@ static void passes_double_up_to_a_block(void **state)
     check_passes(3, false, (const uint64_t[]){6, 12, 20, 28, 36}, 5);
 }
 
-/* Rounds begin at 16, 32, 64, ..., wherever a step or a limit stopped. */
-static void adaptive_passes_end_with_their_round(void **state)
+/* Shares are decided after as many samples wherever a step or a limit stopped.
+ */
+static void adaptive_passes_stop_at_the_decision(void **state)
 {
     (void)state;
-    check_passes(3, true, (const uint64_t[]){6, 12, 20, 28, 32, 40}, 6);
-    check_passes(17, true, (const uint64_t[]){25, 32, 40}, 3);
-    check_passes(63, true, (const uint64_t[]){64, 72}, 2);
-    check_passes(65, true, (const uint64_t[]){73, 81}, 2);
+    check_passes(3, true, (const uint64_t[]){6, 12, 16, 24, 32}, 5);
+    check_passes(15, true, (const uint64_t[]){16, 24}, 2);
+    check_passes(17, true, (const uint64_t[]){25, 33}, 2);
 }
 
 static void a_limit_ends_the_last_pass(void **state)
@@ -63,11 +65,11 @@ static void the_pass_of_a_sample_is_found(void **state)
                      UINT64_C(1000000000000008));
 }
 
-static void targets_begin_after_the_first_samples(void **state)
+static void shares_count_after_the_first_samples(void **state)
 {
-    uint32_t targets[8] = {0};
+    uint16_t shares[16] = {0};
     struct adaptive none = {0};
-    struct adaptive adaptive = {.targets = targets, .cells = 4, .version = 7};
+    struct adaptive adaptive = {.shares = shares};
     struct pass p;
 
     (void)state;
@@ -75,26 +77,50 @@ static void targets_begin_after_the_first_samples(void **state)
     assert_int_equal(p.stride, 2);
     assert_int_equal(p.target, 16);
     assert_int_equal(p.samples, 8);
-    assert_null(p.targets);
+    assert_null(p.shares);
     p = pass_plan_pass(16, 24, 1, &none);
     assert_int_equal(p.samples, 8);
-    assert_null(p.targets);
+    assert_null(p.shares);
     p = pass_plan_pass(16, 24, 1, &adaptive);
     assert_int_equal(p.target, 24);
-    assert_int_equal(p.samples, ADAPTIVE_MOST);
-    assert_ptr_equal(p.targets, targets);
-    assert_int_equal(p.target_count, 8);
-    assert_int_equal(p.target_version, 7);
+    assert_int_equal(p.samples, 32);
+    assert_ptr_equal(p.shares, shares);
+}
+
+/* No pixel needs more samples in a pass than its plan says, and together they
+ * get what was asked for. */
+static void samples_follow_shares(void **state)
+{
+    uint64_t seed = 3;
+
+    (void)state;
+    assert_int_equal(share_samples(SHARE_MOST, ADAPTIVE_FIRST), ADAPTIVE_FIRST);
+    assert_int_equal(share_samples(SHARE_ONE, 1000), 1000);
+    assert_int_equal(share_samples(2 * SHARE_ONE, 116), 216);
+    assert_int_equal(share_samples(SHARE_MOST, UINT64_C(1) << 40),
+                     (UINT64_C(1) << 42) - 48);
+    for (int i = 0; i < 100000; i++) {
+        uint32_t share = (uint32_t)(check_random(&seed) * SHARE_MOST);
+        uint64_t done = 16 + (uint64_t)(check_random(&seed) * 1000);
+        uint64_t more = 1 + (uint64_t)(check_random(&seed) * 8);
+        uint64_t first = share_samples(share, done);
+        uint64_t last = share_samples(share, done + more);
+
+        assert_true(last >= first && last - first <= 4 * more);
+        check_close((double)last,
+                    16 + (double)(done + more - 16) * share / SHARE_ONE, 0.5);
+    }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(passes_double_up_to_a_block),
-        cmocka_unit_test(adaptive_passes_end_with_their_round),
+        cmocka_unit_test(adaptive_passes_stop_at_the_decision),
         cmocka_unit_test(a_limit_ends_the_last_pass),
         cmocka_unit_test(the_pass_of_a_sample_is_found),
-        cmocka_unit_test(targets_begin_after_the_first_samples),
+        cmocka_unit_test(shares_count_after_the_first_samples),
+        cmocka_unit_test(samples_follow_shares),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
