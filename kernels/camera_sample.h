@@ -19,9 +19,11 @@ struct camera_sample {
 static inline struct sampler
 camera_sampler(const struct settings *s, uint32_t x, uint32_t y, uint64_t index)
 {
-    return s->order == ORDER_DRAFT
-               ? sampler_start_draft(x, y, (uint32_t)index, s->seed)
-               : sampler_start_half(x, y, index, s->seed);
+    if (s->order == ORDER_DRAFT)
+        return sampler_start_draft(x, y, (uint32_t)index, s->seed);
+    if (s->order == ORDER_DRAFT_HALVES)
+        return sampler_start_draft_half(x, y, (uint32_t)index, s->seed);
+    return sampler_start_half(x, y, index, s->seed);
 }
 
 /* The camera ray of a sample, through `point` of pixel (x, y). For AOVs it goes

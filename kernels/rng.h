@@ -25,6 +25,9 @@
  * to 4 are a second set. (One sample of a set of four would have no pattern
  * alone, and a set for each sample would let a pixel's samples clump.)
  *
+ * A draft with halves has three sets: sample 0, samples 1 and 3, and samples 2
+ * and 4. So its halves are independent, for the price of a third more variance.
+ *
  * Units:     numbers in [0, 1)
  */
 #ifndef KERNELS_RNG_H
@@ -108,6 +111,22 @@ static inline struct sampler sampler_start_draft(uint32_t x, uint32_t y,
     if (index != 0) {
         s.key = hash_u32(s.key);
         rank = rank << 2 | (index - 1);
+    }
+    s.reversed_index = reverse_bits(rank);
+    return s;
+}
+
+/* The same in a draft with halves. */
+static inline struct sampler
+sampler_start_draft_half(uint32_t x, uint32_t y, uint32_t index, uint32_t seed)
+{
+    uint32_t rank = spread_bits(x) | spread_bits(y) << 1;
+    struct sampler s;
+
+    s.key = hash_u32(seed + 0xc2b2ae35u);
+    if (index != 0) {
+        s.key = hash_u32(s.key + (index & 1u));
+        rank = rank << 1 | (index - 1u) >> 1;
     }
     s.reversed_index = reverse_bits(rank);
     return s;

@@ -214,7 +214,8 @@ enum sample_kind {
 /* How random numbers are given to samples; see rng.h. */
 enum order {
     ORDER_PROGRESSIVE, /* independent pixels, any number of samples */
-    ORDER_DRAFT        /* blue-noise error over pixels, DRAFT_SPP samples */
+    ORDER_DRAFT,       /* blue-noise error over pixels, DRAFT_SPP samples */
+    ORDER_DRAFT_HALVES /* likewise, with independent halves */
 };
 
 /* Vertices after which every path ends. Russian roulette ends nearly all paths

@@ -55,7 +55,8 @@ static bool reset_draft(struct film *draft, const struct render_job *job,
     int height = smallest(job->draft_height, job->crop.height, DRAFT_SIDE_MAX);
 
     if (width > 0 && height > 0)
-        return reset_film(draft, width, height, has_surfaces(job), err);
+        return reset_film(draft, width, height,
+                          has_surfaces(job) || job->draft_has_surfaces, err);
     film_free(draft);
     return true;
 }
@@ -79,6 +80,10 @@ struct world render_films_draft_world(const struct render_films *f,
 
     w.settings.camera = projection_camera(&w.settings.camera, &part);
     w.settings.order = ORDER_DRAFT;
+    if (job->draft_has_surfaces) {
+        w.settings.order = ORDER_DRAFT_HALVES;
+        w.settings.features |= FEATURE_FILTER;
+    }
     return w;
 }
 

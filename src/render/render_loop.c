@@ -466,6 +466,16 @@ struct film *render_draft(struct render *r)
     return is_young && r->films.draft.width > 0 ? &r->films.draft : NULL;
 }
 
+struct film *render_surfaces(struct render *r)
+{
+    bool is_whole;
+
+    pthread_mutex_lock(&r->lock);
+    is_whole = r->draft_spp_done > 0;
+    pthread_mutex_unlock(&r->lock);
+    return is_whole && r->films.draft.surfaces != NULL ? &r->films.draft : NULL;
+}
+
 void render_set_backend(struct render *r, struct backend *backend)
 {
     render_halt(r);

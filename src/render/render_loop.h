@@ -46,6 +46,7 @@ struct render_job {
     /* size of the draft in pixels: that of the shown picture, reduced to that
      * of the crop if larger. There is no draft if either is 0. */
     int draft_width, draft_height;
+    bool draft_has_surfaces; /* for the filter of the screen */
 };
 
 enum render_state {
@@ -127,6 +128,11 @@ struct film *render_film(struct render *r);
  * none or the film has FILM_YOUNG_SPP samples. It is valid until the next
  * render_start(). */
 struct film *render_draft(struct render *r);
+
+/* Returns the draft if it has surfaces, in a film of any age, for
+ * screen_filter.h; NULL before each of its pixels has a sample. It is valid
+ * until the next render_start(). */
+struct film *render_surfaces(struct render *r);
 struct backend *render_backend(const struct render *r);
 
 void render_destroy(struct render *r);

@@ -64,6 +64,23 @@ static void start(struct host_world *host, const struct world *world,
     check_or_say(render_start(session.render, &job, &err), err.text);
 }
 
+/* Renders a draft for the filter. */
+static void start_draft_for_filter(uint32_t seed)
+{
+    struct render_job job = {.world = box,
+                             .host = &session.world,
+                             .crop = {0, 0, SIDE, SIDE},
+                             .limits.spp = 1,
+                             .draft_width = SIDE,
+                             .draft_height = SIDE,
+                             .draft_has_surfaces = true};
+    struct error err;
+
+    job.world.settings.seed = seed;
+    check_or_say(render_start(session.render, &job, &err), err.text);
+    assert_true(render_wait(session.render, 60000));
+}
+
 /* Renders to the end and returns the film's sums and counts. */
 static void finish(struct sum sums[3 * PIXELS], uint64_t counts[PIXELS])
 {
@@ -350,6 +367,48 @@ static void blurred_drafts_have_less_error(void **state)
     check_at_most(of_draft.blurred, 0.6 * of_film.blurred);
 }
 
+/* In a draft for the filter the halves of a pixel are independent: over seeds,
+ * the products of their errors have mean 0. The errors of pixels depend on each
+ * other, so each seed gives one number, the mean over its pixels. Student's t
+ * with 39 degrees of freedom exceeds 5.9 once in a million. */
+static void halves_of_drafts_are_independent(void **state)
+{
+    static double halves[40][2][PIXELS], means[2][PIXELS];
+    const int n = 40;
+    double sum = 0, squares = 0;
+
+    (void)state;
+    for (int k = 0; k < n; k++) {
+        struct film *f;
+
+        start_draft_for_filter((uint32_t)k);
+        f = render_surfaces(session.render);
+        assert_non_null(f);
+        for (int i = 0; i < PIXELS; i++) {
+            double odd = (double)sum_float(f->odd_sums[3 * i]);
+            double all = (double)sum_float(f->sums[3 * i]);
+
+            assert_int_equal(f->counts[i], DRAFT_SPP);
+            halves[k][0][i] = (all - odd) / 3;
+            halves[k][1][i] = odd / 2;
+            for (int h = 0; h < 2; h++)
+                means[h][i] += halves[k][h][i] / n;
+        }
+    }
+    for (int k = 0; k < n; k++) {
+        double product = 0;
+
+        for (int i = 0; i < PIXELS; i++)
+            product += (halves[k][0][i] - means[0][i]) *
+                       (halves[k][1][i] - means[1][i]) / PIXELS;
+        sum += product;
+        squares += product * product;
+    }
+    sum /= n;
+    squares = (squares / n - sum * sum) / (n - 1);
+    check_at_most(fabs(sum) / sqrt(squares), 5.9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -358,6 +417,7 @@ int main(void)
         cmocka_unit_test(drafts_show_the_same_part_as_films),
         cmocka_unit_test(drafts_have_the_films_mean),
         cmocka_unit_test(blurred_drafts_have_less_error),
+        cmocka_unit_test(halves_of_drafts_are_independent),
     };
 
     return cmocka_run_group_tests(tests, open_scene, close_scene);
