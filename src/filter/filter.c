@@ -181,6 +181,51 @@ static void load_light(void *context, uint32_t item, int worker)
     j->filter->row_max[item] = max;
 }
 
+/* Adds light of half h of a pixel, if it has samples. */
+static void add_neighbour(const struct filter *f, int h, ptrdiff_t at,
+                          float sum[3], float *weight)
+{
+    if (f->count[h][at] > 0.0f) {
+        for (int c = 0; c < 3; c++)
+            sum[c] += f->planes.halves[0].light[h][c][at];
+        *weight += 1.0f;
+    }
+}
+
+/* Fills half h of a pixel that has no samples there with the mean of the four
+ * pixels beside it, or with the pixel's other half. */
+static void fill_pixel(const struct filter *f, int h, int x, int y)
+{
+    const struct filter_planes *p = &f->planes;
+    ptrdiff_t at = y * p->pitch + x;
+    float sum[3] = {0}, weight = 0;
+
+    if (x > 0)
+        add_neighbour(f, h, at - 1, sum, &weight);
+    if (x < p->width - 1)
+        add_neighbour(f, h, at + 1, sum, &weight);
+    if (y > 0)
+        add_neighbour(f, h, at - p->pitch, sum, &weight);
+    if (y < p->height - 1)
+        add_neighbour(f, h, at + p->pitch, sum, &weight);
+    for (int c = 0; c < 3; c++)
+        p->halves[0].light[h][c][at] =
+            weight > 0.0f ? sum[c] / weight : p->halves[0].light[1 - h][c][at];
+}
+
+static void fill_gaps(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter *f = j->filter;
+    ptrdiff_t at = (int)item * f->planes.pitch;
+
+    (void)worker;
+    for (int h = 0; h < 2; h++)
+        for (int x = 0; x < f->planes.width; x++)
+            if (!(f->count[h][at + x] > 0.0f))
+                fill_pixel(f, h, x, (int)item);
+}
+
 /* Returns the power of two that scales the light for the levels. */
 static float light_scale(const struct filter *f)
 {
@@ -270,7 +315,9 @@ static void add_row(void *context, uint32_t item, int worker)
 
     (void)worker;
     for (int x = 0; x < p->width; x++, at++) {
-        float a = f->count[0][at], b = f->count[1][at];
+        bool has_gap = !(f->count[0][at] > 0.0f && f->count[1][at] > 0.0f);
+        float a = has_gap ? 1.0f : f->count[0][at];
+        float b = has_gap ? 1.0f : f->count[1][at];
 
         for (int c = 0; c < 3; c++) {
             float light =
@@ -288,6 +335,7 @@ static void run_component(struct job *j, int levels, struct pool *pool)
     uint32_t rows = (uint32_t)p->height;
 
     pool_each(pool, rows, load_light, j);
+    pool_each(pool, rows, fill_gaps, j);
     j->light_scale = light_scale(j->filter);
     pool_each(pool, rows, scale_light, j);
     pool_each(pool, tile_count(p), run_variance, j);

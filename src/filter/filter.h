@@ -6,8 +6,10 @@
  * The picture is given as two halves with independent samples and one or two
  * components of light, with features of the surfaces that are seen. The result
  * has the same bits for any number of threads and any instruction set. If the
- * halves are equal it is the picture, up to rounding. Pixels within a few of
- * each other need a sample in each half.
+ * halves are equal it is the picture, up to rounding. Each pixel needs a
+ * sample. A half without samples is taken from the four pixels beside it, so
+ * that pictures of one sample can be filtered if the samples of neighbours
+ * belong to different halves.
  *
  * Units:     radiance, 0 to 2^62; depths in any unit
  * Ownership: filter_free() frees; a zeroed struct is empty. The filter may be

@@ -345,7 +345,8 @@ static bool paint_costs(struct view_mode *s, struct frame *frame)
 
 /* Without a draft or memory for its numbers the film is shown as light. */
 void view_mode_preview(struct view_mode *s, struct film *film,
-                       struct film *draft, struct frame *frame)
+                       struct film *draft, struct film *surfaces,
+                       struct frame *frame)
 {
     bool is_painted = false;
 
@@ -359,6 +360,9 @@ void view_mode_preview(struct view_mode *s, struct film *film,
     }
     if (!is_painted)
         film_preview(film, draft, develop_of(s), frame);
+    s->is_filtered = s->kind == SHOW_LIGHT && surfaces != NULL &&
+                     screen_filter_show(&s->filter, film, draft, surfaces,
+                                        develop_of(s), FILTER_LEVELS, frame);
 }
 
 /* Paints a preview, whose numbers are light. */
@@ -422,6 +426,7 @@ void view_mode_free(struct view_mode *s)
 {
     pool_destroy(s->pool);
     bvh_free(&s->bvh);
+    screen_filter_free(&s->filter);
     free(s->numbers);
     free(s->costs);
     *s = (struct view_mode){0};

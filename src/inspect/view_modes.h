@@ -20,6 +20,7 @@
 #include <stddef.h>
 
 #include "bvh/bvh.h"
+#include "filter/screen_filter.h"
 #include "session/session.h"
 #include "inspect/false_color.h"
 #include "inspect/traversal_cost.h"
@@ -29,6 +30,9 @@ struct view_mode {
     enum show_kind kind;
     char legend[256];   /* "" for light, which has none */
     bool legend_is_new; /* cleared by the screen */
+
+    bool is_filtered; /* the last frame for the screen */
+    struct screen_filter filter;
 
     struct bvh bvh;     /* built on first use */
     uint64_t bvh_shape; /* version that it was built for; 0: none */
@@ -54,9 +58,11 @@ enum sample_kind view_mode_sample(enum show_kind kind);
 bool view_mode_set(struct view_mode *s, enum show_kind kind, struct error *err);
 
 /* Fills a frame for the screen: light and the preview as film_preview() does,
- * false colours from the numbers of the draft or the film. */
+ * false colours from the numbers of the draft or the film. Light is filtered if
+ * there are surfaces (NULL: none) to do it. */
 void view_mode_preview(struct view_mode *s, struct film *film,
-                       struct film *draft, struct frame *frame);
+                       struct film *draft, struct film *surfaces,
+                       struct frame *frame);
 
 /* Fills a frame of any size with the whole picture of this view, without a
  * draft. Light, sample counts and errors are taken from `film`, which may be

@@ -333,9 +333,18 @@ static void encode(f4 shown, uint8_t *bytes)
         bytes[c] = (uint8_t)srgb_byte(rgb[c]);
 }
 
-void film_resolve(struct film *f, struct develop how, struct frame *frame)
+void develop_row(struct develop how, int count, const float *rgb,
+                 uint8_t *bytes)
 {
     float factor = exposure_factor(how.exposure);
+
+    for (int i = 0; i < count; i++, rgb += 3)
+        encode(show(f4_set3(rgb[0], rgb[1], rgb[2]), factor, how.tone),
+               bytes + 3 * i);
+}
+
+void film_resolve(struct film *f, struct develop how, struct frame *frame)
+{
     float rgb[3 * RUN];
 
     for (int y = 0; y < f->height; y++) {
@@ -343,12 +352,7 @@ void film_resolve(struct film *f, struct develop how, struct frame *frame)
             int count = f->width - x < RUN ? f->width - x : RUN;
 
             linear_run(f, x, y, count, rgb);
-            for (int i = 0; i < count; i++) {
-                f4 light = f4_set3(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]);
-
-                encode(show(light, factor, how.tone),
-                       frame->rgb + 3 * pixel_index(f, x + i, y));
-            }
+            develop_row(how, count, rgb, frame->rgb + 3 * pixel_index(f, x, y));
         }
     }
 }

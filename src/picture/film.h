@@ -62,6 +62,10 @@ static inline struct develop develop_linear(float exposure)
     return (struct develop){exposure, TONE_LINEAR};
 }
 
+/* Develops pixels, 3 numbers each, to 8-bit sRGB. */
+void develop_row(struct develop how, int count, const float *rgb,
+                 uint8_t *bytes);
+
 bool film_init(struct film *film, int width, int height, struct error *err);
 
 /* Gives an empty film sums of first surfaces, for the denoising filter. */

@@ -74,6 +74,7 @@ struct options {
     uint32_t seed;
     bool has_seed;
     bool batch;
+    bool no_filter;           /* live mode shows unfiltered pictures */
     bool denoise;             /* filter the picture, in batch mode */
     const char *denoise_path; /* file of the filtered picture; NULL: -o */
     enum show_kind show;      /* in batch mode */

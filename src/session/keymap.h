@@ -56,6 +56,7 @@ enum action {
     ACTION_SAVE_VIEW,
     ACTION_VIEW_NEXT, /* light, preview, normals, ... */
     ACTION_VIEW_BACK,
+    ACTION_FILTER,  /* denoising filter of the screen */
     ACTION_DRAWING, /* boxes, directions, a path */
     ACTION_LESS,
     ACTION_MORE,

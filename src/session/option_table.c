@@ -55,6 +55,8 @@ static const struct option_rule rules[] = {
      "auto, half, upper, lower, quadrant, sextant, braille, space, ascii, "
      "sixel or kitty"},
     {"cell-aspect", OPTION_CELL_ASPECT, "a number"},
+    {"filter", OPTION_FILTER, NULL},
+    {"no-filter", OPTION_NO_FILTER, NULL},
     {"watch", OPTION_WATCH, NULL},
     {"phoe-keys", OPTION_PHOE_KEYS, NULL},
     {"csv", OPTION_CSV, "the name of a file"},
@@ -367,6 +369,10 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_GLYPH: return set_word(o, g, err);
     case OPTION_BATCH: o->batch = true; return true;
     case OPTION_LIST_DEVICES: o->list_devices = true; return true;
+    case OPTION_FILTER:
+    case OPTION_NO_FILTER: /* the last one counts */
+        o->no_filter = g->rule->id == OPTION_NO_FILTER;
+        return true;
     case OPTION_WATCH: o->watch = true; return true;
     case OPTION_PHOE_KEYS: o->phoe_keys = true; return true;
     case OPTION_CSV: return given_text(g, &o->csv_path, err);

@@ -100,7 +100,9 @@ bool session_load(struct session *s, const struct options *options,
     struct view view;
     bool ok;
 
-    *s = (struct session){.options = options, .start_ns = start_ns};
+    *s = (struct session){.options = options,
+                          .start_ns = start_ns,
+                          .is_filtered = !options->no_filter};
     view_init(&view);
     ok = open_scene(s, &view, err) && apply_edit(s, &view, err);
     view_free(&view);
@@ -193,6 +195,8 @@ static bool begin(struct session *s, struct render_limits limits,
     if (is_live) {
         job.draft_width = s->draft_width;
         job.draft_height = s->draft_height;
+        s->draft_has_surfaces = s->is_filtered && s->sample == SAMPLE_LIGHT;
+        job.draft_has_surfaces = s->draft_has_surfaces;
     }
     render_halt(s->render);
     s->rendered_version = s->edit.version;

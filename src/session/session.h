@@ -43,6 +43,8 @@ struct session {
     /* size of the draft for live mode, in pixels; 0: no draft */
     int draft_width, draft_height;
     enum sample_kind sample; /* samples to be shown in live mode */
+    bool is_filtered;        /* the screen's picture is to be filtered */
+    bool draft_has_surfaces; /* of the last restart in live mode */
     bool is_denoised;        /* a filtered picture was written */
     /* measured since restart_ns */
     struct speeds speeds;

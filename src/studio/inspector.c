@@ -42,7 +42,11 @@ void inspector_preview(struct inspector *inspector, struct frame *frame)
     struct render *render = session_of(inspector)->render;
 
     view_mode_preview(&inspector->view_mode, render_film(render),
-                      render_draft(render), frame);
+                      render_draft(render),
+                      session_of(inspector)->is_filtered
+                          ? render_surfaces(render)
+                          : NULL,
+                      frame);
     draw_over(inspector, frame);
 }
 
@@ -329,6 +333,20 @@ void inspector_save_hdr(struct inspector *inspector)
 }
 
 /* ---- actions ---- */
+
+/* A draft without surfaces is rendered again. */
+void inspector_switch_filter(struct inspector *inspector)
+{
+    struct session *s = session_of(inspector);
+
+    s->is_filtered = !s->is_filtered;
+    if (s->is_filtered && inspector->control->is_live && !s->draft_has_surfaces)
+        render_control_restart(inspector->control);
+    render_control_say(inspector->control,
+                       s->is_filtered ? "the screen's picture is filtered"
+                                      : "the screen's picture is not filtered");
+    inspector->control->has_changed = true;
+}
 
 static void show(struct inspector *inspector, enum show_kind kind)
 {

@@ -61,6 +61,9 @@ void inspector_preview(struct inspector *inspector, struct frame *frame);
 void inspector_next_view(struct inspector *inspector);
 void inspector_previous_view(struct inspector *inspector);
 
+/* Switches the denoising filter of the screen off and on. */
+void inspector_switch_filter(struct inspector *inspector);
+
 /* Switches to the next drawing: boxes, directions, a path, nothing. */
 void inspector_next_drawing(struct inspector *inspector);
 

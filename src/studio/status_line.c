@@ -156,8 +156,8 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
 {
     const struct render_progress *p = s->progress;
 
-    snprintf(text[FIELD_MODE], FIELD_BYTES, "%s%s", mode_word(s),
-             s->is_orbiting ? " orbit" : "");
+    snprintf(text[FIELD_MODE], FIELD_BYTES, "%s%s%s", mode_word(s),
+             s->is_orbiting ? " orbit" : "", s->is_filtered ? " filtered" : "");
     if (s->device)
         snprintf(text[FIELD_MACHINE], FIELD_BYTES, "OpenCL %.24s", s->device);
     else

@@ -20,6 +20,7 @@
 struct status_line {
     bool is_live;
     bool is_orbiting;
+    bool is_filtered;     /* the picture shown is */
     bool is_halted;       /* the user has paused the render */
     bool is_started;      /* normal mode has begun a render */
     const char *load_key; /* key that loads changed files; NULL if none has

@@ -273,6 +273,7 @@ static void format_status(struct workspace *workspace, char text[STATUS_BYTES])
     struct status_line status = {
         .is_live = workspace->control->is_live,
         .is_orbiting = workspace->camera->input.is_orbiting,
+        .is_filtered = workspace->inspector.view_mode.is_filtered,
         .is_halted = workspace->control->is_halted,
         .is_started = workspace->control->is_started,
         .load_key = workspace->control->has_changed_files ? load.text : NULL,

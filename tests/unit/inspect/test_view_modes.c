@@ -52,7 +52,7 @@ static void draw_draft(struct session *s, struct view_mode *show,
     film = render_film(s->render);
     draft = render_draft(s->render);
     assert_non_null(draft);
-    view_mode_preview(show, film, draft, frame);
+    view_mode_preview(show, film, draft, NULL, frame);
 }
 
 static void files_show_what_the_screen_shows(void **state)
@@ -153,15 +153,15 @@ static void errors_are_those_of_the_film(void **state)
     assert_true(frame_init(&f, WIDTH, HEIGHT, &err));
     assert_true(view_mode_set(&show, SHOW_ERROR, &err));
     render(&s, 1);
-    view_mode_preview(&light, render_film(s.render), NULL, &expected);
-    view_mode_preview(&show, render_film(s.render), NULL, &f);
+    view_mode_preview(&light, render_film(s.render), NULL, NULL, &expected);
+    view_mode_preview(&show, render_film(s.render), NULL, NULL, &f);
     assert_memory_equal(f.rgb, expected.rgb, 3 * WIDTH * HEIGHT);
     assert_string_equal(show.legend,
                         "ERROR  unknown until each pixel has two samples");
     for (int i = 0; i < 2; i++) {
         options.seed = (uint32_t)i;
         render(&s, 8);
-        view_mode_preview(&show, render_film(s.render), NULL, &f);
+        view_mode_preview(&show, render_film(s.render), NULL, NULL, &f);
         assert_true(film_error_map(render_film(s.render),
                                    session_develop(&s).exposure, NULL, map));
         for (int k = 0; k < WIDTH * HEIGHT; k++)

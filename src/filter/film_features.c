@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "filter/film_features.h"
+
+/* Depth of a film without surfaces. */
+#define DEPTH_ANY 1.0f
+
+float film_features_far(struct film *f)
+{
+    float far = 0.0f;
+
+    for (int y = 0; y < f->height; y++) {
+        film_lock_row(f, y);
+        for (int x = 0; x < f->width; x++) {
+            const struct surface_sums *s =
+                &f->surfaces[(size_t)y * (size_t)f->width + (size_t)x];
+
+            if (s->hit_count > 0)
+                far = f_max(sum_float(s->depth) / (float)s->hit_count, far);
+        }
+        film_unlock_row(f, y);
+    }
+    return far > 0.0f ? far : DEPTH_ANY;
+}
+
+/* Returns the variance of the mean of `count` samples from the sum of their
+ * squares and the square of their mean. */
+static float mean_variance(float squares, float mean_square, float count)
+{
+    return f_max(squares / count - mean_square, 0.0f) / count;
+}
+
+/* Writes the features of a pixel. Rays that leave the scene have an albedo of
+ * 1, no normal, and the greatest depth. */
+static void put_features(const struct surface_sums *s, float far, int x,
+                         const struct filter_row *to)
+{
+    float count = (float)s->count, hits = (float)s->hit_count;
+    float misses = (float)(s->count - s->hit_count);
+    float albedo_square = 0.0f, normal_square = 0.0f, depth;
+
+    for (int c = 0; c < 3; c++) {
+        float albedo =
+            ((float)s->albedo[c] * (1.0f / SURFACE_ONE) + misses) / count;
+        float normal =
+            ((float)s->normal[c] * (2.0f / SURFACE_ONE) - hits) / count;
+
+        to->albedo[c][x] = albedo;
+        to->normal[c][x] = normal;
+        albedo_square += albedo * albedo;
+        normal_square += normal * normal;
+    }
+    depth = (sum_float(s->depth) + misses * far) / count;
+    to->depth[x] = depth;
+    to->albedo_noise[x] =
+        mean_variance((float)s->albedo_square * (3.0f / SURFACE_ONE) +
+                          3.0f * misses,
+                      albedo_square, count);
+    to->normal_noise[x] = mean_variance(hits, normal_square, count);
+    to->depth_noise[x] =
+        mean_variance(sum_float(s->depth_square) + misses * far * far,
+                      depth * depth, count);
+}
+
+void film_features(struct film *f, float far, int y,
+                   const struct filter_row *to)
+{
+    film_lock_row(f, y);
+    for (int x = 0; x < f->width; x++)
+        put_features(&f->surfaces[(size_t)y * (size_t)f->width + (size_t)x],
+                     far, x, to);
+    film_unlock_row(f, y);
+}

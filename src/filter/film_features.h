@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+/*
+ * film_features.h - features of a film's first surfaces, for the filter
+ *
+ * Each pixel of the film has surfaces, and at least one sample.
+ *
+ * Threads:   any; the film's rows are locked one by one
+ */
+#ifndef GLIM_FILM_FEATURES_H
+#define GLIM_FILM_FEATURES_H
+
+#include "filter/filter.h"
+#include "picture/film.h"
+
+/* Returns the greatest mean depth of a pixel's surfaces, which rays that leave
+ * the scene get. */
+float film_features_far(struct film *film);
+
+/* Writes the features of row y and their noise. The counts stay as they are. */
+void film_features(struct film *film, float far, int y,
+                   const struct filter_row *to);
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+/*
+ * screen_filter.h - the denoising filter for the screen of live mode
+ *
+ * The filter works at the size of the draft, which is that of the screen, on
+ * the mean of draft and film over each pixel of the screen. Features are those
+ * of the draft's first surfaces; the film needs none. Direct and indirect light
+ * are filtered together.
+ *
+ * Halves: pixels of draft and film have independent halves (kernels/rng.h). A
+ * pixel's even samples belong to half (x + y) % 2, so that a single sample of
+ * each pixel gives both halves.
+ *
+ * Lamps and the sky are shown without the filter, as the draft's pixels see
+ * them. Pixels that the filter hardly changes, with their neighbours, are shown
+ * as film_preview() shows them; so the filter ends as noise vanishes.
+ *
+ * Ownership: screen_filter_free() frees; a zeroed struct is empty
+ * Threads:   one at a time; the films' rows are locked one by one
+ * Errors:    without memory the frame stays unfiltered
+ */
+#ifndef GLIM_SCREEN_FILTER_H
+#define GLIM_SCREEN_FILTER_H
+
+#include "filter/filter.h"
+#include "picture/film.h"
+
+struct screen_filter {
+    struct filter filter;
+    int width, height; /* 0: no memory yet */
+    float *memory;
+    /* Means of each half, weights of each half in samples, and the share of
+     * light that is seen: a number for each pixel. */
+    float *light[2][3];
+    float *count[2];
+    float *seen;
+    float *rgb;        /* 3 numbers for each pixel */
+    uint8_t *bytes[2]; /* developed: unfiltered, filtered */
+    uint8_t *change;
+};
+
+/* Replaces the light in a frame that film_preview() has filled from these films
+ * by the filtered light. `surfaces` is the draft with surfaces, each pixel of
+ * which has a sample; `draft` is that or NULL, as for film_preview(). Returns
+ * false and leaves the frame as it is if it does not have the draft's size.
+ * Blocks. */
+bool screen_filter_show(struct screen_filter *f, struct film *film,
+                        struct film *draft, struct film *surfaces,
+                        struct develop how, int levels, struct frame *frame);
+
+void screen_filter_free(struct screen_filter *f);
+
+#endif
