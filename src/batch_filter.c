@@ -15,35 +15,35 @@ bool batch_filter_check(const struct session *s, struct error *err)
            image_write_check(path, err);
 }
 
+void batch_filter_warn(void)
+{
+    print_line(stderr, "glim: warning: --denoise: a pixel has fewer than two "
+                       "samples; the picture is not filtered");
+}
+
+void batch_filter_say(const char *path)
+{
+    print_line(stderr, "%s: filtered", path);
+}
+
 bool batch_filter(struct session *s, struct film *filtered, struct error *err)
 {
     struct film *film = render_film(s->render);
-    struct pool *pool;
-    bool ok;
 
     if (!film_filter_applies(film)) {
-        print_line(stderr, "glim: warning: --denoise: a pixel has fewer than "
-                           "two samples; the picture is not filtered");
+        batch_filter_warn();
         return true;
     }
-    pool = pool_create(options_threads(s->options), err);
-    if (pool == NULL)
-        return false;
-    ok = film_init(filtered, film->width, film->height, err) &&
-         film_filter(film, pool, filtered, err);
-    pool_destroy(pool);
-    s->is_denoised = ok;
-    return ok;
+    s->is_denoised =
+        film_filter_copy(film, options_threads(s->options), filtered, err);
+    return s->is_denoised;
 }
 
 struct image_metadata batch_filter_metadata(const struct session *s,
                                             const struct film *film)
 {
-    struct image_metadata m = session_metadata(s);
-
-    if (s->is_denoised && film != render_film(s->render))
-        image_metadata_add(&m, "glim:denoised", "true");
-    return m;
+    return session_metadata(s,
+                            s->is_denoised && film != render_film(s->render));
 }
 
 bool batch_filter_write(struct session *s, struct film *filtered,
@@ -54,6 +54,6 @@ bool batch_filter_write(struct session *s, struct film *filtered,
 
     if (!image_write(filtered, session_develop(s), &metadata, path, err))
         return false;
-    print_line(stderr, "%s: filtered", path);
+    batch_filter_say(path);
     return true;
 }

@@ -13,6 +13,10 @@
 /* Checks before the render that the file of --denoise=FILE can be written. */
 bool batch_filter_check(const struct session *s, struct error *err);
 
+/* Say that the picture was not filtered, and to which file it was written. */
+void batch_filter_warn(void);
+void batch_filter_say(const char *path);
+
 /* Filters the film of the render into *filtered, for film_free(), and sets
  * s->is_denoised. If a pixel has fewer than two samples it reports that
  * instead. */

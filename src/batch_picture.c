@@ -11,13 +11,14 @@
 #include "base/file.h"
 #include "base/print.h"
 #include "terminal/xmalloc.h"
+#include "batch_filter.h"
 #include "batch_handle.h"
 #include "batch_progress.h"
 
 bool batch_picture_is_wanted(const struct options *o)
 {
     return o->batch && o->show == SHOW_LIGHT && o->text_cols == 0 &&
-           !o->denoise && !o->stats_path && !o->error_map_path && !o->paths &&
+           !o->stats_path && !o->error_map_path && !o->paths &&
            !o->kernels_path;
 }
 
@@ -78,6 +79,26 @@ static const char *write_picture(struct glim *g, const struct options *o,
     return name;
 }
 
+/* Writes the filtered picture to its own file, or lets write_picture() write
+ * it. */
+static bool write_filtered(struct glim *g, const struct options *o,
+                           struct error *err)
+{
+    const char *path = o->denoise_path;
+    struct glim_error why;
+
+    if (!glim_is_denoised(g)) {
+        batch_filter_warn();
+        return true;
+    }
+    if (!path)
+        return true;
+    if (!glim_save(g, path, &why) || !glim_set_denoise(g, false, &why))
+        return batch_fail_as(err, &why);
+    batch_filter_say(path);
+    return true;
+}
+
 static bool save(struct glim *g, const struct options *o, uint64_t start_ns,
                  struct error *err)
 {
@@ -89,6 +110,8 @@ static bool save(struct glim *g, const struct options *o, uint64_t start_ns,
         /* an old picture is worth more than a black one */
         return batch_say_empty(err);
     }
+    if (o->denoise && !write_filtered(g, o, err))
+        return false;
     name = write_picture(g, o, err);
     if (!name)
         return false;
@@ -97,16 +120,29 @@ static bool save(struct glim *g, const struct options *o, uint64_t start_ns,
     return true;
 }
 
+/* Checks before the render that the files can be written. */
+static bool check_outputs(struct glim *g, const struct options *o,
+                          struct error *err)
+{
+    return (!o->output_path ||
+            batch_handle_spares(g, "-o", o->output_path, err)) &&
+           (!o->denoise_path ||
+            (batch_handle_spares(g, "--denoise", o->denoise_path, err) &&
+             batch_check_picture(o->denoise_path, err))) &&
+           batch_check_picture(o->output_path, err);
+}
+
 static bool run(struct glim *g, const struct options *o, uint64_t start_ns,
                 struct error *err)
 {
     bool wants_device = o->backend != BACKEND_CPU;
+    struct glim_error why;
     int wake_fd;
 
-    if ((o->output_path &&
-         !batch_handle_spares(g, "-o", o->output_path, err)) ||
-        !batch_check_picture(o->output_path, err))
+    if (!check_outputs(g, o, err))
         return false;
+    if (!glim_set_denoise(g, o->denoise, &why))
+        return batch_fail_as(err, &why);
     /* before our signals are set: drivers put theirs over them */
     if (wants_device && !batch_handle_use_device(g, o, err))
         return false;

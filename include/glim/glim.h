@@ -209,6 +209,18 @@ GLIM_API bool glim_set_error_limit(struct glim *g, double error,
  * over the pixels. Off by default. A change begins a new picture. */
 GLIM_API void glim_set_adaptive(struct glim *g, bool is_adaptive);
 
+/* Sets whether the picture that is read and saved is filtered, which removes
+ * most of its noise. Off by default. The filter needs 264 bytes more a pixel
+ * from the first sample on: a picture that began without them ends. Switching
+ * it off keeps the picture. Fails if the kernels of glim_set_backend() lack the
+ * filter, because it was not wanted then. */
+GLIM_API bool glim_set_denoise(struct glim *g, bool is_wanted,
+                               struct glim_error *err);
+
+/* Returns true if the picture that is read and saved is filtered. It is not
+ * while a pixel has fewer than two samples. */
+GLIM_API bool glim_is_denoised(struct glim *g);
+
 /* Renders until every pixel has `spp` samples, `seconds` have passed, or the
  * upper end of the error is at its limit; 0 is no limit. Blocks until then.
  * Continues the previous picture if no setting has changed since. `progress`

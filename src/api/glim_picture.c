@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "filter/film_filter.h"
 #include "picture/film.h"
 #include "picture/image_write.h"
 #include "render/render_metadata.h"
@@ -14,21 +15,52 @@ static struct develop develop_of(const struct glim *g)
                             g->view.lighting.tone};
 }
 
-static struct image_metadata metadata_of(const struct glim *g)
+void handle_drop_filtered(struct glim *g)
+{
+    film_free(&g->filtered);
+    g->filtered_samples = 0;
+}
+
+bool glim_is_denoised(struct glim *g)
+{
+    return g->has_picture && g->wants_denoise &&
+           film_filter_applies(render_film(g->render));
+}
+
+static struct image_metadata metadata_of(struct glim *g)
 {
     struct render_progress p = render_progress(g->render);
 
-    return render_metadata(&p, g->scene.path, g->seed);
+    return render_metadata(&p, g->scene.path, g->seed, glim_is_denoised(g));
 }
 
-/* Returns the film, or NULL with an error if there is no picture. */
-static struct film *film_of(const struct glim *g, struct glim_error *err)
+/* Filters the film, unless that was done at this number of samples. */
+static bool need_filtered(struct glim *g, struct error *err)
+{
+    struct film *film = render_film(g->render);
+    uint64_t samples = atomic_load(&film->samples);
+
+    if (g->filtered_samples == samples)
+        return true;
+    handle_drop_filtered(g);
+    if (!film_filter_copy(film, handle_threads(g), &g->filtered, err))
+        return false;
+    g->filtered_samples = samples;
+    return true;
+}
+
+/* Returns the film or the filtered one, or NULL with an error if there is no
+ * picture. */
+static struct film *film_of(struct glim *g, struct glim_error *err)
 {
     struct error why;
 
-    if (g->has_picture)
+    if (!g->has_picture)
+        fail(&why, "picture: found none, expected glim_render() before");
+    else if (!glim_is_denoised(g))
         return render_film(g->render);
-    fail(&why, "picture: found none, expected glim_render() before");
+    else if (need_filtered(g, &why))
+        return &g->filtered;
     handle_fail(err, &why);
     return NULL;
 }

@@ -34,6 +34,7 @@ void handle_drop_render(struct glim *g)
         g->cpu->destroy(g->cpu);
     g->cpu = NULL;
     g->has_picture = false;
+    handle_drop_filtered(g);
 }
 
 int handle_threads(const struct glim *g)
@@ -90,6 +91,13 @@ bool glim_set_program(struct glim *g, const char *path, struct glim_error *err)
     return true;
 }
 
+/* Returns the kernel features that pictures of the handle need. */
+static uint32_t features_of(const struct glim *g)
+{
+    return world_features(&g->world) |
+           (g->wants_denoise ? (uint32_t)FEATURE_FILTER : 0);
+}
+
 static bool start_device(struct glim *g, const struct cl_request *request,
                          struct error *err)
 {
@@ -124,7 +132,8 @@ bool glim_set_backend(struct glim *g, enum glim_backend backend,
     /* first, since the guide adds a feature that the kernels must have */
     if (!world_guide(&g->world, &g->scene, &g->view, &why))
         return handle_fail(err, &why);
-    request.features = world_features(&g->world);
+    request.features = features_of(g);
+    g->device_features = request.features;
     return start_device(g, &request, &why) || handle_fail(err, &why);
 }
 
@@ -199,6 +208,23 @@ void glim_set_adaptive(struct glim *g, bool is_adaptive)
     g->is_adaptive = is_adaptive;
 }
 
+bool glim_set_denoise(struct glim *g, bool is_wanted, struct glim_error *err)
+{
+    struct error why;
+
+    if (is_wanted && g->device != NULL &&
+        (g->device_features & FEATURE_FILTER) == 0) {
+        fail(&why, "denoise: found a device without the filter's kernels, "
+                   "expected glim_set_denoise() before glim_set_backend()");
+        return handle_fail(err, &why);
+    }
+    /* switching the filter off keeps what it needs, to switch it on again */
+    g->has_picture = g->has_picture &&
+                     (!is_wanted || render_film(g->render)->surfaces != NULL);
+    g->wants_denoise = is_wanted;
+    return true;
+}
+
 /* Limits of one call of glim_render(); 0 is none. */
 struct glim_call {
     uint64_t spp;
@@ -251,6 +277,8 @@ static bool begin(struct glim *g, const struct glim_call *call,
         world_drop_tree(&g->world);
     job.limits = limits_of(call, 0);
     job.is_adaptive = g->is_adaptive;
+    job.world.settings.features = features_of(g);
+    handle_drop_filtered(g);
     g->has_picture = render_start(g->render, &job, err);
     return g->has_picture;
 }

@@ -38,7 +38,11 @@ struct glim {
     bool has_picture;      /* there is a picture of the current settings */
     double error_limit;    /* of glim_render(); 0: none */
     bool is_adaptive;
-    int cancel_fd; /* readable after glim_cancel() */
+    bool wants_denoise;        /* the film has what the filter needs */
+    uint32_t device_features;  /* of the device's kernels */
+    struct film filtered;      /* of the film with this many samples */
+    uint64_t filtered_samples; /* 0: none */
+    int cancel_fd;             /* readable after glim_cancel() */
 };
 
 /* Copies the text to the caller's error, if that is not NULL. Returns false. */
@@ -53,6 +57,9 @@ int handle_threads(const struct glim *g);
 
 /* Converts the progress of the renderer to that of the interface. */
 struct glim_progress handle_progress(const struct render_progress *p);
+
+/* Frees the filtered picture. */
+void handle_drop_filtered(struct glim *g);
 
 /* Frees the renderer and the threads of the CPU backend. The next glim_render()
  * creates them again. */

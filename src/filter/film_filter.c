@@ -132,3 +132,19 @@ bool film_filter(struct film *f, struct pool *pool, struct film *filtered,
     free(rgb);
     return ok;
 }
+
+bool film_filter_copy(struct film *f, int thread_count, struct film *filtered,
+                      struct error *err)
+{
+    struct pool *pool;
+    bool ok;
+
+    *filtered = (struct film){.width = 0};
+    pool = pool_create(thread_count, err);
+    ok = pool != NULL && film_init(filtered, f->width, f->height, err) &&
+         film_filter(f, pool, filtered, err);
+    pool_destroy(pool);
+    if (!ok)
+        film_free(filtered);
+    return ok;
+}

@@ -25,4 +25,9 @@ bool film_filter_applies(struct film *film);
 bool film_filter(struct film *film, struct pool *pool, struct film *filtered,
                  struct error *err);
 
+/* Makes *filtered, which is uninitialised, the filtered picture, with threads
+ * of its own. It is empty after an error. */
+bool film_filter_copy(struct film *film, int thread_count,
+                      struct film *filtered, struct error *err);
+
 #endif

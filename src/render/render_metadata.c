@@ -30,7 +30,8 @@ static void add_error(struct image_metadata *m, const struct film_error *e)
 }
 
 struct image_metadata render_metadata(const struct render_progress *p,
-                                      const char *scene_path, uint32_t seed)
+                                      const char *scene_path, uint32_t seed,
+                                      bool is_denoised)
 {
     struct image_metadata m = {.count = 0};
 
@@ -45,5 +46,7 @@ struct image_metadata render_metadata(const struct render_progress *p,
     if (p->stopped_by == RENDER_LIMIT_TIME)
         image_metadata_add(&m, "glim:time_s", "%.3f",
                            seconds_between(0, p->render_ns));
+    if (is_denoised)
+        image_metadata_add(&m, "glim:denoised", "true");
     return m;
 }

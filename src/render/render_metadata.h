@@ -10,12 +10,14 @@
 #include "picture/image_metadata.h"
 #include "render/render_loop.h"
 
-/* Returns program, scene, seed, samples, the error if it is known, and the
- * limit that ended the render. Nothing depends on the machine: equal renders
- * have equal metadata. The time of rendering is given only if it ended the
- * render. Of the scene's path only the name counts. */
+/* Returns program, scene, seed, samples, the error if it is known, the limit
+ * that ended the render, and whether the picture is filtered. Nothing depends
+ * on the machine: equal renders have equal metadata. The time of rendering is
+ * given only if it ended the render. Of the scene's path only the name counts.
+ */
 struct image_metadata render_metadata(const struct render_progress *p,
-                                      const char *scene_path, uint32_t seed);
+                                      const char *scene_path, uint32_t seed,
+                                      bool is_denoised);
 
 /* Returns the name of a limit: samples, error or time; NULL for none. */
 const char *render_limit_name(enum render_limit limit);

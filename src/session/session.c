@@ -263,11 +263,12 @@ struct render_progress session_progress(struct session *s)
     return p;
 }
 
-struct image_metadata session_metadata(const struct session *s)
+struct image_metadata session_metadata(const struct session *s,
+                                       bool is_denoised)
 {
     struct render_progress p = render_progress(s->render);
 
-    return render_metadata(&p, s->scene.path, s->options->seed);
+    return render_metadata(&p, s->scene.path, s->options->seed, is_denoised);
 }
 
 bool session_uses_device(const struct session *s)

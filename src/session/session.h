@@ -99,8 +99,9 @@ uint32_t session_features(const struct session *s);
  * times per second. */
 struct render_progress session_progress(struct session *s);
 
-/* Returns the metadata of the picture as it is now. */
-struct image_metadata session_metadata(const struct session *s);
+/* Returns the metadata of the picture as it is now, or of its filtered copy. */
+struct image_metadata session_metadata(const struct session *s,
+                                       bool is_denoised);
 
 /* Returns true if an OpenCL device renders. */
 bool session_uses_device(const struct session *s);

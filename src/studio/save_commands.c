@@ -30,7 +30,7 @@ static char *scene_name(const struct render_control *control)
 void save_picture(struct render_control *control, const char *ending)
 {
     struct render_progress now = render_progress(control->session->render);
-    struct image_metadata metadata = session_metadata(control->session);
+    struct image_metadata metadata = session_metadata(control->session, false);
     struct error err;
     char *stem;
 
@@ -191,7 +191,7 @@ void save_lost_picture(struct render_control *control)
 
     render_halt(s->render);
     control->progress = render_progress(s->render);
-    metadata = session_metadata(s);
+    metadata = session_metadata(s, false);
     if (!is_worth_keeping(control))
         return;
     path = recent_lost_path();

@@ -159,6 +159,7 @@ static bool render(struct glim *g, struct outcome *o, const char *picture)
 {
     return glim_set_size(g, WIDTH, HEIGHT, &o->err) &&
            glim_set_threads(g, 2, &o->err) &&
+           glim_set_denoise(g, true, &o->err) &&
            glim_render(g, 2, 0, NULL, NULL, &o->err) == GLIM_DONE &&
            glim_read_bytes(g, o->rgb, BYTES, &o->err) &&
            glim_save(g, picture, &o->err);
