@@ -101,8 +101,9 @@ TOOLS := $(patsubst tests/tools/%.c,$(B)/tools/%,$(wildcard tests/tools/*.c))
 ERROR_BENCH := $(patsubst tests/bench/error/%.c,$(B)/error/%.o,$(filter-out \
 	%/scenes.c,$(wildcard tests/bench/error/*.c))) $(patsubst \
 	%,$(B)/error/paths_%.o,whole hashed uniform throughput shadows)
-RAYS_BENCH := $(patsubst tests/bench/rays/%.c,$(B)/rays/%.o,$(wildcard \
-	tests/bench/rays/*.c)) $(ISAS:%=$(B)/rays/glim_racer_%.o)
+RAYS_BENCH := $(patsubst tests/bench/rays/%.c,$(B)/rays/%.o,$(filter-out \
+	%/scaling.c,$(wildcard tests/bench/rays/*.c))) \
+	$(ISAS:%=$(B)/rays/glim_racer_%.o)
 GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
 # Uses all cores unless the caller gives -j.
 MAKE_ALL = $(MAKE) --no-print-directory \
@@ -210,7 +211,7 @@ $(B)/error/error: $(ERROR_BENCH) $(LIBRARY)
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
 $(B)/error/scenes: $(B)/error/scenes.o $(B)/scenes/mesh.o \
-	$(foreach i,file temp_file error memory clock print,$(B)/base/$(i).o) \
+	$(foreach i,file temp_file error memory cgroup_quota clock print,$(B)/base/$(i).o) \
 	$(B)/terminal/xmalloc.o
 	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
@@ -229,6 +230,11 @@ $(ISAS:%=$(B)/rays/glim_racer_%.o): $(B)/rays/glim_racer_%.o: \
 $(B)/rays/rays: $(RAYS_BENCH) $(LIBRARY)
 	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ -lembree3 $(LIBS)
+
+$(B)/rays/scaling: $(B)/rays/scaling.o $(filter-out %/rays.o %/embree_racer.o, \
+		$(RAYS_BENCH)) $(LIBRARY)
+	$(SAY) LINK $@
+	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
 # A change of flags or compiler rebuilds this variant.
 $(B)/flags: FORCE
@@ -305,7 +311,7 @@ search: $(FUZZERS)
 	@BUILD=$(B) TIME='$(TIME)' FILTER='$(FILTER)' tests/fuzz/search.sh
 
 ## bench: measures speed, halting and threads; FILTER=NAME selects one
-bench: $(B)/glim $(BENCHES)
+bench: $(B)/glim $(BENCHES) $(B)/rays/scaling
 	@BUILD=$(B) FILTER='$(FILTER)' tests/bench/run.sh
 
 ## bench-error: measures error against time, each technique on and off; text,
@@ -318,12 +324,18 @@ bench-error: $(B)/error/error build/bench-error/scenes
 		tee build/bench-error/report.txt; exit $$(cat build/bench-error/status)
 
 ## bench-rays: compares rays per second with Embree 3 (libembree-dev);
-##             FILTER=PART of the meshes' names or of "scaling", ISA=avx2
+##             FILTER=PART of the meshes' names, ISA=avx2
 bench-rays:
 	@echo '#include <embree3/rtcore.h>' | $(CC) -E -x c - >/dev/null 2>&1 || \
 		{ echo 'bench-rays: needs Embree 3: install libembree-dev'; exit 1; }
 	@+$(MAKE_ALL) $(B)/rays/rays
 	@$(B)/rays/rays "$${GLIM_SHARED:-../shared}" '$(FILTER)' '$(ISA)'
+
+## results: measures the figures of docs/results.md and makes its tables and
+##          diagrams; FILTER=SECTION selects one, FILTER=none only draws
+results: $(B)/glim $(BENCHES) $(STRESSES) $(B)/rays/scaling
+	@BUILD=$(B) FILTER='$(FILTER)' tests/bench/results/measure.sh
+	@BUILD=$(B) tests/bench/results/draw.sh
 
 build/bench-error/scenes: $(B)/error/scenes
 	@mkdir -p $@
@@ -434,8 +446,9 @@ help:
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
 .PHONY: all lib run test tests fuzz search bench bench-error bench-rays \
-	bench-cycles stress scenes tables gallery install uninstall deps format \
+	bench-cycles results stress scenes tables gallery install uninstall deps format \
 	lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
 	$(STRESSES:=.d) $(FUZZERS:=.d) $(B)/fuzz/replay.d $(TOOLS:=.d) \
-	$(ERROR_BENCH:.o=.d) $(RAYS_BENCH:.o=.d) $(B)/error/scenes.d
+	$(ERROR_BENCH:.o=.d) $(RAYS_BENCH:.o=.d) $(B)/rays/scaling.d \
+	$(B)/error/scenes.d

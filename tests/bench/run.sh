@@ -199,8 +199,14 @@ bench_sampling() {
     "$build/bench/sampling"
 }
 
+# Measures the cost of a ray by the number of triangles.
+bench_triangles() {
+    echo
+    "$build/rays/scaling"
+}
+
 machine
-for name in builds instructions frames threads sharing halts previews screens load device sampling; do
+for name in builds instructions frames threads sharing halts previews screens load device sampling triangles; do
     if wanted "$name"; then
         "bench_$name"
     fi

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
  * scenes - writes special scenes that are not shipped, to measure the limits of
- * light sampling: plates lamps2000 sun balls
+ * light sampling: plates lamps2000 sun balls; and one to compare with other
+ * renderers, whose glass has flat sides only: glass_box
  *
  * usage: scenes FOLDER
  */
@@ -215,6 +216,40 @@ static void make_balls(void)
                              "res 600 600\n");
 }
 
+static void make_glass_box(void)
+{
+    struct mesh m =
+        mesh_open(folder, "glass_box", "A room with a block of glass.");
+
+    mesh_object(&m, "room", "white");
+    mesh_quad(&m, at(-2, 0, 2), at(2, 0, 2), at(2, 0, -2), at(-2, 0, -2), 1, 1);
+    mesh_quad(&m, at(-2, 0, -2), at(2, 0, -2), at(2, 4, -2), at(-2, 4, -2), 1,
+              1);
+    mesh_quad(&m, at(-2, 4, -2), at(2, 4, -2), at(2, 4, 2), at(-2, 4, 2), 1, 1);
+    mesh_object(&m, "left", "red");
+    mesh_quad(&m, at(-2, 0, 2), at(-2, 0, -2), at(-2, 4, -2), at(-2, 4, 2), 1,
+              1);
+    mesh_object(&m, "right", "green");
+    mesh_quad(&m, at(2, 0, -2), at(2, 0, 2), at(2, 4, 2), at(2, 4, -2), 1, 1);
+    mesh_object(&m, "lamp", "lamp");
+    mesh_quad(&m, at(-.5, 3.99, -.5), at(.5, 3.99, -.5), at(.5, 3.99, .5),
+              at(-.5, 3.99, .5), 1, 1);
+    mesh_object(&m, "block", "white");
+    mesh_box(&m, at(-.7, .001, -.7), at(1.2, 2.4, 1.2), 17);
+    mesh_object(&m, "glass", "glass");
+    mesh_box(&m, at(.7, .2, .6), at(1.1, 1.4, 1.1), -17);
+    mesh_close(&m);
+    write_text("glass_box.mtl", "newmtl white\nKd .73 .72 .7\nillum 1\n"
+                                "newmtl red\nKd .6 .1 .08\nillum 1\n"
+                                "newmtl green\nKd .15 .45 .12\nillum 1\n"
+                                "newmtl lamp\nKd 0 0 0\nKe 17 15 12\nillum 1\n"
+                                "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
+                                "Tf 1 1 1\n");
+    write_text("glass_box.view", "eye 0 2 8\nat 0 2 0\nup 0 1 0\nfovy 37\n"
+                                 "res 256 256\nbackground 0 0 0\n"
+                                 "max_bounces 64\n");
+}
+
 int main(int argc, char **argv)
 {
     if (argc != 2) {
@@ -226,5 +261,6 @@ int main(int argc, char **argv)
     make_lamps2000();
     make_sun();
     make_balls();
+    make_glass_box();
     return 0;
 }

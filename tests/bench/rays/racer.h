@@ -9,8 +9,11 @@
 #ifndef RAYS_RACER_H
 #define RAYS_RACER_H
 
+#include <string.h>
+
 #include "kernels/types.h"
 
+#include "render/cpu_dispatch.h"
 #include "spent.h"
 
 struct answer {
@@ -35,5 +38,18 @@ struct racer {
 extern const struct racer racer_plain;
 extern const struct racer racer_avx2; /* x86-64 only */
 extern const struct racer racer_avx512;
+
+/* Returns the racer for the instruction set of these kernels. */
+static inline const struct racer *racer_of(const struct cpu_kernel *paths)
+{
+#if defined(__x86_64__)
+    if (strcmp(paths->name, "avx512") == 0)
+        return &racer_avx512;
+    if (strcmp(paths->name, "avx2") == 0)
+        return &racer_avx2;
+#endif
+    (void)paths;
+    return &racer_plain;
+}
 
 #endif

@@ -3,7 +3,7 @@
  * rays - ray queries of glim and Embree: the same rays in one process, medians
  * of interleaved repeats, and every hit compared
  *
- * usage: rays SHARED [PART of the meshes' names, or of "scaling" [ISA]]
+ * usage: rays SHARED [PART of the meshes' names [ISA]]
  */
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "embree_racer.h"
-#include "scaling.h"
 #include "sets.h"
 #include "shapes.h"
 
@@ -202,18 +201,6 @@ static void race_all(struct contest *c, struct pool *pool)
     race(c, pool, "groups", &c->sets[SET_PRIMARY], coherent, &grouped);
 }
 
-static const struct racer *racer_of(const struct cpu_kernel *paths)
-{
-#if defined(__x86_64__)
-    if (strcmp(paths->name, "avx512") == 0)
-        return &racer_avx512;
-    if (strcmp(paths->name, "avx2") == 0)
-        return &racer_avx2;
-#endif
-    (void)paths;
-    return &racer_plain;
-}
-
 static bool build_glim(struct contest *c, const struct cpu_kernel *paths,
                        struct pool *pool, struct error *err)
 {
@@ -400,8 +387,6 @@ int main(int argc, char **argv)
     for (int i = 0; ok && i < SHAPES; i++)
         if (strstr(shape_names[i], part) != NULL)
             ok = run_shape(i, argv[1], paths, &err);
-    if (ok && strstr("scaling", part) != NULL)
-        ok = scaling_run(racer_of(paths), &err);
     if (!ok) {
         fprintf(stderr, "rays: %s\n", err.text);
         return 1;
