@@ -51,11 +51,11 @@ bool axis_tick(const struct axis *a, int number, struct axis_tick *tick)
                 continue;
             tick->value = value;
             tick->is_power = i == 0;
-            if (power < -2)
+            if (power < -2 || power > 5)
                 snprintf(tick->label, sizeof tick->label, "%de%d", steps[i],
                          power);
             else
-                snprintf(tick->label, sizeof tick->label, "%.3g", value);
+                snprintf(tick->label, sizeof tick->label, "%.6g", value);
             return true;
         }
     return false;

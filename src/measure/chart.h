@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "measure/series.h"
 
-/* Points that are not above 0 are left out. Texts have letters, which are shown
- * as capitals, digits and - . , : + / _ ( ) */
+/* Points that are not above 0 are left out. Characters of the texts that
+ * lettering.h does not have are blank. */
 struct chart {
     const char *title, *x_label, *y_label;
     const struct series *series;
