@@ -3,8 +3,8 @@
 # run.sh - runs every test and ends with "N passed, N failed"
 #
 # BUILD is the folder of the programs (build/release). FILTER=WORD runs only the
-# parts whose names contain it: layers, tour, man, scenes, hardening, a test_x,
-# fuzz, api, cli, screen.
+# parts whose names contain it: layers, tour, links, results, man, scenes,
+# hardening, a test_x, fuzz, api, cli, screen.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export BUILD=${BUILD:-build/release}
@@ -140,6 +140,8 @@ program_is_hardened()
 
 wanted layers && run_check layers tests/layers.sh
 wanted tour && run_check tour tests/tour.sh
+wanted links && run_check links tests/links.sh
+wanted results && run_check results tests/bench/results/draw.sh --check
 wanted man && run_check man-lint mandoc -T lint -W warning man/glim.1 man/libglim.3
 wanted scenes && run_check scenes scenes_are_generated
 wanted hardening && run_check hardening program_is_hardened

@@ -1,0 +1,301 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# measure.sh - measures the figures of docs/results.md (`make results`)
+#
+# Each section writes docs/results/SECTION.csv, from which draw.sh makes tables
+# and diagrams. Its first lines name the machine, the date, the version and the
+# command. A section that cannot be measured here prints the reason, and its
+# file stays.
+#
+# BUILD is the folder of the program. FILTER selects a section. Optional:
+# PEER       a Python that has bpy, Blender as a module (sections peers)
+# OIDN       a Python that has pyoidn and numpy (section oidn)
+# STRESS_LOG output of an earlier `make stress` (sections stress, calibration,
+#            filter), else the checks run, which takes up to an hour
+set -eu
+cd "$(dirname "$0")/../../.."
+build=${BUILD:-build/release}
+filter=${FILTER:-}
+shared=${GLIM_SHARED:-../shared}
+results=docs/results
+cache=build/results
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir -p "$results" "$cache"
+
+shipped='cornell materials glass_mirror interior skylit lights200'
+sections='samples cores frames triangles features convergence peers oidn
+    stress calibration filter'
+
+say() {
+    echo "results: $*"
+}
+
+machine() {
+    local cores shared_word=''
+
+    cores=$(nproc)
+    awk '{ exit !($1 > .5) }' /proc/loadavg && shared_word='shared '
+    echo "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)," \
+        "$cores ${shared_word}cores"
+}
+
+# Writes docs/results/NAME.csv from the rows of standard input, unless there are
+# none. The header is that of the columns. $renderer replaces glim's version.
+save() { # NAME HEADER
+    cat >"$work/rows"
+    [ -s "$work/rows" ] || {
+        say "$1: no rows; $results/$1.csv stays"
+        return 0
+    }
+    {
+        echo "# $machine, $(date +%F), ${renderer:-$("$build/glim" --version |
+            head -n 1)}"
+        echo "# make results FILTER=$section"
+        echo "$2"
+        cat "$work/rows"
+    } >"$results/$1.csv"
+    say "$results/$1.csv"
+}
+
+value() { # KEY FILE: a number of --stats
+    sed -n "s/.*\"$1\": *\"*\([0-9.e+-]*\).*/\1/p" "$2" | head -n 1
+}
+
+# Runs a command and sets cpu_s to its processor time. Its output goes to
+# $work/said.
+timed() {
+    local TIMEFORMAT='%U %S'
+
+    { time "$@" >"$work/said" 2>&1; } 2>"$work/time" || {
+        cat "$work/said" >&2
+        return 1
+    }
+    cpu_s=$(awk '{ print $1 + $2 }' "$work/time")
+}
+
+# Prints the relative MSE of a picture.
+relmse() { # PICTURE REFERENCE
+    "$build/glim" compare "$1" "$2" 2>/dev/null |
+        sed -n 's/^relMSE *\([0-9.e+-]*\).*/\1/p'
+}
+
+# One scene at three numbers of samples, raw and filtered.
+measure_samples() {
+    local n
+
+    for n in 1 16 1024; do
+        # one sample has no second half, so its picture is not filtered
+        "$build/glim" -b -w 320 -h 180 -s $n -o "$results/samples_$n.png" \
+            --denoise="$results/samples_${n}_filtered.png" \
+            --stats "$work/stats" scenes/interior.obj 2>"$work/said"
+        echo "$n,$(value error "$work/stats" |
+            awk '$1 > 0 { printf "%.1f %%", 100 * $1 }')"
+    done | save samples 'samples per pixel,stated error of the raw picture'
+}
+
+# The fastest of three runs for each number of threads.
+measure_cores() {
+    for _ in 1 2 3; do
+        FILTER=threads tests/bench/run.sh
+    done | awk '$1 ~ /^[0-9]+$/ && NF == 4 {
+            if (!($1 in s) || $2 < s[$1]) { s[$1] = $2; rate[$1] = $3 }
+            if ($1 > most) most = $1
+        }
+        END { for (n = 1; n <= most; n++)
+            printf "%d,%.2f,%.2f,%.2f\n", n, s[n], rate[n], s[1] / s[n] }' |
+        save cores 'threads,seconds,million samples per second,speed-up'
+}
+
+# Cells of the table of bench/frames are "SAMPLES ERROR %" or "-".
+measure_frames() {
+    "$build/bench/frames" scenes/cornell.obj scenes/interior.obj |
+        awk '$2 == "bounces:" {
+                scene = $1
+                gsub(/.*\/|\.obj/, "", scene)
+                for (i = 3; i <= NF; i++) bounces[i - 2] = $i
+                next
+            }
+            {
+                column = 0
+                for (i = 2; i <= NF; i++) {
+                    column++
+                    printf "%s,%s,%s,", scene, $1, bounces[column]
+                    if ($i == "-") print ","
+                    else { print $i "," $(i + 1); i += 2 }
+                }
+            }' | save frames 'scene,size,bounces,samples per pixel,error %'
+}
+
+measure_triangles() {
+    "$build/rays/scaling" | awk '$1 ~ /^[0-9]+$/ {
+            printf "%d,%s,%s,%s,%s,%s\n", $1, $4, $5, $6, $2, $3 }' |
+        save triangles 'triangles,camera ray (ns),bounce (ns),shadow ray (ns),build (s),bytes per triangle'
+}
+
+# Joins the two benchmarks of kernels without unused features.
+measure_features() {
+    FILTER=instructions tests/bench/run.sh >"$work/instructions"
+    FILTER=builds tests/bench/run.sh >"$work/builds"
+    awk '$1 ~ /\.obj$/ {
+            scene = $1
+            gsub(/.*\/|\.obj/, "", scene)
+            if (NF == 3) { whole[scene] = $2; own[scene] = $3 }
+            else if (scene in own)
+                printf "%s,%d,%d,%.1f %%,%.1f %%\n", scene, whole[scene],
+                    own[scene], 100 * (1 - own[scene] / whole[scene]),
+                    100 * (1 - 1 / $5)
+        }' "$work/instructions" "$work/builds" |
+        save features 'scene,instructions per sample with all features,with those of the scene,fewer instructions,less processor time'
+}
+
+# Makes a reference once; delete build/results after a change of pictures.
+reference() { # NAME SAMPLES SIZE...
+    local path=$cache/$1.pfm
+
+    [ -e "$path" ] || "$build/glim" reference -s "$2" --seeds 16 "${@:3}" \
+        "$path" "scenes/$1.obj" 2>"$work/said"
+    echo "$path"
+}
+
+# Error at doubling samples against processor time, and the slope.
+measure_convergence() {
+    local scene path
+
+    : >"$work/slopes"
+    for scene in $shipped; do
+        path=$(reference "$scene" 16384 -w 64 -h 36)
+        "$build/glim" curve -s 1024 --csv "$work/curve" "$path" \
+            "scenes/$scene.obj" >"$work/said" 2>/dev/null
+        sed -n "1d; s/^/$scene,/p" "$work/curve" | cut -d , -f 1-4,6
+        {
+            printf '%s,' "$scene"
+            sed -n 's/^slope of log root relMSE over log cpu.*: \(.*\) (95 %: \(.*\) to \(.*\))/\1,\2,\3/p' \
+                "$work/said"
+        } >>"$work/slopes"
+    done | save convergence 'scene,samples per pixel,seconds,processor seconds,relMSE'
+    save slopes 'scene,slope,95 % interval from,to' <"$work/slopes"
+}
+
+glim_row() { # SCENE SAMPLES NAME [--denoise]
+    local folder=$shared/scenes-bench/$1 out=$work/picture.pfm
+
+    timed "$build/glim" -b -t 2 -s "$2" --stats "$work/stats" -o "$out" \
+        "${@:4}" "$folder/$1.obj"
+    echo "$1,$3,$2,$(value total_s "$work/stats"),$cpu_s,$(relmse "$out" \
+        "$folder/reference.pfm")"
+}
+
+cycles_row() { # SCENE SAMPLES NAME [--denoise]
+    local folder=$shared/scenes-bench/$1 out=$work/picture.pfm
+
+    "$PEER" "$shared/lab/peers/render_cycles.py" -- --scene "$folder/$1.obj" \
+        --camera "$folder/camera.txt" --spp "$2" --threads 2 --out "$out" \
+        "${@:4}" >"$work/said" 2>&1
+    sed -n 's/^RESULT //p' "$work/said" >"$work/stats"
+    echo "$1,$3,$2,$(value render_s "$work/stats"),$(value cpu_s \
+        "$work/stats"),$(relmse "$out" "$folder/reference.pfm")"
+}
+
+# Time and error of glim, and of Blender's Cycles in the same minutes if PEER
+# is set. glim's time includes loading, filtering and writing; Cycles' is that
+# of its render call.
+measure_peers() {
+    local scene n header='scene,renderer,samples per pixel,seconds,processor seconds,relMSE'
+
+    [ -d "$shared/scenes-bench" ] || {
+        say "peers: skipped, no $shared/scenes-bench"
+        return 0
+    }
+    [ -n "${PEER:-}" ] || say 'peers: without Cycles, since PEER is not set'
+    : >"$work/cycles"
+    for scene in cornell many_lights sky; do
+        for n in 2 4 8 16 32 64 128 256; do
+            glim_row $scene $n 'glim'
+            glim_row $scene $n 'glim filtered' --denoise
+            case $n in
+            4 | 16 | 64)
+                [ -z "${PEER:-}" ] || {
+                    cycles_row $scene $n 'Cycles'
+                    cycles_row $scene $n 'Cycles with OIDN' --denoise
+                    cp "$work/stats" "$work/version"
+                } >>"$work/cycles"
+                ;;
+            esac
+        done
+    done | save peers "$header"
+    renderer="Cycles $(value version "$work/version")" save cycles "$header" \
+        <"$work/cycles"
+}
+
+# The errors of raw pictures, of the filter and of Open Image Denoise, which
+# gets the same pictures with their mean albedo and normals.
+measure_oidn() {
+    local scene n raw ours theirs reference
+
+    if [ -z "${OIDN:-}" ] || [ ! -d "$shared/scenes-bench" ]; then
+        say "oidn: skipped, OIDN is not set or $shared/scenes-bench is missing"
+        return 0
+    fi
+    for scene in cornell many_lights sky; do
+        reference=$shared/scenes-bench/$scene/reference.pfm
+        for n in 4 16 64 256; do
+            "$build/bench/surfaces" "$shared/scenes-bench/$scene/$scene.obj" \
+                $n "$work/oidn"
+            "$OIDN" tests/bench/results/oidn.py "$work/oidn"
+            raw=$(relmse "$work/oidn_raw.pfm" "$reference")
+            ours=$(relmse "$work/oidn_filtered.pfm" "$reference")
+            theirs=$(relmse "$work/oidn_oidn.pfm" "$reference")
+            echo "$scene,$n,$raw,$ours,$theirs"
+        done
+    done | save oidn 'scene,samples per pixel,relMSE raw,filtered by glim,by OIDN'
+}
+
+# Sets `log` to the output of `make stress`, or of one of its checks.
+stress_log() { # [CHECK]
+    log=${STRESS_LOG:-}
+    [ -z "$log" ] || return 0
+    log=$cache/stress${1:+_$1}.log
+    say "runs make stress FILTER=${1:-}"
+    FILTER=${1:-} tests/stress/run.sh >"$log" || :
+}
+
+# Counts of each check: its program, or the first word of its lines.
+measure_stress() {
+    stress_log
+    awk '$1 == "--" { name = $2; next }
+        /^(ok|FAIL) (C5|keys|oclgrind|valgrind)/ {
+            name = $2 == "C5" ? "sizes" : $2
+            sub(/,.*/, "", name)
+        }
+        /^(ok|FAIL) / {
+            if (!(name in all)) order[++names] = name
+            all[name]++
+            if ($1 == "ok") ok[name]++
+        }
+        END { for (i = 1; i <= names; i++) {
+            name = order[i]
+            printf "%s,%d,%d\n", name, all[name], ok[name] } }' "$log" |
+        save stress 'check,cases,passed'
+}
+
+measure_calibration() {
+    stress_log error
+    sed -n 's/^\(ok\|FAIL\) \([a-z_0-9]*\): \([a-z ]*\) at \([0-9.]*\) spp: \([0-9]*\) of \([0-9]*\) inside (\([0-9.]*\) .*error \([0-9.]*\) %.*true \([0-9.]*\) %.*/\2,\3,\4,\5,\6,\7,\8,\9/p' "$log" |
+        awk -F, '{ printf "%s,%s,%s,%s %%,%s %%,%d,%s\n", $1, $2, $3, $8, $9, $6,
+            $6 < 100 ? "unresolved" : $7 " %" }' |
+        save calibration 'scene,moment,samples per pixel,stated error,true error,resolved of 200,true error inside'
+}
+
+measure_filter() {
+    stress_log filter
+    sed -n 's|^\(ok\|FAIL\) filter: scenes/\([a-z_0-9]*\).obj, \([0-9]*\) spp: relMSE \([0-9.e+-]*\), filtered \([0-9.e+-]*\), own \([0-9.e+-]*\);.*|\2,\3,\4,\5,\6|p' "$log" |
+        save filter 'scene,samples per pixel,relMSE raw,filtered,own error of the reference'
+}
+
+machine=$(machine)
+for section in $sections; do
+    [ -z "$filter" ] || [ "$filter" = "$section" ] || continue
+    say "$section"
+    "measure_$section"
+done
