@@ -257,17 +257,20 @@ static double top_weight(const struct total *t, double pixels)
     return t->squares > 0 ? sum / t->squares : 0;
 }
 
+/* Share of the fourth moment in mean_variance_squared(). */
+#define FOURTHS_SHARE 0.45
+
 /* Returns the mean over the pixels of the square of their variance, which the
  * interval needs. It is a third of the fourth moment where errors are normal,
  * less where they are not. The product of neighbours' squares has it as its
- * mean where variances of neighbours are equal, and is lower elsewhere. The
- * mean of the two is close in practice (tests/stress/error.c). */
+ * mean where variances of neighbours are equal, and is lower elsewhere. A
+ * number between the two is close in practice (tests/stress/error.c). */
 static double mean_variance_squared(const struct total *t, double pixels)
 {
     double high = t->fourths / 3 / pixels;
     double low = t->pair_count > 0 ? t->neighbours / t->pair_count : high;
 
-    return (low + high) / 2;
+    return low + FOURTHS_SHARE * (high - low);
 }
 
 static struct film_error conclude(const struct total *t, double pixels)
@@ -283,7 +286,7 @@ static struct film_error conclude(const struct total *t, double pixels)
         .is_resolved = top_weight(t, pixels) <= TOP_WEIGHT,
         .error = sqrt(mean),
         .low = sqrt(fmax(0, mean - QUANTILE * deviation)),
-        .high = sqrt(mean + QUANTILE * deviation),
+        .high = mean > 0 ? sqrt(mean * exp(QUANTILE * deviation / mean)) : 0,
     };
 }
 

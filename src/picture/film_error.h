@@ -17,7 +17,9 @@
  * The estimate is the mean of e^2 with the same weights. It differs from the
  * error of this very picture by the mean of the products of the errors of a and
  * b, because (x - truth)^2 - e^2 is that product. Its variance gives the
- * interval.
+ * interval. The lower end is below the estimate by a difference, the upper one
+ * above it by a factor: where few pixels carry the error, estimates are mostly
+ * a little too low and seldom much too high.
  *
  * Threads:   any; rows of the film are locked
  */

@@ -89,12 +89,14 @@ static struct render_progress finish(struct stress_scene *s)
     return p;
 }
 
+/* Renders with a limit of the error are adaptive, as with -e. */
 static void start(struct stress_scene *s, struct series *of, uint32_t seed,
-                  uint64_t spp)
+                  struct render_limits limits)
 {
     struct render_job job = {.host = &of->host,
                              .crop = {0, 0, WIDTH, HEIGHT},
-                             .limits.spp = spp,
+                             .limits = limits,
+                             .is_adaptive = limits.error > 0,
                              .exposure = (float)of->view.lighting.exposure};
     struct error err;
 
@@ -113,21 +115,22 @@ static void take(struct stress_scene *s, struct picture *to,
     film_linear(render_film(s->render), to->rgb);
 }
 
-/* Renders with one seed, halting at each moment. */
+/* Renders with one seed: to each number of samples, and to the target. */
 static void render_one(struct stress_scene *s, struct series *of, int i)
 {
+    const uint32_t seed = (uint32_t)i + 1;
     struct render_progress p;
 
-    start(s, of, (uint32_t)i + 1, FIRST_SPP);
+    start(s, of, seed, (struct render_limits){.spp = FIRST_SPP});
     p = finish(s);
     take(s, &of->pictures[MOMENT_FIRST][i], &p);
-    render_resume(s->render,
-                  (struct render_limits){.spp = LAST_SPP, .error = of->target});
-    p = finish(s);
-    take(s, &of->pictures[MOMENT_STOP][i], &p);
     render_resume(s->render, (struct render_limits){.spp = LAST_SPP});
     p = finish(s);
     take(s, &of->pictures[MOMENT_LAST][i], &p);
+    start(s, of, seed,
+          (struct render_limits){.spp = LAST_SPP, .error = of->target});
+    p = finish(s);
+    take(s, &of->pictures[MOMENT_STOP][i], &p);
 }
 
 /* Returns a target that about half of the renders reach at TARGET_SPP, because
@@ -137,7 +140,8 @@ static double find_target(struct stress_scene *s, struct series *of)
     double sum = 0;
 
     for (uint32_t i = 0; i < TARGET_SEEDS; i++) {
-        start(s, of, RENDERS + 1 + i, TARGET_SPP);
+        start(s, of, RENDERS + 1 + i,
+              (struct render_limits){.spp = TARGET_SPP, .error = 1e-9});
         sum += finish(s).film_error.high;
     }
     return sum / TARGET_SEEDS;
