@@ -11,10 +11,12 @@
  * 1, 2, 4, ... pixels in FILTER_LEVELS turns.
  *
  * A level computes, for each pixel p and each of eight pixels q,
- *     filter_channel_distance() of three channels, summed over the 3x3 pixels
- *         around p, and filter_light_distance() of the sum;
+ *     filter_pixel_distance() of their light, summed over the 3x3 pixels around
+ *         p, and filter_light_distance() of the sum;
  *     filter_feature_distance() of squared differences of features;
  *     filter_weight() of both.
+ * All are the same for q and p. Pixels outside of the picture have weight 0.
+ * Variances and squared differences are sums over three channels.
  *
  * Units: light scaled by a power of two so that its greatest number is about
  *        2^FILTER_TOP; features divided by the differences that are edges
@@ -48,36 +50,33 @@
 #define FILTER_NORMAL_SCALE 1.7677670f /* 1 / (sqrt(2) * .4) */
 #define FILTER_DEPTH_SCALE  5.0f       /* 1 / .2 */
 
-/* Returns the variance of both halves from the sum of (a - b)^2 over 5x5
- * pixels. */
+/* Returns the variance of both halves from the sum of (a - b)^2 over 5x5 pixels
+ * and the channels. */
 static inline float filter_variance(float sum)
 {
     return sum * (1.0f / 50.0f);
 }
 
 /* Returns the squared difference of light at p and q without the part that
- * noise explains, in units of their variances vp and vq. */
-static inline float filter_channel_distance(float p, float q, float vp,
-                                            float vq)
+ * noise explains, in units of their variances vp and vq. If one of them is
+ * larger, the light is not trusted to be the same. */
+static inline float filter_pixel_distance(float square, float vp, float vq)
 {
-    float difference = p - q;
-
-    return (difference * difference - (vp + f_min(vp, vq))) /
+    return (square - 2.0f * f_min(vp, vq)) /
            (FILTER_VARIANCE_MIN + FILTER_NOISE * (vp + vq));
 }
 
-/* Returns the distance from the sum of channel distances over three channels
- * and 3x3 pixels. */
+/* Returns the distance from the sum of pixel distances over 3x3 pixels. */
 static inline float filter_light_distance(float sum)
 {
-    return f_max(sum * (1.0f / 27.0f), 0.0f);
+    return f_max(sum * (1.0f / 9.0f), 0.0f);
 }
 
 /* Returns the distance of features whose squared difference is `square`. np and
  * nq are the variances of the means of p and q. */
 static inline float filter_feature_distance(float square, float np, float nq)
 {
-    return f_max((square - (np + f_min(np, nq))) / (1.0f + (np + nq)), 0.0f);
+    return f_max((square - 2.0f * f_min(np, nq)) / (1.0f + (np + nq)), 0.0f);
 }
 
 /* Returns the weight of q: tap * exp(-distance), nearly, and 0 from a distance

@@ -8,8 +8,9 @@
 #include "base/memory.h"
 #include "filter/filter_dispatch.h"
 
-/* Planes of two copies of two halves, features with their noise, and counts. */
-#define PLANES (2 * 12 + FILTER_FEATURES + 1 + 2)
+/* Planes of two copies of two halves, weights, features with their noise, and
+ * counts. */
+#define PLANES (2 * 8 + 2 * FILTER_PAIRS + FILTER_FEATURES + 1 + 2)
 
 /* One run of the filter, for workers. */
 struct job {
@@ -58,11 +59,14 @@ bool filter_init(struct filter *f, int width, int height, struct error *err)
     p->pitch = width + 2 * FILTER_PAD;
     next = f->memory;
     for (int i = 0; i < 2; i++)
-        for (int h = 0; h < 2; h++)
-            for (int c = 0; c < 3; c++) {
+        for (int h = 0; h < 2; h++) {
+            for (int c = 0; c < 3; c++)
                 p->halves[i].light[h][c] = take(p, &next);
-                p->halves[i].variance[h][c] = take(p, &next);
-            }
+            p->halves[i].variance[h] = take(p, &next);
+        }
+    for (int h = 0; h < 2; h++)
+        for (int k = 0; k < FILTER_PAIRS; k++)
+            p->weights[h][k] = take(p, &next);
     for (int i = 0; i < FILTER_FEATURES; i++)
         p->features[i] = take(p, &next);
     p->feature_noise = take(p, &next);
@@ -293,13 +297,22 @@ static void run_variance(void *context, uint32_t item, int worker)
     f->loops->variance(&f->planes, tile_at(&f->planes, item));
 }
 
-static void run_level(void *context, uint32_t item, int worker)
+static void run_weights(void *context, uint32_t item, int worker)
 {
     struct job *j = context;
     const struct filter *f = j->filter;
 
     (void)worker;
-    f->loops->level(&f->planes, tile_at(&f->planes, item), j->from, j->step);
+    f->loops->weigh(&f->planes, tile_at(&f->planes, item), j->from, j->step);
+}
+
+static void run_average(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter *f = j->filter;
+
+    (void)worker;
+    f->loops->average(&f->planes, tile_at(&f->planes, item), j->from, j->step);
 }
 
 /* Adds a row of the filtered component to the picture. */
@@ -342,7 +355,8 @@ static void run_component(struct job *j, int levels, struct pool *pool)
     j->from = 0;
     for (int l = 0; l < levels; l++, j->from = 1 - j->from) {
         j->step = 1 << l;
-        pool_each(pool, tile_count(p), run_level, j);
+        pool_each(pool, tile_count(p), run_weights, j);
+        pool_each(pool, tile_count(p), run_average, j);
     }
     pool_each(pool, rows, add_row, j);
 }

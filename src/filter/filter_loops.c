@@ -9,98 +9,98 @@
 #define LOOPS filter_loops_plain
 #endif
 
-enum { WIDTH = FILTER_TILE_WIDTH, HEIGHT = FILTER_TILE_HEIGHT, TAPS = 8 };
+enum {
+    WIDTH = FILTER_TILE_WIDTH,
+    HEIGHT = FILTER_TILE_HEIGHT,
+    PAIRS = FILTER_PAIRS,
+    TAPS = 2 * PAIRS
+};
 
 /* Values of a tile's pixels, and of the rows above and below. */
 typedef float tile_rows[HEIGHT + 2][WIDTH];
 
-/* Weights of the eight pixels around each pixel of a row. */
-typedef float row_weights[TAPS][WIDTH];
-
+/* A tile, and the halves that a level reads. */
 struct tile {
     const struct filter_planes *planes;
-    struct filter_tile at;
-    int step;
     const struct filter_halves *from;
-    row_weights weights[2][HEIGHT]; /* from the light of each half */
+    struct filter_tile at;
 };
 
-/* Returns the k-th of the eight pixels around the middle: -1, 0 or 1. */
-static inline int tap_x(int k)
-{
-    return (k < 4 ? k : k + 1) % 3 - 1;
-}
-
-static inline int tap_y(int k)
-{
-    return (k < 4 ? k : k + 1) / 3 - 1;
-}
+/* The other pixel of pair k, as seen from the first one. */
+static const struct {
+    int x, y;
+    float tap;
+} pairs[PAIRS] = {{1, 0, 0.125f},
+                  {-1, 1, 0.0625f},
+                  {0, 1, 0.125f},
+                  {1, 1, 0.0625f}};
 
 static ptrdiff_t index_of(const struct filter_planes *p, int x, int y)
 {
     return y * p->pitch + x;
 }
 
-/* Adds the channel distances of the pixels at x - 1 to x + width and those
- * `away` from them. */
-VECTORISED static void add_channel(const float *restrict light,
-                                   const float *restrict variance,
-                                   ptrdiff_t away, int width,
-                                   float *restrict sum)
+/* ---- weights ---- */
+
+/* Computes the distances of the pixels at x - 1 to x + width and those `away`
+ * from them. */
+VECTORISED static void
+pixel_distances(const float *restrict r, const float *restrict g,
+                const float *restrict b, const float *restrict variance,
+                ptrdiff_t away, int width, float *restrict distance)
 {
-    for (int x = -1; x <= width; x++)
-        sum[x + 1] += filter_channel_distance(light[x], light[x + away],
-                                              variance[x], variance[x + away]);
+    for (int x = -1; x <= width; x++) {
+        float dr = r[x] - r[x + away];
+        float dg = g[x] - g[x + away];
+        float db = b[x] - b[x + away];
+
+        distance[x + 1] =
+            filter_pixel_distance(dr * dr + dg * dg + db * db, variance[x],
+                                  variance[x + away]);
+    }
 }
 
-/* Computes channel distances of half h, summed over channels and three pixels
- * of a row, for all rows of the tile and their neighbours. */
+VECTORISED static void add_three(const float *restrict from, int width,
+                                 float *restrict to)
+{
+    for (int x = 0; x < width; x++)
+        to[x] = from[x] + from[x + 1] + from[x + 2];
+}
+
+/* Computes distances of light of half h, summed over three pixels of a row, for
+ * all rows of the tile and their neighbours. */
 static void row_distances(const struct tile *t, int h, ptrdiff_t away,
                           tile_rows rows)
 {
     for (int y = -1; y <= t->at.height; y++) {
         ptrdiff_t at = index_of(t->planes, t->at.x, t->at.y + y);
-        float *row = rows[y + 1];
-        float sum[WIDTH + 2] = {0};
+        float distance[WIDTH + 2];
 
-        for (int c = 0; c < 3; c++)
-            add_channel(t->from->light[h][c] + at, t->from->variance[h][c] + at,
-                        away, t->at.width, sum);
-        for (int x = 0; x < t->at.width; x++)
-            row[x] = sum[x] + sum[x + 1] + sum[x + 2];
+        pixel_distances(t->from->light[h][0] + at, t->from->light[h][1] + at,
+                        t->from->light[h][2] + at, t->from->variance[h] + at,
+                        away, t->at.width, distance);
+        add_three(distance, t->at.width, rows[y + 1]);
     }
-}
-
-/* Adds the squared differences of a feature of the pixels and those `away` from
- * them. */
-VECTORISED static void add_feature(const float *restrict feature,
-                                   ptrdiff_t away, int width,
-                                   float *restrict sum)
-{
-    for (int x = 0; x < width; x++) {
-        float difference = feature[x] - feature[x + away];
-
-        sum[x] += difference * difference;
-    }
-}
-
-VECTORISED static void subtract_noise(const float *restrict noise,
-                                      ptrdiff_t away, int width,
-                                      float *restrict distance)
-{
-    for (int x = 0; x < width; x++)
-        distance[x] =
-            filter_feature_distance(distance[x], noise[x], noise[x + away]);
 }
 
 /* Computes the distances of features of a row and the row `away`. */
-static void feature_row(const struct filter_planes *p, ptrdiff_t at,
-                        ptrdiff_t away, int width, float *distance)
+VECTORISED static void feature_distances(float *const features[FILTER_FEATURES],
+                                         const float *restrict noise,
+                                         ptrdiff_t at, ptrdiff_t away,
+                                         int width, float *restrict distance)
 {
-    memset(distance, 0, (size_t)width * sizeof *distance);
+    const float *restrict f[FILTER_FEATURES];
+
     for (int i = 0; i < FILTER_FEATURES; i++)
-        add_feature(p->features[i] + at, away, width, distance);
-    subtract_noise(p->feature_noise + at, away, width, distance);
+        f[i] = features[i] + at;
+    noise += at;
+    for (int x = 0; x < width; x++) {
+        float sum = 0.0f;
+
+        for (int i = 0; i < FILTER_FEATURES; i++)
+            sum += (f[i][x] - f[i][x + away]) * (f[i][x] - f[i][x + away]);
+        distance[x] = filter_feature_distance(sum, noise[x], noise[x + away]);
+    }
 }
 
 VECTORISED static void weight_row(const float *restrict above,
@@ -116,116 +116,173 @@ VECTORISED static void weight_row(const float *restrict above,
                           features[x]);
 }
 
-/* Computes the weights of tap k by the light of each half. */
-static void weigh_tap(struct tile *t, int k)
+/* Computes the weights of pair k, both pixels of which are in the picture. */
+static void weigh_pairs(const struct tile *t, int k, ptrdiff_t away)
 {
-    float tap = 1.0f / (float)(4 << (tap_x(k) != 0) << (tap_y(k) != 0));
-    ptrdiff_t away = index_of(t->planes, tap_x(k), tap_y(k)) * t->step;
     tile_rows distances[2];
 
     for (int h = 0; h < 2; h++)
         row_distances(t, h, away, distances[h]);
     for (int y = 0; y < t->at.height; y++) {
+        ptrdiff_t at = index_of(t->planes, t->at.x, t->at.y + y);
         float features[WIDTH];
 
-        feature_row(t->planes, index_of(t->planes, t->at.x, t->at.y + y), away,
-                    t->at.width, features);
+        feature_distances(t->planes->features, t->planes->feature_noise, at,
+                          away, t->at.width, features);
         for (int h = 0; h < 2; h++) {
             float(*rows)[WIDTH] = distances[h] + y;
 
-            weight_row(rows[0], rows[1], rows[2], features, tap, t->at.width,
-                       t->weights[h][y][k]);
+            weight_row(rows[0], rows[1], rows[2], features, pairs[k].tap,
+                       t->at.width, t->planes->weights[h][k] + at);
         }
     }
 }
 
-static void weight_sums(const row_weights weights, int width,
-                        float *restrict inverse)
+/* Sets the weights of a tile to 0. */
+static void clear(const struct filter_planes *p, struct filter_tile t, int k)
 {
-    for (int x = 0; x < width; x++)
-        inverse[x] = FILTER_CENTRE;
-    for (int k = 0; k < TAPS; k++)
-        for (int x = 0; x < width; x++)
-            inverse[x] += weights[k][x];
-    for (int x = 0; x < width; x++)
-        inverse[x] = 1.0f / inverse[x];
+    for (int y = t.y; y < t.y + t.height; y++)
+        for (int h = 0; h < 2; h++)
+            memset(p->weights[h][k] + index_of(p, t.x, y), 0,
+                   (size_t)t.width * sizeof(float));
 }
 
-/* Adds the weighted light and variance of one pixel in eight. */
-VECTORISED static void add_tap(const float *restrict light,
-                               const float *restrict variance,
-                               const float *restrict weights, int width,
-                               float *restrict u, float *restrict v)
+static int smaller(int a, int b)
 {
-    for (int x = 0; x < width; x++) {
-        u[x] += weights[x] * light[x];
-        v[x] += weights[x] * weights[x] * variance[x];
+    return a < b ? a : b;
+}
+
+static int larger(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+static void weigh(const struct filter_planes *p, struct filter_tile at,
+                  int from, int step)
+{
+    for (int k = 0; k < PAIRS; k++) {
+        int dx = pairs[k].x * step, dy = pairs[k].y * step;
+        int left = larger(at.x, -dx);
+        int right = smaller(at.x + at.width, p->width - larger(dx, 0));
+        int bottom = smaller(at.y + at.height, p->height - dy);
+        struct tile t = {p,
+                         &p->halves[from],
+                         {left, at.y, right - left, bottom - at.y}};
+
+        if (t.at.width < at.width || t.at.height < at.height)
+            clear(p, at, k);
+        if (t.at.width > 0 && t.at.height > 0)
+            weigh_pairs(&t, k, index_of(p, dx, dy));
     }
 }
 
-/* Averages a row of one channel's light and variance. */
-VECTORISED static void
-average_row(const float *restrict light, const float *restrict variance,
-            const ptrdiff_t away[TAPS], const row_weights weights,
-            const float *restrict inverse, int width, float *restrict light_to,
-            float *restrict variance_to)
+/* ---- averages ---- */
+
+/* The eight pixels around each pixel of a row. */
+struct taps {
+    ptrdiff_t away[TAPS];
+    const float *weights[TAPS];
+};
+
+VECTORISED static void inverse_sums(const struct taps *t, int width,
+                                    float *restrict inverse)
 {
-    float u[WIDTH], v[WIDTH];
+    const struct taps taps = *t;
 
     for (int x = 0; x < width; x++) {
-        u[x] = FILTER_CENTRE * light[x];
-        v[x] = FILTER_CENTRE * FILTER_CENTRE * variance[x];
+        float sum = FILTER_CENTRE;
+
+        for (int k = 0; k < TAPS; k++)
+            sum += taps.weights[k][x];
+        inverse[x] = 1.0f / sum;
     }
-    for (int k = 0; k < TAPS; k++)
-        add_tap(light + away[k], variance + away[k], weights[k], width, u, v);
+}
+
+VECTORISED static void average_light(const struct taps *t,
+                                     const float *restrict light,
+                                     const float *restrict inverse, int width,
+                                     float *restrict to)
+{
+    const struct taps taps = *t;
+
     for (int x = 0; x < width; x++) {
-        light_to[x] = u[x] * inverse[x];
-        variance_to[x] = v[x] * (inverse[x] * inverse[x]);
+        float sum = FILTER_CENTRE * light[x];
+
+        for (int k = 0; k < TAPS; k++)
+            sum += taps.weights[k][x] * light[x + taps.away[k]];
+        to[x] = sum * inverse[x];
     }
+}
+
+VECTORISED static void average_variance(const struct taps *t,
+                                        const float *restrict variance,
+                                        const float *restrict inverse,
+                                        int width, float *restrict to)
+{
+    const struct taps taps = *t;
+
+    for (int x = 0; x < width; x++) {
+        float sum = FILTER_CENTRE * FILTER_CENTRE * variance[x];
+
+        for (int k = 0; k < TAPS; k++)
+            sum += taps.weights[k][x] * taps.weights[k][x] *
+                   variance[x + taps.away[k]];
+        to[x] = sum * (inverse[x] * inverse[x]);
+    }
+}
+
+/* Returns the pixels around those of row `at` with the weights of half h: each
+ * pair, and the pairs whose second pixel they are. */
+static struct taps taps_of(const struct filter_planes *p, int h, ptrdiff_t at,
+                           int step)
+{
+    struct taps t;
+
+    for (int k = 0; k < PAIRS; k++) {
+        ptrdiff_t away = index_of(p, pairs[k].x * step, pairs[k].y * step);
+
+        t.away[k] = away;
+        t.weights[k] = p->weights[h][k] + at;
+        t.away[PAIRS + k] = -away;
+        t.weights[PAIRS + k] = p->weights[h][k] + at - away;
+    }
+    return t;
 }
 
 /* Averages half h with the weights of the other half. */
-static void average_half(const struct tile *t, int h,
+static void average_half(const struct tile *t, int h, int step,
                          const struct filter_halves *to)
 {
-    ptrdiff_t away[TAPS];
-
-    for (int k = 0; k < TAPS; k++)
-        away[k] = index_of(t->planes, tap_x(k), tap_y(k)) * t->step;
     for (int y = 0; y < t->at.height; y++) {
         ptrdiff_t at = index_of(t->planes, t->at.x, t->at.y + y);
-        const float(*weights)[WIDTH] =
-            (const float(*)[WIDTH])t->weights[1 - h][y];
+        struct taps taps = taps_of(t->planes, 1 - h, at, step);
         float inverse[WIDTH];
 
-        weight_sums(weights, t->at.width, inverse);
+        inverse_sums(&taps, t->at.width, inverse);
         for (int c = 0; c < 3; c++)
-            average_row(t->from->light[h][c] + at, t->from->variance[h][c] + at,
-                        away, weights, inverse, t->at.width,
-                        to->light[h][c] + at, to->variance[h][c] + at);
+            average_light(&taps, t->from->light[h][c] + at, inverse,
+                          t->at.width, to->light[h][c] + at);
+        average_variance(&taps, t->from->variance[h] + at, inverse, t->at.width,
+                         to->variance[h] + at);
     }
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 3; c++)
         filter_extend(t->planes, to->light[h][c], t->at);
-        filter_extend(t->planes, to->variance[h][c], t->at);
-    }
+    filter_extend(t->planes, to->variance[h], t->at);
 }
 
-static void level(const struct filter_planes *p, struct filter_tile at,
-                  int from, int step)
+static void average(const struct filter_planes *p, struct filter_tile at,
+                    int from, int step)
 {
-    struct tile t = {.planes = p,
-                     .at = at,
-                     .step = step,
-                     .from = &p->halves[from]};
+    struct tile t = {p, &p->halves[from], at};
 
-    for (int k = 0; k < TAPS; k++)
-        weigh_tap(&t, k);
     for (int h = 0; h < 2; h++)
-        average_half(&t, h, &p->halves[1 - from]);
+        average_half(&t, h, step, &p->halves[1 - from]);
 }
 
-/* Computes (a - b)^2, summed over five pixels of a row. */
-VECTORISED static void spread_row(const float *restrict a,
+/* ---- variance ---- */
+
+/* Adds (a - b)^2, summed over five pixels of a row. */
+VECTORISED static void add_spread(const float *restrict a,
                                   const float *restrict b, int width,
                                   float *restrict sum)
 {
@@ -234,36 +291,35 @@ VECTORISED static void spread_row(const float *restrict a,
     for (int x = 0; x < width + 4; x++)
         square[x] = (a[x - 2] - b[x - 2]) * (a[x - 2] - b[x - 2]);
     for (int x = 0; x < width; x++)
-        sum[x] = square[x] + square[x + 1] + square[x + 2] + square[x + 3] +
-                 square[x + 4];
+        sum[x] += square[x] + square[x + 1] + square[x + 2] + square[x + 3] +
+                  square[x + 4];
 }
 
 static void variance(const struct filter_planes *p, struct filter_tile t)
 {
     const struct filter_halves *s = &p->halves[0];
-    float rows[HEIGHT + 4][WIDTH];
+    float rows[HEIGHT + 4][WIDTH] = {{0}};
 
-    for (int c = 0; c < 3; c++) {
-        for (int y = 0; y < t.height + 4; y++) {
-            ptrdiff_t at = index_of(p, t.x, t.y + y - 2);
+    for (int y = 0; y < t.height + 4; y++) {
+        ptrdiff_t at = index_of(p, t.x, t.y + y - 2);
 
-            spread_row(s->light[0][c] + at, s->light[1][c] + at, t.width,
+        for (int c = 0; c < 3; c++)
+            add_spread(s->light[0][c] + at, s->light[1][c] + at, t.width,
                        rows[y]);
-        }
-        for (int y = 0; y < t.height; y++) {
-            ptrdiff_t at = index_of(p, t.x, t.y + y);
-            float *restrict a = s->variance[0][c] + at;
-            float *restrict b = s->variance[1][c] + at;
-
-            for (int x = 0; x < t.width; x++)
-                a[x] = b[x] = filter_variance(rows[y][x] + rows[y + 1][x] +
-                                              rows[y + 2][x] + rows[y + 3][x] +
-                                              rows[y + 4][x]);
-        }
-        filter_extend(p, s->variance[0][c], t);
-        filter_extend(p, s->variance[1][c], t);
     }
+    for (int y = 0; y < t.height; y++) {
+        ptrdiff_t at = index_of(p, t.x, t.y + y);
+        float *restrict a = s->variance[0] + at;
+        float *restrict b = s->variance[1] + at;
+
+        for (int x = 0; x < t.width; x++)
+            a[x] = b[x] =
+                filter_variance(rows[y][x] + rows[y + 1][x] + rows[y + 2][x] +
+                                rows[y + 3][x] + rows[y + 4][x]);
+    }
+    filter_extend(p, s->variance[0], t);
+    filter_extend(p, s->variance[1], t);
 }
 
 extern const struct filter_loops LOOPS;
-const struct filter_loops LOOPS = {variance, level};
+const struct filter_loops LOOPS = {variance, weigh, average};

@@ -18,9 +18,15 @@ struct filter_loops {
     /* Computes the variances of halves[0] from its light. */
     void (*variance)(const struct filter_planes *p, struct filter_tile t);
 
-    /* Filters halves[from] into halves[1 - from] with the given step. */
-    void (*level)(const struct filter_planes *p, struct filter_tile t, int from,
+    /* Computes the weights of the pixels of halves[from] with those at a
+     * distance of `step`. */
+    void (*weigh)(const struct filter_planes *p, struct filter_tile t, int from,
                   int step);
+
+    /* Filters halves[from] into halves[1 - from] with the weights of all
+     * tiles. */
+    void (*average)(const struct filter_planes *p, struct filter_tile t,
+                    int from, int step);
 };
 
 #endif

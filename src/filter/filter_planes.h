@@ -2,8 +2,9 @@
 /*
  * filter_planes.h - arrays of the denoising filter
  *
- * A plane is a float for each pixel, with copies of the outermost pixels around
- * the picture, so that loops need no limits.
+ * A plane is a float for each pixel, with room around the picture that loops
+ * may read. The pixels beside the picture are copies of the outermost ones;
+ * weights outside of it are 0.
  *
  * Units:     as kernels/filter.h
  * Ownership: the planes are the filter's
@@ -16,8 +17,15 @@
 
 #include "kernels/filter.h"
 
-/* Copied pixels on each side: the largest step, and one for 3x3 pixels. */
+/* Room on each side: the largest step, and one pixel for 3x3. */
 #define FILTER_PAD ((1 << (FILTER_LEVELS - 1)) + 1)
+
+/* Copied pixels on each side, for 5x5 pixels. */
+#define FILTER_COPIES 2
+
+/* Pairs of pixels: each has a weight with the one to the right, and with three
+ * of the row below. */
+#define FILTER_PAIRS 4
 
 /* Albedo, normal and depth. */
 #define FILTER_FEATURES 7
@@ -30,13 +38,15 @@
 /* Both halves: light and the variance of its noise. */
 struct filter_halves {
     float *light[2][3];
-    float *variance[2][3];
+    float *variance[2];
 };
 
 struct filter_planes {
     int width, height;
-    ptrdiff_t pitch;                  /* floats from a row to the next */
-    struct filter_halves halves[2];   /* a level reads one, writes the other */
+    ptrdiff_t pitch;                /* floats from a row to the next */
+    struct filter_halves halves[2]; /* a level reads one, writes the other */
+    /* of a level, from the light of each half */
+    float *weights[2][FILTER_PAIRS];
     float *features[FILTER_FEATURES]; /* scaled by FILTER_x_SCALE */
     float *feature_noise; /* variance of the mean, summed over features */
 };

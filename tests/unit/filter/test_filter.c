@@ -306,7 +306,7 @@ static void noise_of_features_is_no_edge(void **state)
 struct truth {
     const struct picture *p;
     double light[2][3][64 * 64];
-    double variance[2][3][64 * 64];
+    double variance[2][64 * 64]; /* summed over channels */
     double depth_scale;
 };
 
@@ -321,23 +321,25 @@ static int at(const struct truth *t, int x, int y)
 }
 
 /* The distance of half h between the pixels around (x, y) and those a step
- * away. Pixels outside of the picture are copies of those at its edge. */
+ * away. Pixels beside the picture are copies of those at its edge. */
 static double light_distance(const struct truth *t, int h, int x, int y, int dx,
                              int dy)
 {
     double sum = 0;
 
     for (int j = y - 1; j <= y + 1; j++)
-        for (int i = x - 1; i <= x + 1; i++)
-            for (int c = 0; c < 3; c++) {
-                double e = t->light[h][c][at(t, i, j)] -
-                           t->light[h][c][at(t, i + dx, j + dy)];
-                double vp = t->variance[h][c][at(t, i, j)];
-                double vq = t->variance[h][c][at(t, i + dx, j + dy)];
+        for (int i = x - 1; i <= x + 1; i++) {
+            double vp = t->variance[h][at(t, i, j)];
+            double vq = t->variance[h][at(t, i + dx, j + dy)];
+            double square = 0;
 
-                sum += (e * e - vp - fmin(vp, vq)) / (1e-40 + 2.56 * (vp + vq));
-            }
-    return fmax(sum / 27, 0);
+            for (int c = 0; c < 3; c++)
+                square += pow(t->light[h][c][at(t, i, j)] -
+                                  t->light[h][c][at(t, i + dx, j + dy)],
+                              2);
+            sum += (square - 2 * fmin(vp, vq)) / (1e-40 + 2.56 * (vp + vq));
+        }
+    return fmax(sum / 9, 0);
 }
 
 static double feature_distance(const struct truth *t, int p, int q)
@@ -366,7 +368,7 @@ static void truth_level(const struct truth *from, struct truth *to, int step)
     for (int h = 0; h < 2; h++)
         for (int i = 0; i < p->width * p->height; i++) {
             int x = i % p->width, y = i / p->width;
-            double light[3] = {0}, variance[3] = {0}, all = 0;
+            double light[3] = {0}, variance = 0, all = 0;
 
             for (int k = 0; k < 9; k++) {
                 int dx = (k % 3 - 1) * step, dy = (k / 3 - 1) * step;
@@ -376,16 +378,17 @@ static void truth_level(const struct truth *from, struct truth *to, int step)
                 double w = tap[k % 3] * tap[k / 3];
 
                 w *= k == 4 ? 1 : pow(fmax(1 - d / 16, 0), 16);
+                if (x + dx < 0 || x + dx >= p->width || y + dy < 0 ||
+                    y + dy >= p->height)
+                    w = 0;
                 all += w;
-                for (int c = 0; c < 3; c++) {
+                for (int c = 0; c < 3; c++)
                     light[c] += w * from->light[h][c][q];
-                    variance[c] += w * w * from->variance[h][c][q];
-                }
+                variance += w * w * from->variance[h][q];
             }
-            for (int c = 0; c < 3; c++) {
+            for (int c = 0; c < 3; c++)
                 to->light[h][c][i] = light[c] / all;
-                to->variance[h][c][i] = variance[c] / (all * all);
-            }
+            to->variance[h][i] = variance / (all * all);
         }
 }
 
@@ -402,18 +405,17 @@ static void truth_begin(struct truth *t, const struct picture *p)
                     p->light[0][h][i][c] / (p->features[i][c] + 1e-3);
     }
     t->depth_scale = p->width * p->height / (0.2 * depths);
-    for (int i = 0; i < p->width * p->height; i++)
-        for (int c = 0; c < 3; c++) {
-            double sum = 0;
+    for (int i = 0; i < p->width * p->height; i++) {
+        double sum = 0;
 
-            for (int k = 0; k < 25; k++) {
-                int q =
-                    at(t, i % p->width + k % 5 - 2, i / p->width + k / 5 - 2);
+        for (int k = 0; k < 3 * 25; k++) {
+            int q =
+                at(t, i % p->width + k / 3 % 5 - 2, i / p->width + k / 15 - 2);
 
-                sum += pow(t->light[0][c][q] - t->light[1][c][q], 2) / 2;
-            }
-            t->variance[0][c][i] = t->variance[1][c][i] = sum / 25;
+            sum += pow(t->light[0][k % 3][q] - t->light[1][k % 3][q], 2) / 2;
         }
+        t->variance[0][i] = t->variance[1][i] = sum / 25;
+    }
 }
 
 /* The filter computes its definition, at sizes below and above the steps. */

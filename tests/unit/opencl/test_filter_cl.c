@@ -24,7 +24,7 @@ static const char text[] =
     "    in += 6 * i;\n"
     "    out += 5 * i;\n"
     "    out[0] = filter_variance(in[0]);\n"
-    "    out[1] = filter_channel_distance(in[0], in[1], in[2], in[3]);\n"
+    "    out[1] = filter_pixel_distance(in[0], in[2], in[3]);\n"
     "    out[2] = filter_light_distance(in[4]);\n"
     "    out[3] = filter_feature_distance(in[0], in[2], in[3]);\n"
     "    out[4] = filter_weight(0.125f, in[0], in[5]);\n"
@@ -33,7 +33,7 @@ static const char text[] =
 static void compute(const float *in, float *out)
 {
     out[0] = filter_variance(in[0]);
-    out[1] = filter_channel_distance(in[0], in[1], in[2], in[3]);
+    out[1] = filter_pixel_distance(in[0], in[2], in[3]);
     out[2] = filter_light_distance(in[4]);
     out[3] = filter_feature_distance(in[0], in[2], in[3]);
     out[4] = filter_weight(0.125f, in[0], in[5]);
