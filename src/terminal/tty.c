@@ -198,6 +198,29 @@ static bool is_inside_another(void)
     return (tmux && tmux[0]) || (sty && sty[0]);
 }
 
+/* Writes to the terminal. If it ends early, a signal that stops the program
+ * cuts the text where a full terminal would make it wait. */
+static bool write_bytes(const char *bytes, size_t size_bytes, bool ends_early)
+{
+    while (size_bytes > 0) {
+        ssize_t count = write(STDOUT_FILENO, bytes, size_bytes);
+
+        if (count >= 0) {
+            bytes += count;
+            size_bytes -= (size_t)count;
+        } else if (errno == EAGAIN) {
+            struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
+
+            poll(&out, 1, 100);
+        } else if (errno != EINTR) {
+            return false;
+        }
+        if (ends_early && must_stop && size_bytes > 0)
+            return false;
+    }
+    return true;
+}
+
 static void set_modes(void)
 {
     raw();
@@ -298,8 +321,7 @@ static void write_restoring(void)
     static const char text[] = TTY_SYNC_END MOUSE_OFF "\033[m";
     size_t skip = term.has_sync ? 0 : sizeof TTY_SYNC_END - 1;
 
-    must_stop = 0; /* these bytes must be written */
-    tty_write(text + skip, sizeof text - 1 - skip);
+    write_bytes(text + skip, sizeof text - 1 - skip, false);
 }
 
 void tty_close(bool is_gone)
@@ -399,23 +421,7 @@ int tty_read(void *bytes, size_t size_bytes)
 
 bool tty_write(const char *bytes, size_t size_bytes)
 {
-    while (size_bytes > 0) {
-        ssize_t count = write(STDOUT_FILENO, bytes, size_bytes);
-
-        if (count >= 0) {
-            bytes += count;
-            size_bytes -= (size_t)count;
-        } else if (errno == EAGAIN) {
-            struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
-
-            poll(&out, 1, 100);
-        } else if (errno != EINTR) {
-            return false;
-        }
-        if (must_stop && size_bytes > 0)
-            return false;
-    }
-    return true;
+    return write_bytes(bytes, size_bytes, true);
 }
 
 void tty_suspend(void)

@@ -2,6 +2,7 @@
 # When the terminal is lost, the program ends and saves a picture of some work
 # to one file in the state folder; the next start tells of it. SIGTERM saves if
 # q would ask.
+size=80x22
 XDG_STATE_HOME=$PWD/state
 export XDG_STATE_HOME
 lost=state/glim/lost.png
