@@ -38,23 +38,52 @@ static struct render_progress half_done(void)
     return p;
 }
 
+/* The line of live mode, with few fields of little length. */
+static struct status_line live_line(const struct render_progress *p)
+{
+    return (struct status_line){.is_live = true,
+                                .progress = p,
+                                .thread_count = 1,
+                                .width_px = 10,
+                                .height_px = 20,
+                                .colors = "mono",
+                                .hint = "? help  q quit"};
+}
+
+/* A line of normal mode. */
+static struct status_line normal_line(const struct render_progress *p)
+{
+    struct status_line s = live_line(p);
+
+    s.is_live = false;
+    s.is_started = true;
+    return s;
+}
+
+/* 8 samples per pixel of a live render without limits, with 1.9 % noise. */
+static struct render_progress noisy(void)
+{
+    struct render_progress p = half_done();
+
+    p.spp_limit = p.samples_limit = 0;
+    p.pixels = 1000000;
+    p.error_exponent = 1;
+    p.film_error = (struct film_error){true, true, 0.0192, 0.0185, 0.0199};
+    return p;
+}
+
 static void normal_mode_shows_the_time_left(void **state)
 {
     struct render_progress p = half_done();
-    struct status_line s = {.is_started = true,
-                            .progress = &p,
-                            .thread_count = 2,
-                            .width_px = 1024,
-                            .height_px = 576,
-                            .colors = "24 bit",
-                            .hint = "? help  q quit"};
+    struct status_line s = normal_line(&p);
     char text[STATUS_BYTES];
 
     (void)state;
+    s.thread_count = 2;
     status_line_format(text, 120, &s);
     assert_string_equal(
         text, " NORMAL  8/16 spp  50 %  noise unknown  4 s  left 4 s  2.00 "
-              "Msamples/s  2 threads  1024x576  24 bit      ? help  q quit ");
+              "Msamples/s  2 threads  10x20  mono           ? help  q quit ");
     s.is_orbiting = true;
     status_line_format(text, 120, &s);
     check_has(text, " NORMAL orbit  8/16 spp  ");
@@ -79,13 +108,7 @@ static void normal_mode_shows_the_time_left(void **state)
 static void live_mode_has_no_end(void **state)
 {
     struct render_progress p = half_done();
-    struct status_line s = {.is_live = true,
-                            .progress = &p,
-                            .thread_count = 1,
-                            .width_px = 10,
-                            .height_px = 20,
-                            .colors = "mono",
-                            .hint = "? help  q quit"};
+    struct status_line s = live_line(&p);
     char text[STATUS_BYTES];
 
     (void)state;
@@ -104,22 +127,11 @@ static void live_mode_has_no_end(void **state)
  * field of their own. */
 static void noise_is_shown_with_the_time_to_a_target(void **state)
 {
-    struct render_progress p = half_done();
-    struct status_line s = {.is_live = true,
-                            .progress = &p,
-                            .thread_count = 1,
-                            .width_px = 10,
-                            .height_px = 20,
-                            .colors = "mono",
-                            .hint = "? help  q quit"};
+    struct render_progress p = noisy();
+    struct status_line s = live_line(&p);
     char text[STATUS_BYTES];
 
     (void)state;
-    p.spp_limit = p.samples_limit = 0;
-    p.pixels = 1000000;
-    p.spp_done = 8;
-    p.error_exponent = 1;
-    p.film_error = (struct film_error){true, true, 0.0192, 0.0185, 0.0199};
     /* live: to 0.5 %, with 8 * 3.98^2 = 126.7, in blocks 128 samples */
     status_line_format(text, 100, &s);
     check_has(text, " LIVE  8 spp  noise 1.9 %, 0.5 % in 1:00  4 s  2.00 ");
@@ -132,8 +144,7 @@ static void noise_is_shown_with_the_time_to_a_target(void **state)
     check_has(text, "  8 spp  noise 1.9 %, unresolved  4 s  ");
     p.film_error.is_resolved = true;
     /* -e 1%: 8 * 1.99^2 = 31.7, so 32 samples */
-    s.is_live = false;
-    s.is_started = true;
+    s = normal_line(&p);
     p.error_limit = 0.01;
     status_line_format(text, 100, &s);
     check_has(text,
@@ -150,19 +161,12 @@ static void noise_is_shown_with_the_time_to_a_target(void **state)
 /* In narrow windows the time to the target goes before the noise. */
 static void noise_outlives_its_target(void **state)
 {
-    struct render_progress p = half_done();
-    struct status_line s = {.is_live = true,
-                            .progress = &p,
-                            .colors = "mono",
-                            .hint = "? help  q quit"};
+    struct render_progress p = noisy();
+    struct status_line s = live_line(&p);
     char text[STATUS_BYTES];
     bool had_noise = false, had_target = false;
 
     (void)state;
-    p.spp_limit = p.samples_limit = 0;
-    p.pixels = 1000000;
-    p.error_exponent = 1;
-    p.film_error = (struct film_error){true, true, 0.0192, 0.0185, 0.0199};
     for (int cols = 20; cols < 120; cols++) {
         bool has_noise, has_target;
 
@@ -183,17 +187,14 @@ static void noise_outlives_its_target(void **state)
 static void narrow_windows_drop_fields(void **state)
 {
     struct render_progress p = half_done();
-    struct status_line s = {.is_started = true,
-                            .progress = &p,
-                            .thread_count = 64,
-                            .width_px = 65536,
-                            .height_px = 65536,
-                            .colors = "256 colours",
-                            .hint = "? help  q quit"};
+    struct status_line s = normal_line(&p);
     static const char *const fields[] = {"8/16 spp", "50 %", "4 s", "left 4 s"};
     char text[STATUS_BYTES];
 
     (void)state;
+    s.thread_count = 64;
+    s.width_px = s.height_px = 65536;
+    s.colors = "256 colours";
     for (int cols = 1; cols < 3000; cols++) {
         status_line_format(text, cols, &s);
         assert_int_equal(strlen(text),
@@ -215,13 +216,11 @@ static void eighty_columns_have_the_colors(void **state)
     static const char *const colors[] = {"24 bit", "256 colours", "16 colours",
                                          "mono"};
     struct render_progress p = half_done();
-    struct status_line s = {.progress = &p,
-                            .width_px = 65536,
-                            .height_px = 65536,
-                            .hint = "? help  q quit"};
+    struct status_line s = live_line(&p);
     char text[STATUS_BYTES];
 
     (void)state;
+    s.width_px = s.height_px = 65536;
     p.render_ns = 100 * 3600 * SEC;
     for (int i = 0; i < 64; i++) {
         s.is_live = i & 1;
