@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "base/print.h"
 #include "picture/image_write.h"
+#include "api/handle.h"
 #include "terminal/tty.h"
 #include "measure/curve.h"
 #include "measure/text_chart.h"
@@ -150,12 +151,19 @@ static bool add_point(struct measurement *m, struct error *err)
                                 m->reference.rgb};
     size_t count = 3 * (size_t)pair.width * (size_t)pair.height;
     struct glim_progress p = glim_get_progress(m->g);
+    struct curve_render render = {
+        .spp = p.spp,
+        .seconds = p.seconds - p.build_seconds,
+        .cpu_seconds = seconds_between(0, m->cpu_ns),
+        .exposure = m->g->view.lighting.exposure,
+        .stated = {p.error_is_known, p.error_is_resolved, p.error, p.error_low,
+                   p.error_high},
+    };
     struct glim_error why;
 
     if (!glim_read_floats(m->g, m->rgb, count, &why))
         return batch_fail_as(err, &why);
-    curve_add(&m->curve, p.spp, p.seconds - p.build_seconds,
-              seconds_between(0, m->cpu_ns), &pair, &m->own);
+    curve_add(&m->curve, &render, &pair, &m->own);
     curve_write_row(stdout, &m->curve.points[m->curve.count - 1]);
     return flush(err);
 }

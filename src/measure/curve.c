@@ -13,19 +13,20 @@
  * uncertain. */
 #define DROWNED_SHARE 0.5
 
-void curve_add(struct curve *c, uint64_t spp, double seconds,
-               double cpu_seconds, const struct picture_pair *pair,
+void curve_add(struct curve *c, const struct curve_render *render,
+               const struct picture_pair *pair,
                const struct reference_info *own)
 {
     struct picture_error e = picture_error_of(pair);
+    double error = picture_error_stated(pair, render->exposure);
     struct curve_point *p = &c->points[c->count];
 
     if (c->count == SERIES_POINTS)
         return;
     *p = (struct curve_point){
-        .spp = spp,
-        .seconds = seconds,
-        .cpu_seconds = cpu_seconds,
+        .render = *render,
+        .error =
+            sqrt(fmax(picture_error_without(error * error, own->relmse), 0)),
         .mse = fmax(picture_error_without(e.mse, own->mse), 0),
         .relmse = fmax(picture_error_without(e.relmse, own->relmse), 0),
         .bias = e.bias,
@@ -43,14 +44,14 @@ void curve_add(struct curve *c, uint64_t spp, double seconds,
 
 double curve_efficiency(const struct curve_point *p)
 {
-    return 1 / (p->relmse * p->seconds);
+    return 1 / (p->relmse * p->render.seconds);
 }
 
 /* True if the point is part of the slope and the diagram. */
 static bool is_shown(const struct curve_point *p)
 {
-    return !p->is_drowned && p->mse > 0 && p->relmse > 0 && p->seconds > 0 &&
-           p->cpu_seconds > 0;
+    return !p->is_drowned && p->mse > 0 && p->relmse > 0 &&
+           p->render.seconds > 0 && p->render.cpu_seconds > 0;
 }
 
 struct series curve_series(const struct curve *c, struct curve_axes axes)
@@ -62,7 +63,7 @@ struct series curve_series(const struct curve *c, struct curve_axes axes)
 
         if (!is_shown(p))
             continue;
-        s.x[s.count] = axes.is_cpu ? p->cpu_seconds : p->seconds;
+        s.x[s.count] = axes.is_cpu ? p->render.cpu_seconds : p->render.seconds;
         s.y[s.count++] = axes.is_relative ? p->relmse : p->mse;
     }
     return s;
@@ -70,16 +71,24 @@ struct series curve_series(const struct curve *c, struct curve_axes axes)
 
 void curve_write_head(FILE *to)
 {
-    print_line(to, "%10s %9s %9s %9s %9s %9s %9s %10s", "spp", "seconds",
-               "cpu s", "RMSE", "relMSE", "bias", "99.9 %", "efficiency");
+    print_line(to, "%10s %9s %9s %9s %9s %9s %9s %10s %9s %9s", "spp",
+               "seconds", "cpu s", "RMSE", "relMSE", "bias", "99.9 %",
+               "efficiency", "error", "stated");
 }
 
 void curve_write_row(FILE *to, const struct curve_point *p)
 {
+    const struct film_error *stated = &p->render.stated;
+    char text[32] = "unknown";
+
+    if (stated->is_known)
+        snprintf(text, sizeof text, "%.4g", stated->error);
     print_line(to,
-               "%10" PRIu64 " %9.4g %9.4g %9.4g %9.4g %+7.2f %% %9.4g %10.4g%s",
-               p->spp, p->seconds, p->cpu_seconds, sqrt(p->mse), p->relmse,
-               100 * p->bias, p->percentile, curve_efficiency(p),
+               "%10" PRIu64
+               " %9.4g %9.4g %9.4g %9.4g %+7.2f %% %9.4g %10.4g %9.4g %9s%s",
+               p->render.spp, p->render.seconds, p->render.cpu_seconds,
+               sqrt(p->mse), p->relmse, 100 * p->bias, p->percentile,
+               curve_efficiency(p), p->error, text,
                p->is_drowned ? " (reference too noisy)" : "");
 }
 
@@ -160,18 +169,32 @@ void curve_write_slopes(FILE *to, const struct curve *c)
         write_slope(to, slopes[i].label, c, slopes[i].axes);
 }
 
+/* Returns the stated error with its interval; nothing if it is unknown. */
+static const char *stated_values(char text[64], const struct film_error *e)
+{
+    if (e->is_known)
+        snprintf(text, 64, "%.6g,%.6g,%.6g", e->error, e->low, e->high);
+    else
+        snprintf(text, 64, ",,");
+    return text;
+}
+
 char *curve_csv(const struct curve *c)
 {
     char *text =
         format_text("spp,seconds,cpu_seconds,rmse,relmse,bias,percentile_999,"
-                    "efficiency\n");
+                    "efficiency,error,stated,stated_low,stated_high\n");
 
     for (int i = 0; text != NULL && i < c->count; i++) {
         const struct curve_point *p = &c->points[i];
+        char stated[64];
         char *longer =
-            format_text("%s%" PRIu64 ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n",
-                        text, p->spp, p->seconds, p->cpu_seconds, sqrt(p->mse),
-                        p->relmse, p->bias, p->percentile, curve_efficiency(p));
+            format_text("%s%" PRIu64
+                        ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%s\n",
+                        text, p->render.spp, p->render.seconds,
+                        p->render.cpu_seconds, sqrt(p->mse), p->relmse, p->bias,
+                        p->percentile, curve_efficiency(p), p->error,
+                        stated_values(stated, &p->render.stated));
 
         free(text);
         text = longer;

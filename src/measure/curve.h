@@ -13,16 +13,25 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "picture/film_error.h"
 #include "measure/picture_error.h"
 #include "measure/reference_info.h"
 #include "measure/series.h"
 
-/* Errors without the reference's own. */
-struct curve_point {
+/* A render in progress. */
+struct curve_render {
     uint64_t spp;
     double seconds;
     double cpu_seconds; /* processor time of all threads; other programs hardly
                            disturb it */
+    double exposure;    /* of the view */
+    struct film_error stated;
+};
+
+/* Errors without the reference's own. */
+struct curve_point {
+    struct curve_render render;
+    double error; /* the true one of what the render states */
     double mse, relmse;
     double bias, percentile;
     struct group_errors groups;
@@ -35,8 +44,8 @@ struct curve {
 };
 
 /* Adds a measurement, unless the curve is full. */
-void curve_add(struct curve *curve, uint64_t spp, double seconds,
-               double cpu_seconds, const struct picture_pair *pair,
+void curve_add(struct curve *curve, const struct curve_render *render,
+               const struct picture_pair *pair,
                const struct reference_info *own);
 
 /* Returns 1 / (relMSE x seconds). */

@@ -112,6 +112,48 @@ struct picture_error picture_error_of(const struct picture_pair *p)
     return e;
 }
 
+/* Returns the mean of the reference over the pixels around (x, y), up to two
+ * pixels away and without it, or a quarter of the pixel if that is more. */
+static double local_mean(const struct picture_pair *p, int x, int y, size_t c)
+{
+    double own = 0, sum = 0;
+    int count = 0;
+
+    for (int v = y - 2; v <= y + 2; v++)
+        for (int u = x - 2; u <= x + 2; u++) {
+            double r;
+
+            if (u < 0 || v < 0 || u >= p->width || v >= p->height)
+                continue;
+            r = (double)p
+                    ->reference[3 * ((size_t)v * (size_t)p->width + (size_t)u) +
+                                c];
+            if (u == x && v == y) {
+                own = r;
+                continue;
+            }
+            sum += r;
+            count++;
+        }
+    return fmax(count > 0 ? sum / count : 0, own / 4);
+}
+
+double picture_error_stated(const struct picture_pair *p, double exposure)
+{
+    double black = 0.1 * exp2(-exposure), sum = 0;
+
+    for (int y = 0; y < p->height; y++)
+        for (int x = 0; x < p->width; x++)
+            for (size_t c = 0; c < 3; c++) {
+                size_t pixel = (size_t)y * (size_t)p->width + (size_t)x;
+                double m = local_mean(p, x, y, c);
+                double d = difference_at(p, 3 * pixel + c);
+
+                sum += d * d / (m * m + black * black);
+            }
+    return sqrt(sum / (double)value_count(p));
+}
+
 struct group_errors picture_error_groups(const struct picture_pair *p)
 {
     struct group_errors e = {{0}, {0}};

@@ -31,6 +31,11 @@ struct picture_error {
 
 struct picture_error picture_error_of(const struct picture_pair *pair);
 
+/* Returns the relative root mean square error as film_error.h defines it, with
+ * the means of the reference around each pixel: what a film of the picture is
+ * to state. `exposure` is that of the view. */
+double picture_error_stated(const struct picture_pair *pair, double exposure);
+
 /* Errors of parts of the picture, which are independent of each other: each has
  * pixels from everywhere. */
 #define PIXEL_GROUPS 16

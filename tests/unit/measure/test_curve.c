@@ -17,12 +17,21 @@ static float black[VALUES], picture[VALUES];
 
 static const struct picture_pair pair = {SIDE, SIDE, picture, black};
 
+/* A render that does not state its error. */
+static struct curve_render at(uint64_t spp, double seconds, double cpu_seconds)
+{
+    return (struct curve_render){.spp = spp,
+                                 .seconds = seconds,
+                                 .cpu_seconds = cpu_seconds};
+}
+
 /* Measures one render of independent samples, the same in all channels of a
  * pixel, at 1, 2, 4 .. samples. Its slope is -0.5. */
 static void render(struct curve *curve, double spread, uint64_t *random)
 {
     static double sums[SIDE * SIDE];
     struct reference_info own = {0};
+    struct curve_render now;
     int n = 0;
 
     curve->count = 0;
@@ -34,7 +43,8 @@ static void render(struct curve *curve, double spread, uint64_t *random)
                 sums[k] += noise(spread, random);
         for (int k = 0; k < VALUES; k++)
             picture[k] = (float)(sums[k / 3] / n);
-        curve_add(curve, (uint64_t)n, 0.01 * n, 0.02 * n, &pair, &own);
+        now = at((uint64_t)n, 0.01 * n, 0.02 * n);
+        curve_add(curve, &now, &pair, &own);
     }
 }
 
@@ -68,18 +78,19 @@ static void own_error_is_subtracted(void **state)
 {
     static struct curve curve;
     struct reference_info own = {.is_known = true, .mse = 0.1, .relmse = 1};
+    struct curve_render renders[] = {at(4, 2, 3), at(8, 4, 6)};
 
     (void)state;
     for (int k = 0; k < VALUES; k++)
         picture[k] = 0.5f; /* MSE 0.25, relMSE 25 */
-    curve_add(&curve, 4, 2, 3, &pair, &own);
+    curve_add(&curve, &renders[0], &pair, &own);
     check_close(curve.points[0].mse, 0.15, 1e-9);
     check_close(curve.points[0].relmse, 25, 1e-9); /* 1 is 4 % of it */
     check_close(curve_efficiency(&curve.points[0]), 1.0 / 50, 1e-9);
     assert_false(curve.points[0].is_drowned);
     for (int k = 0; k < VALUES; k++)
         picture[k] = 0.4f; /* MSE 0.16, of which 0.1 is the reference's */
-    curve_add(&curve, 8, 4, 6, &pair, &own);
+    curve_add(&curve, &renders[1], &pair, &own);
     assert_true(curve.points[1].is_drowned);
     assert_int_equal(
         curve_series(&curve, (struct curve_axes){false, false}).count, 1);
@@ -89,22 +100,24 @@ static void table_has_a_line_for_each_point(void **state)
 {
     static struct curve curve;
     struct reference_info own = {0};
+    struct curve_render renders[] = {at(1, 0.5, 0.75), at(2, 1, 2)};
     struct curve_axes axes = {.is_relative = true};
     char *csv;
 
     (void)state;
     for (int k = 0; k < VALUES; k++)
         picture[k] = 0.5f;
-    curve_add(&curve, 1, 0.5, 0.75, &pair, &own);
-    curve_add(&curve, 2, 1, 2, &pair, &own);
+    curve_add(&curve, &renders[0], &pair, &own);
+    renders[1].stated = (struct film_error){true, true, 0.25, 0.125, 0.5};
+    curve_add(&curve, &renders[1], &pair, &own);
     axes.is_cpu = true;
     check_close(curve_series(&curve, axes).x[1], 2, 0);
     csv = curve_csv(&curve);
     assert_string_equal(
         csv, "spp,seconds,cpu_seconds,rmse,relmse,bias,percentile_999,"
-             "efficiency\n"
-             "1,0.5,0.75,0.5,25,inf,0.5,0.08\n"
-             "2,1,2,0.5,25,inf,0.5,0.04\n");
+             "efficiency,error,stated,stated_low,stated_high\n"
+             "1,0.5,0.75,0.5,25,inf,0.5,0.08,5,,,\n"
+             "2,1,2,0.5,25,inf,0.5,0.04,5,0.25,0.125,0.5\n");
     free(csv);
 }
 

@@ -31,6 +31,32 @@ static void errors_are_those_by_hand(void **state)
     check_close(e.percentile, 0.3, 1e-7);
 }
 
+/* A pixel of 4 between four of 1, and one of 20 that counts as a quarter of
+ * itself. At exposure 1, black is 0.05. */
+static void stated_errors_are_relative_to_the_means_around(void **state)
+{
+    float a[15], b[15];
+    struct picture_pair pair = {5, 1, a, b};
+    double black = 0.1 * 0.1;
+
+    (void)state;
+    for (int i = 0; i < 15; i++)
+        a[i] = b[i] = i / 3 == 2 ? 4 : 1;
+    a[6] += 0.5f;
+    check_close(picture_error_stated(&pair, 0), sqrt(0.25 / (1 + black) / 15),
+                1e-9);
+    check_close(picture_error_stated(&pair, 1),
+                sqrt(0.25 / (1 + black / 4) / 15), 1e-9);
+    b[6] = 20;
+    a[6] = 20.5f;
+    check_close(picture_error_stated(&pair, 0), sqrt(0.25 / (25 + black) / 15),
+                1e-9);
+    a[6] = 20;
+    a[0] = 2; /* the pixels around have 1 and 20 */
+    check_close(picture_error_stated(&pair, 0),
+                sqrt(1 / (10.5 * 10.5 + black) / 15), 1e-9);
+}
+
 static void one_pixel_has_no_margin(void **state)
 {
     const float a[] = {1, 2, 3}, b[] = {1, 1, 1}, black[] = {0, 0, 0};
@@ -74,6 +100,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_are_those_by_hand),
+        cmocka_unit_test(stated_errors_are_relative_to_the_means_around),
         cmocka_unit_test(one_pixel_has_no_margin),
         cmocka_unit_test(percentile_is_the_rank_of_a_sorted_list),
         cmocka_unit_test(own_error_is_subtracted_where_it_matters),
