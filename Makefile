@@ -333,7 +333,8 @@ bench-rays:
 
 ## results: measures the figures of docs/results.md and makes its tables and
 ##          diagrams; FILTER=SECTION selects one, FILTER=none only draws
-results: $(B)/glim $(BENCHES) $(STRESSES) $(B)/rays/scaling
+results: $(B)/glim $(BENCHES) $(STRESSES) $(B)/rays/scaling \
+		build/bench-error/scenes
 	@BUILD=$(B) FILTER='$(FILTER)' tests/bench/results/measure.sh
 	@BUILD=$(B) tests/bench/results/draw.sh
 

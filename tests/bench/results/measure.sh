@@ -150,11 +150,12 @@ measure_features() {
 }
 
 # Makes a reference once; delete build/results after a change of pictures.
-reference() { # NAME SAMPLES SIZE...
-    local path=$cache/$1.pfm
+reference() { # SCENE.obj SAMPLES SIZE...
+    local path=$cache/${1##*/}
 
+    path=${path%.obj}.pfm
     [ -e "$path" ] || "$build/glim" reference -s "$2" --seeds 16 "${@:3}" \
-        "$path" "scenes/$1.obj" 2>"$work/said"
+        "$path" "$1" 2>"$work/said"
     echo "$path"
 }
 
@@ -164,7 +165,7 @@ measure_convergence() {
 
     : >"$work/slopes"
     for scene in $shipped; do
-        path=$(reference "$scene" 16384 -w 64 -h 36)
+        path=$(reference "scenes/$scene.obj" 16384 -w 64 -h 36)
         "$build/glim" curve -s 1024 --csv "$work/curve" "$path" \
             "scenes/$scene.obj" >"$work/said" 2>/dev/null
         sed -n "1d; s/^/$scene,/p" "$work/curve" | cut -d , -f 1-4,6
@@ -177,31 +178,46 @@ measure_convergence() {
     save slopes 'scene,slope,95 % interval from,to' <"$work/slopes"
 }
 
+# Sets obj, camera and reference to the files of a scene that all renderers
+# read alike. glass_box is ours, so glim makes its reference.
+find_scene() { # SCENE
+    local folder=$shared/scenes-bench/$1
+
+    obj=$folder/$1.obj
+    camera=$folder/camera.txt
+    reference=$folder/reference.pfm
+    [ "$1" = glass_box ] || return 0
+    folder=build/bench-error/scenes
+    obj=$folder/$1.obj
+    camera=$folder/$1.view
+    reference=$(reference "$obj" 8192)
+}
+
 glim_row() { # SCENE SAMPLES NAME [--denoise]
-    local folder=$shared/scenes-bench/$1 out=$work/picture.pfm
+    local out=$work/picture.pfm
 
     timed "$build/glim" -b -t 2 -s "$2" --stats "$work/stats" -o "$out" \
-        "${@:4}" "$folder/$1.obj"
+        "${@:4}" "$obj"
     echo "$1,$3,$2,$(value total_s "$work/stats"),$cpu_s,$(relmse "$out" \
-        "$folder/reference.pfm")"
+        "$reference")"
 }
 
 cycles_row() { # SCENE SAMPLES NAME [--denoise]
-    local folder=$shared/scenes-bench/$1 out=$work/picture.pfm
+    local out=$work/picture.pfm
 
-    "$PEER" "$shared/lab/peers/render_cycles.py" -- --scene "$folder/$1.obj" \
-        --camera "$folder/camera.txt" --spp "$2" --threads 2 --out "$out" \
-        "${@:4}" >"$work/said" 2>&1
+    "$PEER" "$shared/lab/peers/render_cycles.py" -- --scene "$obj" \
+        --camera "$camera" --spp "$2" --threads 2 --out "$out" "${@:4}" \
+        >"$work/said" 2>&1
     sed -n 's/^RESULT //p' "$work/said" >"$work/stats"
     echo "$1,$3,$2,$(value render_s "$work/stats"),$(value cpu_s \
-        "$work/stats"),$(relmse "$out" "$folder/reference.pfm")"
+        "$work/stats"),$(relmse "$out" "$reference")"
 }
 
 # Time and error of glim, and of Blender's Cycles in the same minutes if PEER
 # is set. glim's time includes loading, filtering and writing; Cycles' is that
 # of its render call.
 measure_peers() {
-    local scene n header='scene,renderer,samples per pixel,seconds,processor seconds,relMSE'
+    local scene n obj camera reference header='scene,renderer,samples per pixel,seconds,processor seconds,relMSE'
 
     [ -d "$shared/scenes-bench" ] || {
         say "peers: skipped, no $shared/scenes-bench"
@@ -209,7 +225,8 @@ measure_peers() {
     }
     [ -n "${PEER:-}" ] || say 'peers: without Cycles, since PEER is not set'
     : >"$work/cycles"
-    for scene in cornell many_lights sky; do
+    for scene in cornell many_lights sky glass_box; do
+        find_scene $scene
         for n in 2 4 8 16 32 64 128 256; do
             glim_row $scene $n 'glim'
             glim_row $scene $n 'glim filtered' --denoise
@@ -231,17 +248,16 @@ measure_peers() {
 # The errors of raw pictures, of the filter and of Open Image Denoise, which
 # gets the same pictures with their mean albedo and normals.
 measure_oidn() {
-    local scene n raw ours theirs reference
+    local scene n raw ours theirs obj camera reference
 
     if [ -z "${OIDN:-}" ] || [ ! -d "$shared/scenes-bench" ]; then
         say "oidn: skipped, OIDN is not set or $shared/scenes-bench is missing"
         return 0
     fi
-    for scene in cornell many_lights sky; do
-        reference=$shared/scenes-bench/$scene/reference.pfm
+    for scene in cornell many_lights sky glass_box; do
+        find_scene $scene
         for n in 4 16 64 256; do
-            "$build/bench/surfaces" "$shared/scenes-bench/$scene/$scene.obj" \
-                $n "$work/oidn"
+            "$build/bench/surfaces" "$obj" $n "$work/oidn"
             "$OIDN" tests/bench/results/oidn.py "$work/oidn"
             raw=$(relmse "$work/oidn_raw.pfm" "$reference")
             ours=$(relmse "$work/oidn_filtered.pfm" "$reference")
@@ -282,8 +298,8 @@ measure_stress() {
 measure_calibration() {
     stress_log error
     sed -n 's/^\(ok\|FAIL\) \([a-z_0-9]*\): \([a-z ]*\) at \([0-9.]*\) spp: \([0-9]*\) of \([0-9]*\) inside (\([0-9.]*\) .*error \([0-9.]*\) %.*true \([0-9.]*\) %.*/\2,\3,\4,\5,\6,\7,\8,\9/p' "$log" |
-        awk -F, '{ printf "%s,%s,%s,%s %%,%s %%,%d,%s\n", $1, $2, $3, $8, $9, $6,
-            $6 < 100 ? "unresolved" : $7 " %" }' |
+        awk -F, '{ printf "%s,%s,%s,%s %%,%s %%,%d,%s\n", $1, $2, $3, $7, $8, $5,
+            ($5 < 100 ? "unresolved" : $6 " %") }' |
         save calibration 'scene,moment,samples per pixel,stated error,true error,resolved of 200,true error inside'
 }
 
