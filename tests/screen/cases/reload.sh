@@ -2,7 +2,7 @@
 # Files of the scene are edited while it is on the screen. The picture is a wall
 # that shines: each pixel has its Ke times the image, exactly. .5 .2 0 is 188 124
 # 0 in sRGB.
-size=120x21
+size=140x21
 ORANGE="48;2;188;124;0"
 GREEN="48;2;0;188;0"
 write() # as most editors do: another file gets the name
@@ -45,7 +45,7 @@ story() # options: which backend
     keys w # a step ahead, which is kept
 
     shines 0 .5 0 | write wall.mtl
-    wait_for "LIVE  changed: l loads"
+    wait_for "LIVE.*  changed: l loads"
     wait_for_rows 20 "$ORANGE"
     load
     wait_for_rows 20 "$GREEN"
