@@ -116,14 +116,14 @@ static inline void tone_curve(uint32_t tone, float *rgb)
         rgb[c] = tone == TONE_ACES ? aces(rgb[c]) : rgb[c] / (1.0f + luminance);
 }
 
+/* Counts the thresholds at or below `linear` by bisection, without branches,
+ * which noise would make unpredictable. */
 static inline uint32_t srgb_byte(float linear)
 {
-    uint32_t byte =
-        0; /* number of thresholds at or below `linear`, by bisection */
+    uint32_t byte = 0;
 
     for (uint32_t step = 128; step > 0; step >>= 1)
-        if (linear >= srgb_thresholds[byte + step - 1])
-            byte += step;
+        byte += step * (uint32_t)(linear >= srgb_thresholds[byte + step - 1]);
     return byte;
 }
 
