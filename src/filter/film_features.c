@@ -4,13 +4,13 @@
 /* Depth of a film without surfaces. */
 #define DEPTH_ANY 1.0f
 
-float film_features_far(struct film *f)
+float film_features_far(struct film *f, int stride)
 {
     float far = 0.0f;
 
-    for (int y = 0; y < f->height; y++) {
+    for (int y = 0; y < f->height; y += stride) {
         film_lock_row(f, y);
-        for (int x = 0; x < f->width; x++) {
+        for (int x = 0; x < f->width; x += stride) {
             const struct surface_sums *s =
                 &f->surfaces[(size_t)y * (size_t)f->width + (size_t)x];
 
@@ -22,11 +22,11 @@ float film_features_far(struct film *f)
     return far > 0.0f ? far : DEPTH_ANY;
 }
 
-/* Returns the variance of the mean of `count` samples from the sum of their
+/* Returns the variance of the mean of 1 / inverse samples from the sum of their
  * squares and the square of their mean. */
-static float mean_variance(float squares, float mean_square, float count)
+static float mean_variance(float squares, float mean_square, float inverse)
 {
-    return f_max(squares / count - mean_square, 0.0f) / count;
+    return f_max(squares * inverse - mean_square, 0.0f) * inverse;
 }
 
 /* Writes the features of a pixel. Rays that leave the scene have an albedo of
@@ -34,31 +34,31 @@ static float mean_variance(float squares, float mean_square, float count)
 static void put_features(const struct surface_sums *s, float far, int x,
                          const struct filter_row *to)
 {
-    float count = (float)s->count, hits = (float)s->hit_count;
+    float inverse = 1.0f / (float)s->count, hits = (float)s->hit_count;
     float misses = (float)(s->count - s->hit_count);
     float albedo_square = 0.0f, normal_square = 0.0f, depth;
 
     for (int c = 0; c < 3; c++) {
         float albedo =
-            ((float)s->albedo[c] * (1.0f / SURFACE_ONE) + misses) / count;
+            ((float)s->albedo[c] * (1.0f / SURFACE_ONE) + misses) * inverse;
         float normal =
-            ((float)s->normal[c] * (2.0f / SURFACE_ONE) - hits) / count;
+            ((float)s->normal[c] * (2.0f / SURFACE_ONE) - hits) * inverse;
 
         to->albedo[c][x] = albedo;
         to->normal[c][x] = normal;
         albedo_square += albedo * albedo;
         normal_square += normal * normal;
     }
-    depth = (sum_float(s->depth) + misses * far) / count;
+    depth = (sum_float(s->depth) + misses * far) * inverse;
     to->depth[x] = depth;
     to->albedo_noise[x] =
         mean_variance((float)s->albedo_square * (3.0f / SURFACE_ONE) +
                           3.0f * misses,
-                      albedo_square, count);
-    to->normal_noise[x] = mean_variance(hits, normal_square, count);
+                      albedo_square, inverse);
+    to->normal_noise[x] = mean_variance(hits, normal_square, inverse);
     to->depth_noise[x] =
         mean_variance(sum_float(s->depth_square) + misses * far * far,
-                      depth * depth, count);
+                      depth * depth, inverse);
 }
 
 void film_features(struct film *f, float far, int y,

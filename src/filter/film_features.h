@@ -12,9 +12,9 @@
 #include "filter/filter.h"
 #include "picture/film.h"
 
-/* Returns the greatest mean depth of a pixel's surfaces, which rays that leave
- * the scene get. */
-float film_features_far(struct film *film);
+/* Returns the greatest mean depth of the surfaces of every `stride`-th pixel
+ * each way, which rays that leave the scene get. */
+float film_features_far(struct film *film, int stride);
 
 /* Writes the features of row y and their noise. The counts stay as they are. */
 void film_features(struct film *film, float far, int y,

@@ -110,7 +110,7 @@ static void store_row(struct film *to, int y, const float *rgb)
 bool film_filter(struct film *f, struct pool *pool, struct film *filtered,
                  struct error *err)
 {
-    struct source context = {f, film_features_far(f)};
+    struct source context = {f, film_features_far(f, 1)};
     const struct filter_source source = {&context, 2, give_features,
                                          give_light};
     float *rgb =

@@ -331,13 +331,14 @@ static void add_row(void *context, uint32_t item, int worker)
         bool has_gap = !(f->count[0][at] > 0.0f && f->count[1][at] > 0.0f);
         float a = has_gap ? 1.0f : f->count[0][at];
         float b = has_gap ? 1.0f : f->count[1][at];
+        float inverse = unit / (a + b);
 
         for (int c = 0; c < 3; c++) {
             float light =
-                (a * halves->light[0][c][at] + b * halves->light[1][c][at]) /
-                (a + b);
+                (a * halves->light[0][c][at] + b * halves->light[1][c][at]) *
+                inverse;
 
-            rgb[3 * x + c] += light * unit * divisor(p, c, at);
+            rgb[3 * x + c] += light * divisor(p, c, at);
         }
     }
 }

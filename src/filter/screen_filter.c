@@ -12,26 +12,25 @@
  * them. */
 #define SEEN_NORMAL 100.0f
 
-/* Largest change of a developed pixel, in steps of 255, with which it is shown
- * unfiltered, and the least with which it is shown filtered. */
-#define CHANGE_LEAST 1
-#define CHANGE_MOST  4
+/* Change of a pixel, in steps of 255, up to which it is shown unfiltered, and
+ * from which on it is shown filtered. */
+#define CHANGE_LEAST 1.0f
+#define CHANGE_MOST  4.0f
+
+/* Stride of the pixels among which the greatest depth is searched. */
+#define FAR_STRIDE 4
+
+/* Prefetch distance in pixels. */
+#define AHEAD 16
 
 /* Floats of a pixel in the planes. */
-#define PLANES (2 * 3 + 2 + 1 + 3)
+#define PLANES (2 * 5 + 2 + 3)
 
 /* The films of one run. */
 struct films {
     struct screen_filter *filter;
     struct film *film, *draft, *surfaces;
     float far;
-};
-
-/* Sums of a half over the film's pixels in a pixel of the screen. */
-struct part {
-    float light[3]; /* means, weighted by area */
-    float area;     /* of the pixels that have samples */
-    float samples;  /* weighted by area */
 };
 
 static size_t row_index(const struct screen_filter *f, int y)
@@ -45,7 +44,7 @@ void screen_filter_free(struct screen_filter *f)
 {
     filter_free(&f->filter);
     free(f->memory);
-    free(f->bytes[0]);
+    free(f->bytes);
     *f = (struct screen_filter){0};
 }
 
@@ -58,12 +57,12 @@ static void take_planes(struct screen_filter *f)
         for (int c = 0; c < 3; c++, next += pixels)
             f->light[h][c] = next;
         f->count[h] = next;
-        next += pixels;
+        f->area[h] = next + pixels;
+        next += 2 * pixels;
     }
     f->seen = next;
-    f->rgb = next + pixels;
-    f->bytes[1] = f->bytes[0] + 3 * pixels;
-    f->change = f->bytes[1] + 3 * pixels;
+    f->change = next + pixels;
+    f->rgb = next + 2 * pixels;
 }
 
 static bool resize(struct screen_filter *f, int width, int height)
@@ -75,8 +74,8 @@ static bool resize(struct screen_filter *f, int width, int height)
         return true;
     screen_filter_free(f);
     f->memory = alloc_array(pixels, PLANES * sizeof *f->memory);
-    f->bytes[0] = alloc_array(pixels, 7);
-    if (f->memory == NULL || f->bytes[0] == NULL ||
+    f->bytes = alloc_array((size_t)width, 3);
+    if (f->memory == NULL || f->bytes == NULL ||
         !filter_init(&f->filter, width, height, &ignored)) {
         screen_filter_free(f);
         return false;
@@ -105,50 +104,59 @@ static inline struct pixel_halves pixel_halves(const struct film *f, int x,
 
     p.count[1 - odd] = (float)((count + 1) / 2);
     p.count[odd] = (float)(count / 2);
-    for (size_t c = 0; c < 3 && count > 0; c++) {
-        float all = sum_float(f->sums[3 * at + c]);
-        float part = count > 1 ? sum_float(f->odd_sums[3 * at + c]) : 0.0f;
+    if (count == 1) {
+        for (size_t c = 0; c < 3; c++)
+            p.light[1 - odd][c] = sum_float(f->sums[3 * at + c]);
+    } else if (count > 1) {
+        float even_inverse = 1.0f / p.count[1 - odd];
+        float odd_inverse = 1.0f / p.count[odd];
 
-        p.light[1 - odd][c] = f_max(all - part, 0.0f) / p.count[1 - odd];
-        p.light[odd][c] = count > 1 ? part / p.count[odd] : 0.0f;
+        for (size_t c = 0; c < 3; c++) {
+            float all = sum_float(f->sums[3 * at + c]);
+            float part = sum_float(f->odd_sums[3 * at + c]);
+
+            p.light[1 - odd][c] = f_max(all - part, 0.0f) * even_inverse;
+            p.light[odd][c] = part * odd_inverse;
+        }
     }
     return p;
 }
 
-static inline void add_part(struct part *sum, const struct pixel_halves *p,
-                            int half, float area)
+/* Adds a half of a film's pixel to the sums of the screen's pixel `at`. */
+static inline void add_part(const struct screen_filter *f, size_t at, int half,
+                            const struct pixel_halves *p, float area)
 {
     if (!(p->count[half] > 0.0f))
         return;
     for (int c = 0; c < 3; c++)
-        sum->light[c] += area * p->light[half][c];
-    sum->area += area;
-    sum->samples += area * p->count[half];
+        f->light[half][c][at] += area * p->light[half][c];
+    f->area[half][at] += area;
+    f->count[half][at] += area * p->count[half];
 }
 
-/* Adds row y of the film, of which `height` is within the row of the screen. */
-static void add_film_row(const struct film *film, int width, int y,
-                         float height, struct part (*row)[2])
+/* Adds row y of the film, of which `height` is within the row of the screen
+ * that begins with pixel `at`. */
+static void add_film_row(const struct screen_filter *f, size_t at,
+                         const struct film *film, int y, float height)
 {
-    struct area_walk w = area_walk(film->width, width, 0, width);
+    struct area_walk w = area_walk(film->width, f->width, 0, f->width);
 
     while (area_walks(&w)) {
         int x = w.from;
         struct pixel_halves p = pixel_halves(film, x, y);
 
         do {
-            int i = w.to;
+            size_t to = at + (size_t)w.to;
             float area = height * area_step(&w);
 
-            add_part(&row[i][0], &p, 0, area);
-            add_part(&row[i][1], &p, 1, area);
+            add_part(f, to, 0, &p, area);
+            add_part(f, to, 1, &p, area);
         } while (w.from == x && area_walks(&w));
     }
 }
 
-/* Adds the film's pixels within row y of the screen. */
-static void add_film(struct film *film, const struct screen_filter *f, int y,
-                     struct part (*row)[2])
+/* Adds up the film's pixels within row y of the screen. */
+static void add_film(const struct screen_filter *f, struct film *film, int y)
 {
     struct area_walk w = area_walk(film->height, f->height, y, 1);
 
@@ -158,72 +166,85 @@ static void add_film(struct film *film, const struct screen_filter *f, int y,
 
         film_lock_row(film, from);
         if (film->has_row[from])
-            add_film_row(film, f->width, from, height, row);
+            add_film_row(f, row_index(f, y), film, from, height);
         film_unlock_row(film, from);
     }
 }
 
-/* Sets pixel x of a row to the mean of the film's part and the draft's. */
-static void set_half(const struct screen_filter *f, size_t at, int half,
-                     const struct part *part, float unit,
-                     const struct pixel_halves *draft)
+/* Makes sums of the film and the draft's pixel a mean. */
+static inline void set_half(const struct screen_filter *f, size_t at, int half,
+                            float unit, const struct pixel_halves *draft)
 {
-    float film_count = part->samples * unit;
+    float film_count = f->count[half][at] * unit;
     float count = film_count + draft->count[half];
-    float scale = part->area > 0.0f ? film_count / part->area : 0.0f;
+    float part, inverse;
 
     f->count[half][at] = count;
+    if (!(film_count > 0.0f)) { /* a young film has few samples */
+        for (int c = 0; c < 3; c++)
+            f->light[half][c][at] = draft->light[half][c];
+        return;
+    }
+    part = film_count / f->area[half][at];
+    inverse = 1.0f / count;
     for (int c = 0; c < 3; c++)
-        f->light[half][c][at] =
-            count > 0.0f ? (scale * part->light[c] +
-                            draft->count[half] * draft->light[half][c]) /
-                               count
-                         : 0.0f;
+        f->light[half][c][at] = (part * f->light[half][c][at] +
+                                 draft->count[half] * draft->light[half][c]) *
+                                inverse;
 }
 
 /* Returns the share of the draft's light in a pixel that is seen. */
-static float seen_share(const struct film *draft, size_t at)
+static inline float seen_share(const struct film *draft, size_t at)
 {
-    const struct surface_sums *s = &draft->surfaces[at];
-    float seen = 0.0f, all = 0.0f;
+    const struct sum *seen = draft->surfaces[at].seen;
+    const struct sum *all = draft->sums + 3 * at;
 
-    for (size_t c = 0; c < 3; c++) {
-        seen += sum_float(s->seen[c]);
-        all += sum_float(draft->sums[3 * at + c]);
-    }
-    return seen > 0.0f ? f_min(seen / all, 1.0f) : 0.0f;
+    if ((seen[0].hi | seen[0].lo | seen[1].hi | seen[1].lo | seen[2].hi |
+         seen[2].lo) == 0)
+        return 0.0f;
+    return f_min(
+        (sum_float(seen[0]) + sum_float(seen[1]) + sum_float(seen[2])) /
+            (sum_float(all[0]) + sum_float(all[1]) + sum_float(all[2])),
+        1.0f);
 }
 
-static void gather_row(const struct films *s, int y, struct part (*row)[2])
+/* Prefetches the parts of a pixel's surface that are read, which are in no
+ * cache. */
+static inline void prefetch(const struct surface_sums *s)
+{
+    __builtin_prefetch(s->seen);
+    __builtin_prefetch(s->seen + 2);
+    __builtin_prefetch(&s->depth);
+    __builtin_prefetch(&s->count);
+}
+
+/* Fills row y with the means of film and draft. */
+static void gather(const struct films *s, int y)
 {
     struct screen_filter *f = s->filter;
     float unit = 1.0f / ((float)f->width * (float)f->height);
+    size_t first = row_index(f, y), size = (size_t)f->width * sizeof(float);
 
-    memset(row, 0, (size_t)f->width * sizeof *row);
-    add_film(s->film, f, y, row);
+    for (int h = 0; h < 2; h++) {
+        for (int c = 0; c < 3; c++)
+            memset(f->light[h][c] + first, 0, size);
+        memset(f->count[h] + first, 0, size);
+        memset(f->area[h] + first, 0, size);
+    }
+    add_film(f, s->film, y);
     film_lock_row(s->surfaces, y);
     for (int x = 0; x < f->width; x++) {
-        size_t at = row_index(f, y) + (size_t)x;
+        size_t at = first + (size_t)x;
         struct pixel_halves draft = {.count = {0}};
 
+        prefetch(s->surfaces->surfaces + at + AHEAD);
         if (s->draft != NULL)
             draft = pixel_halves(s->draft, x, y);
-        for (int h = 0; h < 2; h++)
-            set_half(f, at, h, &row[x][h], unit, &draft);
+        set_half(f, at, 0, unit, &draft);
+        set_half(f, at, 1, unit, &draft);
         f->seen[at] = seen_share(s->surfaces, at);
     }
     film_unlock_row(s->surfaces, y);
-}
-
-static bool gather(const struct films *s)
-{
-    struct screen_filter *f = s->filter;
-    struct part(*row)[2] = alloc_array((size_t)f->width, sizeof *row);
-
-    for (int y = 0; y < f->height && row != NULL; y++)
-        gather_row(s, y, row);
-    free(row);
-    return row != NULL;
 }
 
 /* ---- source of the filter ---- */
@@ -234,6 +255,7 @@ static void give_features(void *context, int y, const struct filter_row *to)
     const struct screen_filter *f = s->filter;
     size_t at = row_index(f, y);
 
+    gather(s, y);
     film_features(s->surfaces, s->far, y, to);
     for (int h = 0; h < 2; h++)
         memcpy(to->count[h], f->count[h] + at,
@@ -257,79 +279,99 @@ static void give_light(void *context, int component, int y, float *to[2][3])
 
 /* ---- frame ---- */
 
-/* Writes the mean of both halves of a pixel. */
-static void put_unfiltered(const struct screen_filter *f, size_t at, float *rgb)
+/* Returns nearly the value of light in a frame, from 0 to 255. */
+static inline float shown(float light, bool is_cut)
+{
+    return 255.0f * sqrtf(is_cut ? f_min(light, 1.0f) : light / (1.0f + light));
+}
+
+/* Writes the unfiltered light of a pixel. */
+static inline void unfiltered(const struct screen_filter *f, size_t at,
+                              float rgb[3])
 {
     float a = f->count[0][at], b = f->count[1][at];
+    float inverse = 1.0f / (a + b);
 
     for (int c = 0; c < 3; c++)
-        rgb[c] = (a * f->light[0][c][at] + b * f->light[1][c][at]) / (a + b);
+        rgb[c] = (a * f->light[0][c][at] + b * f->light[1][c][at]) * inverse;
 }
 
-/* Develops the filtered picture, then the unfiltered one in its place. */
-static void develop(struct screen_filter *f, struct develop how)
+/* Raises the changes of a row's pixels to those of a channel: a and b are the
+ * light of the halves, na and nb their samples. */
+VECTORISED static void
+raise_changes(const float *restrict a, const float *restrict b,
+              const float *restrict na, const float *restrict nb,
+              const float *restrict filtered, float factor, bool is_cut,
+              int width, float *restrict change)
 {
-    for (int y = 0; y < f->height; y++) {
-        size_t at = row_index(f, y);
-        float *rgb = f->rgb + 3 * at;
+    for (int x = 0; x < width; x++) {
+        float light = (na[x] * a[x] + nb[x] * b[x]) / (na[x] + nb[x]);
+        float by = shown(factor * filtered[3 * x], is_cut) -
+                   shown(factor * light, is_cut);
 
-        develop_row(how, f->width, rgb, f->bytes[1] + 3 * at);
-        for (int x = 0; x < f->width; x++)
-            put_unfiltered(f, at + (size_t)x, rgb + 3 * x);
-        develop_row(how, f->width, rgb, f->bytes[0] + 3 * at);
+        change[x] = f_max(fabsf(by), change[x]);
     }
 }
 
-/* Returns the largest change of a channel of a developed pixel. */
-static uint8_t change_of(const struct screen_filter *f, size_t at)
+/* Computes how much the filter has changed the pixels of row y. */
+static void find_changes(const struct screen_filter *f, int y,
+                         struct develop how)
 {
-    int most = 0;
+    size_t at = row_index(f, y);
 
-    for (size_t c = 0; c < 3; c++) {
-        int change = f->bytes[0][3 * at + c] - f->bytes[1][3 * at + c];
-
-        change = change < 0 ? -change : change;
-        most = change > most ? change : most;
-    }
-    return (uint8_t)most;
+    memset(f->change + at, 0, (size_t)f->width * sizeof *f->change);
+    for (size_t c = 0; c < 3; c++)
+        raise_changes(f->light[0][c] + at, f->light[1][c] + at,
+                      f->count[0] + at, f->count[1] + at, f->rgb + 3 * at + c,
+                      develop_factor(how), how.tone == TONE_LINEAR, f->width,
+                      f->change + at);
 }
 
 /* Returns the largest change of the pixels around (x, y). */
-static int change_around(const struct screen_filter *f, int x, int y)
+static float change_around(const struct screen_filter *f, int x, int y)
 {
-    int most = 0;
+    float most = 0.0f;
 
     for (int j = y > 0 ? y - 1 : 0; j <= y + 1 && j < f->height; j++)
-        for (int i = x > 0 ? x - 1 : 0; i <= x + 1 && i < f->width; i++) {
-            int change = f->change[row_index(f, j) + (size_t)i];
-
-            most = change > most ? change : most;
-        }
+        for (int i = x > 0 ? x - 1 : 0; i <= x + 1 && i < f->width; i++)
+            most = f_max(f->change[row_index(f, j) + (size_t)i], most);
     return most;
 }
 
 /* Returns the share of the filtered picture in a pixel. */
 static float filtered_share(const struct screen_filter *f, int x, int y)
 {
-    float change = (float)(change_around(f, x, y) - CHANGE_LEAST) *
-                   (1.0f / (CHANGE_MOST - CHANGE_LEAST));
+    float share = (change_around(f, x, y) - CHANGE_LEAST) *
+                  (1.0f / (CHANGE_MOST - CHANGE_LEAST));
 
-    return f_max(f_min(change, 1.0f), 0.0f) *
+    return f_max(f_min(share, 1.0f), 0.0f) *
            (1.0f - f->seen[row_index(f, y) + (size_t)x]);
 }
 
-static void mix(const struct screen_filter *f, struct frame *frame)
+/* Mixes row y into the frame. While the film is empty the frame is not filled
+ * yet. */
+static void mix_row(const struct screen_filter *f, int y, struct develop how,
+                    bool is_empty, struct frame *frame)
 {
-    for (int y = 0; y < f->height; y++)
-        for (int x = 0; x < f->width; x++) {
-            size_t at = row_index(f, y) + (size_t)x;
-            float share = filtered_share(f, x, y);
+    size_t first = row_index(f, y);
 
-            for (size_t c = 3 * at; c < 3 * at + 3; c++)
-                frame->rgb[c] =
-                    (uint8_t)(share * (float)f->bytes[1][c] +
-                              (1.0f - share) * (float)frame->rgb[c] + 0.5f);
+    develop_row(how, f->width, f->rgb + 3 * first, f->bytes);
+    for (int x = 0; x < f->width; x++) {
+        float share = filtered_share(f, x, y);
+        uint8_t *from = f->bytes + 3 * x,
+                *to = frame->rgb + 3 * (first + (size_t)x);
+        float rgb[3];
+
+        if (is_empty && share < 1.0f) {
+            unfiltered(f, first + (size_t)x, rgb);
+            develop_row(how, 1, rgb, to);
         }
+        for (int c = 0; c < 3; c++)
+            to[c] = share < 1.0f
+                        ? (uint8_t)(share * (float)from[c] +
+                                    (1.0f - share) * (float)to[c] + 0.5f)
+                        : from[c];
+    }
 }
 
 bool screen_filter_show(struct screen_filter *f, struct film *film,
@@ -339,15 +381,18 @@ bool screen_filter_show(struct screen_filter *f, struct film *film,
     struct films context = {f, film, draft, surfaces, 0.0f};
     const struct filter_source source = {&context, 1, give_features,
                                          give_light};
+    bool is_empty = atomic_load(&film->samples) == 0;
 
     if (frame->width != surfaces->width || frame->height != surfaces->height ||
-        !resize(f, frame->width, frame->height) || !gather(&context))
+        !resize(f, frame->width, frame->height))
         return false;
-    context.far = film_features_far(surfaces);
+    if (!is_empty)
+        film_preview(film, draft, how, frame);
+    context.far = film_features_far(surfaces, FAR_STRIDE);
     filter_run(&f->filter, &source, levels, NULL, f->rgb);
-    develop(f, how);
-    for (size_t i = 0; i < (size_t)f->width * (size_t)f->height; i++)
-        f->change[i] = change_of(f, i);
-    mix(f, frame);
+    for (int y = 0; y < f->height; y++)
+        find_changes(f, y, how);
+    for (int y = 0; y < f->height; y++)
+        mix_row(f, y, how, is_empty, frame);
     return true;
 }

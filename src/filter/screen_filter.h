@@ -11,13 +11,15 @@
  * pixel's even samples belong to half (x + y) % 2, so that a single sample of
  * each pixel gives both halves.
  *
+ * A picture whose film is young is filtered in fewer levels, which is faster.
+ *
  * Lamps and the sky are shown without the filter, as the draft's pixels see
  * them. Pixels that the filter hardly changes, with their neighbours, are shown
  * as film_preview() shows them; so the filter ends as noise vanishes.
  *
  * Ownership: screen_filter_free() frees; a zeroed struct is empty
  * Threads:   one at a time; the films' rows are locked one by one
- * Errors:    without memory the frame stays unfiltered
+ * Errors:    out of memory
  */
 #ifndef GLIM_SCREEN_FILTER_H
 #define GLIM_SCREEN_FILTER_H
@@ -29,20 +31,25 @@ struct screen_filter {
     struct filter filter;
     int width, height; /* 0: no memory yet */
     float *memory;
-    /* Means of each half, weights of each half in samples, and the share of
-     * light that is seen: a number for each pixel. */
+    /* Numbers for each pixel: means of each half, their samples, the area of
+     * the film's pixels that have some, and the share of light that is seen. */
     float *light[2][3];
     float *count[2];
+    float *area[2];
     float *seen;
-    float *rgb;        /* 3 numbers for each pixel */
-    uint8_t *bytes[2]; /* developed: unfiltered, filtered */
-    uint8_t *change;
+    float *change;  /* by the filter, in steps of 255 */
+    float *rgb;     /* 3 numbers for each pixel */
+    uint8_t *bytes; /* of a row, developed */
 };
 
-/* Replaces the light in a frame that film_preview() has filled from these films
- * by the filtered light. `surfaces` is the draft with surfaces, each pixel of
- * which has a sample; `draft` is that or NULL, as for film_preview(). Returns
- * false and leaves the frame as it is if it does not have the draft's size.
+/* Levels for a film without a sample in each pixel: the camera may be moving.
+ */
+#define SCREEN_FILTER_LEVELS_FAST 4
+
+/* Fills a frame as film_preview() does from film and draft, but filtered.
+ * `surfaces` is the draft with surfaces, each pixel of which has a sample;
+ * `draft` is that or NULL, as for film_preview(). Returns false and leaves the
+ * frame as it is if it does not have the draft's size, or without memory.
  * Blocks. */
 bool screen_filter_show(struct screen_filter *f, struct film *film,
                         struct film *draft, struct film *surfaces,

@@ -343,6 +343,21 @@ static bool paint_costs(struct view_mode *s, struct frame *frame)
     return true;
 }
 
+/* Returns true if the light in the frame is filtered. */
+static bool paint_filtered(struct view_mode *s, struct film *film,
+                           struct film *draft, struct film *surfaces,
+                           struct frame *frame)
+{
+    uint64_t pixels = (uint64_t)film->width * (uint64_t)film->height;
+    int levels = atomic_load(&film->samples) < pixels
+                     ? SCREEN_FILTER_LEVELS_FAST
+                     : FILTER_LEVELS;
+
+    return s->kind == SHOW_LIGHT && surfaces != NULL &&
+           screen_filter_show(&s->filter, film, draft, surfaces, develop_of(s),
+                              levels, frame);
+}
+
 /* Without a draft or memory for its numbers the film is shown as light. */
 void view_mode_preview(struct view_mode *s, struct film *film,
                        struct film *draft, struct film *surfaces,
@@ -358,11 +373,9 @@ void view_mode_preview(struct view_mode *s, struct film *film,
     case SHOW_ERROR: is_painted = paint_errors(s, film, frame); break;
     default: is_painted = paint_draft(s, draft, frame); break;
     }
-    if (!is_painted)
+    s->is_filtered = paint_filtered(s, film, draft, surfaces, frame);
+    if (!is_painted && !s->is_filtered)
         film_preview(film, draft, develop_of(s), frame);
-    s->is_filtered = s->kind == SHOW_LIGHT && surfaces != NULL &&
-                     screen_filter_show(&s->filter, film, draft, surfaces,
-                                        develop_of(s), FILTER_LEVELS, frame);
 }
 
 /* Paints a preview, whose numbers are light. */

@@ -304,10 +304,9 @@ void film_counts(struct film *f, float *counts)
     }
 }
 
-/* Returns 2^stops, clamped to the range of normal floats. */
-static float exposure_factor(float stops)
+float develop_factor(struct develop how)
 {
-    return exp2f(f_max(-126.0f, f_min(stops, 126.0f)));
+    return exp2f(f_max(-126.0f, f_min(how.exposure, 126.0f)));
 }
 
 /* Develops linear light for a screen, whose white is 1. Lane 3 stays 0. */
@@ -336,7 +335,7 @@ static void encode(f4 shown, uint8_t *bytes)
 void develop_row(struct develop how, int count, const float *rgb,
                  uint8_t *bytes)
 {
-    float factor = exposure_factor(how.exposure);
+    float factor = develop_factor(how);
 
     for (int i = 0; i < count; i++, rgb += 3)
         encode(show(f4_set3(rgb[0], rgb[1], rgb[2]), factor, how.tone),
@@ -493,8 +492,7 @@ static f4 finish(const struct showing *s, struct film *film, struct film *draft,
 void film_preview(struct film *film, struct film *draft, struct develop how,
                   struct frame *frame)
 {
-    struct showing s = {frame, draft != NULL, exposure_factor(how.exposure),
-                        how.tone};
+    struct showing s = {frame, draft != NULL, develop_factor(how), how.tone};
 
     for (int y = 0; y < frame->height; y++) {
         for (int x = 0; x < frame->width; x += RUN) {

@@ -62,6 +62,9 @@ static inline struct develop develop_linear(float exposure)
     return (struct develop){exposure, TONE_LINEAR};
 }
 
+/* Returns 2^exposure, within the range of normal floats. */
+float develop_factor(struct develop how);
+
 /* Develops pixels, 3 numbers each, to 8-bit sRGB. */
 void develop_row(struct develop how, int count, const float *rgb,
                  uint8_t *bytes);

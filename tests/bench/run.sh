@@ -181,6 +181,13 @@ bench_screens() {
     "$build/bench/screens"
 }
 
+# Measures frames of live mode with the filter.
+bench_filters() {
+    echo
+    echo 'filters: frames of 400x240 pixels, one thread'
+    "$build/bench/filters" scenes/cornell.obj scenes/interior.obj
+}
+
 # Measures loading: a million triangles of text.
 bench_load() {
     echo
@@ -206,7 +213,7 @@ bench_triangles() {
 }
 
 machine
-for name in builds instructions frames threads sharing halts previews screens load device sampling triangles; do
+for name in builds instructions frames threads sharing halts previews screens filters load device sampling triangles; do
     if wanted "$name"; then
         "bench_$name"
     fi

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+/*
+ * filters - processor time of the screen's filter in one thread, for a screen
+ * of 400x240 pixels: for a draft alone, and for a film of 1024x576 pixels with
+ * 2 samples in each. Beside it the time of the frame without the filter.
+ *
+ * usage: filters SCENE...
+ */
+#include <stdio.h>
+#include <time.h>
+
+#include "base/clock.h"
+#include "filter/screen_filter.h"
+#include "session/session.h"
+
+#define WIDTH  400
+#define HEIGHT 240
+#define ROUNDS 15
+
+/* Processor time of this thread, in milliseconds. */
+static double used_ms(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+/* Returns the least time of a frame that is filtered in `levels` levels; 0: not
+ * filtered. */
+static double time_frame(struct session *s, struct screen_filter *filter,
+                         int levels, struct frame *frame)
+{
+    double least = 1e9;
+
+    for (int i = 0; i < ROUNDS; i++) {
+        double begin = used_ms(), time;
+
+        if (levels == 0)
+            film_preview(render_film(s->render), render_draft(s->render),
+                         develop_linear(0), frame);
+        else
+            screen_filter_show(filter, render_film(s->render),
+                               render_draft(s->render),
+                               render_surfaces(s->render), develop_linear(0),
+                               levels, frame);
+        time = used_ms() - begin;
+        least = time < least ? time : least;
+    }
+    return least;
+}
+
+static void time_frames(struct session *s, const char *what,
+                        struct frame *frame)
+{
+    struct screen_filter filter = {.width = 0};
+
+    printf("  %-20s %6.1f", what, time_frame(s, &filter, 0, frame));
+    for (int levels = 3; levels <= FILTER_LEVELS; levels++)
+        printf(" %6.1f", time_frame(s, &filter, levels, frame));
+    printf("\n");
+    screen_filter_free(&filter);
+}
+
+static bool bench(const char *path, struct error *err)
+{
+    struct options o = {.scene_path = path,
+                        .width_px = 1024,
+                        .height_px = 576,
+                        .max_bounces = -1};
+    struct session s;
+    struct frame frame = {0};
+    bool ok = session_open(&s, &o, clock_ns(), err) &&
+              frame_init(&frame, WIDTH, HEIGHT, err);
+
+    s.draft_width = WIDTH;
+    s.draft_height = HEIGHT;
+    ok = ok && session_restart(&s, (struct render_limits){0}, err);
+    if (ok) {
+        printf("%s\n  milliseconds         without      3      4      5      6 "
+               "levels\n",
+               path);
+        while (render_progress(s.render).samples == 0)
+            render_wait(s.render, 1);
+        render_halt(s.render);
+        film_clear(render_film(s.render));
+        time_frames(&s, "draft", &frame);
+        ok = session_restart(&s, (struct render_limits){0}, err);
+        while (render_progress(s.render).spp_done < 2)
+            render_wait(s.render, 1);
+        render_halt(s.render);
+        time_frames(&s, "film of 2 samples", &frame);
+    }
+    frame_free(&frame);
+    session_close(&s);
+    return ok;
+}
+
+int main(int argc, char **argv)
+{
+    struct error err;
+
+    for (int i = 1; i < argc; i++) {
+        if (!bench(argv[i], &err)) {
+            fprintf(stderr, "filters: %s\n", err.text);
+            return 1;
+        }
+    }
+    return 0;
+}
