@@ -192,7 +192,8 @@ bool chart_write(const struct chart *chart, const char *path, struct error *err)
     bool ok;
 
     s.x = (struct axis){.from = LEFT, .to = s.right};
-    s.y = (struct axis){.from = BOTTOM, .to = TOP};
+    s.y =
+        (struct axis){.is_linear = chart->is_linear, .from = BOTTOM, .to = TOP};
     if (!axes_fit(&s.x, &s.y, chart->series, chart->series_count))
         return fail(err, "%s: found no point to draw", path);
     if (!frame_init(&s.frame, WIDTH, HEIGHT, err))

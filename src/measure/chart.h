@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * chart.h - curves in a log-log diagram, as a PNG file
+ * chart.h - curves in a diagram, log-log or with a linear y, as a PNG file
  *
  * Units:     pixels inside; those of the axes' labels outside
  * Threads:   one
@@ -8,6 +8,8 @@
  */
 #ifndef GLIM_CHART_H
 #define GLIM_CHART_H
+
+#include <stdbool.h>
 
 #include "base/error.h"
 #include "measure/series.h"
@@ -18,6 +20,7 @@ struct chart {
     const char *title, *x_label, *y_label;
     const struct series *series;
     int series_count;
+    bool is_linear; /* y is linear, from 0 on */
 };
 
 bool chart_write(const struct chart *chart, const char *path,

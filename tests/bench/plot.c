@@ -2,8 +2,9 @@
 /*
  * plot - draws curves from standard input, lines of NAME,X,Y, as a PNG file
  *
- * usage: plot PICTURE.png TITLE X_LABEL Y_LABEL
+ * usage: plot PICTURE.png TITLE X_LABEL Y_LABEL [linear]
  *
+ * Both axes are logarithmic, or only that of x with "linear".
  * Curves have the order in which their names first occur. A curve whose name
  * begins with "-" is a guide, a thin line without points.
  */
@@ -67,8 +68,9 @@ int main(int argc, char **argv)
     char line[LINE_BYTES];
     struct error err;
 
-    if (argc != 5) {
-        fprintf(stderr, "usage: plot PICTURE.png TITLE X_LABEL Y_LABEL\n");
+    if (argc < 5) {
+        fprintf(stderr,
+                "usage: plot PICTURE.png TITLE X_LABEL Y_LABEL [linear]\n");
         return 2;
     }
     while (fgets(line, sizeof line, stdin) != NULL)
@@ -76,6 +78,7 @@ int main(int argc, char **argv)
     chart.title = argv[2];
     chart.x_label = argv[3];
     chart.y_label = argv[4];
+    chart.is_linear = argc > 5;
     chart.series_count = curve_count;
     if (!chart_write(&chart, argv[1], &err))
         stop(err.text);

@@ -228,7 +228,7 @@ with_tables() {
     done <docs/results.md
 }
 
-plot() { # NAME TITLE X_LABEL Y_LABEL: curves from standard input
+plot() { # NAME TITLE X_LABEL Y_LABEL [linear]: curves from standard input
     "$build/bench/plot" "$results/$1.png" "${@:2}"
 }
 
@@ -254,7 +254,7 @@ plot_all() {
     rows triangles | awk -F, '{ print "camera rays," $1 "," $2
             print "bounces," $1 "," $3
             print "shadow rays," $1 "," $4 }' |
-        plot triangles 'Cost of a ray' 'triangles' 'nanoseconds'
+        plot triangles 'Time of a ray' 'triangles' 'nanoseconds' linear
 }
 
 with_tables >"$work/results.md"

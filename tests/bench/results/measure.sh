@@ -24,8 +24,8 @@ trap 'rm -rf "$work"' EXIT
 mkdir -p "$results" "$cache"
 
 shipped='cornell materials glass_mirror interior skylit lights200'
-sections='samples cores frames triangles features convergence peers oidn
-    stress calibration filter'
+sections='samples cores frames triangles features convergence peers oidn stress'
+sections="$sections calibration filter"
 
 say() {
     echo "results: $*"
@@ -82,15 +82,17 @@ relmse() { # PICTURE REFERENCE
 
 # One scene at three numbers of samples, raw and filtered.
 measure_samples() {
-    local n
+    local n error
 
     for n in 1 16 1024; do
         # one sample has no second half, so its picture is not filtered
         "$build/glim" -b -w 320 -h 180 -s $n -o "$results/samples_$n.png" \
             --denoise="$results/samples_${n}_filtered.png" \
             --stats "$work/stats" scenes/interior.obj 2>"$work/said"
-        echo "$n,$(value error "$work/stats" |
-            awk '$1 > 0 { printf "%.1f %%", 100 * $1 }')"
+        error=$(value error "$work/stats")
+        echo "$n,$(awk -v e="${error:-0}" 'BEGIN {
+                if (e > 0) printf "%.1f %%", 100 * e
+                else print "unknown" }')"
     done | save samples 'samples per pixel,stated error of the raw picture'
 }
 
@@ -190,7 +192,7 @@ find_scene() { # SCENE
     folder=build/bench-error/scenes
     obj=$folder/$1.obj
     camera=$folder/$1.view
-    reference=$(reference "$obj" 8192)
+    reference=$(reference "$obj" 4096)
 }
 
 glim_row() { # SCENE SAMPLES NAME [--denoise]
@@ -310,6 +312,13 @@ measure_filter() {
 }
 
 machine=$(machine)
+case " $sections none " in
+*" ${filter:-none} "*) ;;
+*)
+    say "found no section '$filter', expected one of $sections none" >&2
+    exit 2
+    ;;
+esac
 for section in $sections; do
     [ -z "$filter" ] || [ "$filter" = "$section" ] || continue
     say "$section"
