@@ -202,8 +202,11 @@ static bool draw(const struct measurement *m, struct error *err)
 {
     struct series series[2] = {
         curve_series(&m->curve, (struct curve_axes){.is_relative = true})};
-    struct chart chart = {path_name(m->o->scene_path), "seconds",
-                          "relative MSE", series, 2};
+    struct chart chart = {.title = path_name(m->o->scene_path),
+                          .x_label = "seconds",
+                          .y_label = "relative MSE",
+                          .series = series,
+                          .series_count = 2};
     bool ignored;
     int cols = term_size().cols;
 

@@ -294,7 +294,10 @@ static bool draw_curves(const struct measurement *m, const char *name,
                         struct error *err)
 {
     struct series drawn[TECHNIQUES];
-    struct chart chart = {name, "seconds", "relative MSE", drawn, 0};
+    struct chart chart = {.title = name,
+                          .x_label = "seconds",
+                          .y_label = "relative MSE",
+                          .series = drawn};
     char *path = xformat("%s/%s.png", m->bench->folder, name);
     bool ok;
 

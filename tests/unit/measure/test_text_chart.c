@@ -9,6 +9,16 @@
 
 #include "measure/text_chart.h"
 
+static struct chart chart_of(const char *x_label, const char *y_label,
+                             const struct series *s)
+{
+    return (struct chart){.title = "",
+                          .x_label = x_label,
+                          .y_label = y_label,
+                          .series = s,
+                          .series_count = 1};
+}
+
 static char *drawn(const struct chart *chart, int cols, int rows,
                    bool has_braille)
 {
@@ -27,7 +37,7 @@ static char *drawn(const struct chart *chart, int cols, int rows,
 static void a_line_is_drawn_in_ascii(void **state)
 {
     struct series s = {.count = 3, .x = {1, 10, 100}, .y = {100, 10, 1}};
-    struct chart chart = {"", "seconds", "error", &s, 1};
+    struct chart chart = chart_of("seconds", "error", &s);
     char *text = drawn(&chart, 29, 11, false);
 
     (void)state;
@@ -47,7 +57,7 @@ static void a_line_is_drawn_in_ascii(void **state)
 static void braille_has_the_same_frame(void **state)
 {
     struct series s = {.count = 2, .x = {1, 100}, .y = {100, 1}};
-    struct chart chart = {"", "seconds", "error", &s, 1};
+    struct chart chart = chart_of("seconds", "error", &s);
     char *text = drawn(&chart, 29, 11, true);
 
     (void)state;
@@ -59,7 +69,7 @@ static void braille_has_the_same_frame(void **state)
 static void no_point_is_no_diagram(void **state)
 {
     struct series s = {.count = 3, .x = {1, 0, INFINITY}, .y = {0, 1, 1}};
-    struct chart chart = {"", "x", "y", &s, 1};
+    struct chart chart = chart_of("x", "y", &s);
     char *text = drawn(&chart, 30, 10, false);
 
     (void)state;
@@ -77,7 +87,7 @@ static void extremes_end(void **state)
         struct series s = {.count = 2,
                            .x = {values[i][0], values[i][1]},
                            .y = {values[i][1], values[i][0]}};
-        struct chart chart = {"", "x", "y", &s, 1};
+        struct chart chart = chart_of("x", "y", &s);
 
         for (int cols = -1; cols < 100; cols += 67)
             free(drawn(&chart, cols, cols / 2, cols % 2 == 0));
