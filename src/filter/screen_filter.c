@@ -94,28 +94,30 @@ struct pixel_halves {
     float count[2];
 };
 
+/* Returns the halves of pixel (x, y), whose even samples belong to half
+ * `even`. */
 static inline struct pixel_halves pixel_halves(const struct film *f, int x,
-                                               int y)
+                                               int y, int even)
 {
     size_t at = (size_t)y * (size_t)f->width + (size_t)x;
     uint64_t count = f->counts[at];
-    int odd = (x + y + 1) & 1; /* half of the odd samples */
+    int odd = 1 - even;
     struct pixel_halves p = {.count = {0}};
 
-    p.count[1 - odd] = (float)((count + 1) / 2);
+    p.count[even] = (float)((count + 1) / 2);
     p.count[odd] = (float)(count / 2);
     if (count == 1) {
         for (size_t c = 0; c < 3; c++)
-            p.light[1 - odd][c] = sum_float(f->sums[3 * at + c]);
+            p.light[even][c] = sum_float(f->sums[3 * at + c]);
     } else if (count > 1) {
-        float even_inverse = 1.0f / p.count[1 - odd];
+        float even_inverse = 1.0f / p.count[even];
         float odd_inverse = 1.0f / p.count[odd];
 
         for (size_t c = 0; c < 3; c++) {
             float all = sum_float(f->sums[3 * at + c]);
             float part = sum_float(f->odd_sums[3 * at + c]);
 
-            p.light[1 - odd][c] = f_max(all - part, 0.0f) * even_inverse;
+            p.light[even][c] = f_max(all - part, 0.0f) * even_inverse;
             p.light[odd][c] = part * odd_inverse;
         }
     }
@@ -134,6 +136,13 @@ static inline void add_part(const struct screen_filter *f, size_t at, int half,
     f->count[half][at] += area * p->count[half];
 }
 
+/* Returns the half of the even samples of a film's pixel. It is even and odd
+ * equally often on any coarse grid. */
+static inline int film_half(int x, int y)
+{
+    return __builtin_parity((unsigned)(x ^ y));
+}
+
 /* Adds row y of the film, of which `height` is within the row of the screen
  * that begins with pixel `at`. */
 static void add_film_row(const struct screen_filter *f, size_t at,
@@ -143,7 +152,7 @@ static void add_film_row(const struct screen_filter *f, size_t at,
 
     while (area_walks(&w)) {
         int x = w.from;
-        struct pixel_halves p = pixel_halves(film, x, y);
+        struct pixel_halves p = pixel_halves(film, x, y, film_half(x, y));
 
         do {
             size_t to = at + (size_t)w.to;
@@ -239,7 +248,7 @@ static void gather(const struct films *s, int y)
 
         prefetch(s->surfaces->surfaces + at + AHEAD);
         if (s->draft != NULL)
-            draft = pixel_halves(s->draft, x, y);
+            draft = pixel_halves(s->draft, x, y, (x + y) & 1);
         set_half(f, at, 0, unit, &draft);
         set_half(f, at, 1, unit, &draft);
         f->seen[at] = seen_share(s->surfaces, at);
@@ -249,6 +258,8 @@ static void gather(const struct films *s, int y)
 
 /* ---- source of the filter ---- */
 
+/* Halves count equally, for the grid of a young film would show if each pixel's
+ * samples counted. */
 static void give_features(void *context, int y, const struct filter_row *to)
 {
     const struct films *s = context;
@@ -258,8 +269,8 @@ static void give_features(void *context, int y, const struct filter_row *to)
     gather(s, y);
     film_features(s->surfaces, s->far, y, to);
     for (int h = 0; h < 2; h++)
-        memcpy(to->count[h], f->count[h] + at,
-               (size_t)f->width * sizeof *to->count[h]);
+        for (int x = 0; x < f->width; x++)
+            to->count[h][x] = f->count[h][at + (size_t)x] > 0.0f ? 1.0f : 0.0f;
     for (int x = 0; x < f->width; x++)
         if (f->seen[at + (size_t)x] > 0.0f)
             to->normal[0][x] += SEEN_NORMAL;

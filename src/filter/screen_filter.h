@@ -7,9 +7,9 @@
  * of the draft's first surfaces; the film needs none. Direct and indirect light
  * are filtered together.
  *
- * Halves: pixels of draft and film have independent halves (kernels/rng.h). A
- * pixel's even samples belong to half (x + y) % 2, so that a single sample of
- * each pixel gives both halves.
+ * Halves: pixels of draft and film have independent halves (kernels/rng.h). The
+ * even samples of neighbours belong to different halves, so that a single sample
+ * of each pixel gives both.
  *
  * A picture whose film is young is filtered in fewer levels, which is faster.
  *
