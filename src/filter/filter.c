@@ -12,6 +12,9 @@
  * counts. */
 #define PLANES (2 * 8 + 2 * FILTER_PAIRS + FILTER_FEATURES + 1 + 2)
 
+/* Least sum of weights from which the missing half of a pixel is taken. */
+#define GAP_WEIGHT_MIN 1e-3f
+
 /* One run of the filter, for workers. */
 struct job {
     struct filter *filter;
@@ -185,15 +188,19 @@ static void load_light(void *context, uint32_t item, int worker)
     j->filter->row_max[item] = max;
 }
 
-/* Adds light of half h of a pixel, if it has samples. */
-static void add_neighbour(const struct filter *f, int h, ptrdiff_t at,
-                          float sum[3], float *weight)
+/* Returns the weight of pixel q in the light of p: small where features differ,
+ * so that lamps do not shine into their neighbours. */
+static float gap_weight(const struct filter_planes *planes, ptrdiff_t p,
+                        ptrdiff_t q)
 {
-    if (f->count[h][at] > 0.0f) {
-        for (int c = 0; c < 3; c++)
-            sum[c] += f->planes.halves[0].light[h][c][at];
-        *weight += 1.0f;
+    float square = 0.0f;
+
+    for (int i = 0; i < FILTER_FEATURES; i++) {
+        float difference = planes->features[i][p] - planes->features[i][q];
+
+        square += difference * difference;
     }
+    return 1.0f / (1.0f + square * square);
 }
 
 /* Fills half h of a pixel that has no samples there with the mean of the four
@@ -202,19 +209,24 @@ static void fill_pixel(const struct filter *f, int h, int x, int y)
 {
     const struct filter_planes *p = &f->planes;
     ptrdiff_t at = y * p->pitch + x;
-    float sum[3] = {0}, weight = 0;
+    const ptrdiff_t beside[] = {x > 0 ? at - 1 : at,
+                                x < p->width - 1 ? at + 1 : at,
+                                y > 0 ? at - p->pitch : at,
+                                y < p->height - 1 ? at + p->pitch : at};
+    float sum[3] = {0}, weights = 0;
 
-    if (x > 0)
-        add_neighbour(f, h, at - 1, sum, &weight);
-    if (x < p->width - 1)
-        add_neighbour(f, h, at + 1, sum, &weight);
-    if (y > 0)
-        add_neighbour(f, h, at - p->pitch, sum, &weight);
-    if (y < p->height - 1)
-        add_neighbour(f, h, at + p->pitch, sum, &weight);
+    for (int i = 0; i < 4; i++) {
+        float weight =
+            f->count[h][beside[i]] > 0.0f ? gap_weight(p, at, beside[i]) : 0.0f;
+
+        for (int c = 0; c < 3; c++)
+            sum[c] += weight * p->halves[0].light[h][c][beside[i]];
+        weights += weight;
+    }
     for (int c = 0; c < 3; c++)
-        p->halves[0].light[h][c][at] =
-            weight > 0.0f ? sum[c] / weight : p->halves[0].light[1 - h][c][at];
+        p->halves[0].light[h][c][at] = weights > GAP_WEIGHT_MIN
+                                           ? sum[c] / weights
+                                           : p->halves[0].light[1 - h][c][at];
 }
 
 static void fill_gaps(void *context, uint32_t item, int worker)

@@ -8,8 +8,8 @@
  * are filtered together.
  *
  * Halves: pixels of draft and film have independent halves (kernels/rng.h). The
- * even samples of neighbours belong to different halves, so that a single sample
- * of each pixel gives both.
+ * even samples of neighbours belong to different halves, so that a single
+ * sample of each pixel gives both.
  *
  * A picture whose film is young is filtered in fewer levels, which is faster.
  *
