@@ -354,6 +354,11 @@ bench-cycles: $(B)/glim
 stress: $(B)/glim $(STRESSES) $(B)/unit/terminal/test_tty
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 
+## mutants: breaks one factor after another, which a test must notice;
+##          FILTER=PART of names, files or tests
+mutants:
+	@CC='$(CC)' FILTER='$(FILTER)' tests/mutants/run.sh
+
 ## scenes: generates the scenes in scenes/
 scenes: $(B)/scenes/generate
 	$(Q)$(B)/scenes/generate scenes
@@ -447,8 +452,8 @@ help:
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
 .PHONY: all lib run test tests fuzz search bench bench-error bench-rays \
-	bench-cycles results stress scenes tables gallery install uninstall deps format \
-	lint clean help FORCE
+	bench-cycles results stress mutants scenes tables gallery install \
+	uninstall deps format lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
 	$(STRESSES:=.d) $(FUZZERS:=.d) $(B)/fuzz/replay.d $(TOOLS:=.d) \
 	$(ERROR_BENCH:.o=.d) $(RAYS_BENCH:.o=.d) $(B)/rays/scaling.d \

@@ -94,6 +94,35 @@ static void clean_films_stay(void **state)
     film_free(&f);
 }
 
+/* Even samples are 1, odd ones 3, in all pixels. */
+static float striped_light(int x, int y, uint64_t index)
+{
+    (void)x;
+    (void)y;
+    return index % 2 == 0 ? 1 : 3;
+}
+
+/* Each half counts as its samples: the filtered picture has the film's mean. */
+static void halves_count_as_their_samples(void **state)
+{
+    struct film f;
+
+    (void)state;
+    open_film(&f);
+    for (int count = 2; count <= 7; count++) {
+        double mean = (count + 2.0 * (count / 2)) / count;
+        float *rgb;
+
+        film_clear(&f);
+        add_samples(&f, 0, count, striped_light);
+        rgb = filtered(&f, NULL);
+        for (int i = 0; i < WIDTH * HEIGHT; i++)
+            check_close(rgb[3 * i], mean, 1e-5);
+        free(rgb);
+    }
+    film_free(&f);
+}
+
 static float noisy_light(int x, int y, uint64_t index)
 {
     uint64_t seed = index * 1000003u + (uint64_t)(y * WIDTH + x);
@@ -272,6 +301,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(clean_films_stay),
+        cmocka_unit_test(halves_count_as_their_samples),
         cmocka_unit_test(noise_falls_on_each_surface),
         cmocka_unit_test(lamps_stay_sharp),
         cmocka_unit_test(few_samples_are_not_filtered),

@@ -297,6 +297,38 @@ static void a_few_noisy_pixels_take_four_times_the_samples(void **state)
     film_free(&film);
 }
 
+/* Light of mean 1 whose deviation is twice as large in the right half: so are
+ * the shares, which are a third less and a third more than one in the mean. */
+static void shares_are_in_proportion_to_deviations(void **state)
+{
+    struct adaptive a = {0};
+    struct film film;
+    struct error err;
+    double left = 0, right = 0;
+
+    (void)state;
+    assert_true(film_init(&film, 64, 64, &err));
+    assert_true(adaptive_init(&a, 64, 64, &err));
+    for (int i = 0; i < 64 * 64 * (int)ADAPTIVE_FIRST; i++) {
+        int x = i % 64, y = i / 64 % 64;
+        double spread = x < 32 ? 0.3 : 0.6;
+        float light =
+            (float)(1 + spread * (2 * check_random(&state_of_random) - 1));
+        struct path_sample sample = {{light, light, light}, 1, 0};
+
+        film_add_row(&film, x, y, 1, 1, &sample, NULL, (const int[]){1});
+    }
+    assert_true(adaptive_decide(&a, &film, 0, NULL, &err));
+    for (int i = 0; i < 64 * 64; i++) {
+        left += i % 64 < 25 ? a.shares[i] : 0;
+        right += i % 64 >= 39 ? a.shares[i] : 0;
+    }
+    check_close(left / (25 * 64) / SHARE_ONE, 2.0 / 3, 0.03);
+    check_close(right / (25 * 64) / SHARE_ONE, 4.0 / 3, 0.03);
+    adaptive_free(&a);
+    film_free(&film);
+}
+
 static void assert_same_film(struct film *a, struct film *b)
 {
     assert_memory_equal(a->counts, b->counts, PIXELS * sizeof *a->counts);
@@ -354,6 +386,7 @@ int main(void)
         cmocka_unit_test(rare_light_is_not_lost),
         cmocka_unit_test(a_share_does_not_depend_on_its_pixel),
         cmocka_unit_test(samples_go_where_the_error_is),
+        cmocka_unit_test(shares_are_in_proportion_to_deviations),
         cmocka_unit_test(a_few_noisy_pixels_take_four_times_the_samples),
         cmocka_unit_test(the_bits_are_the_same),
         cmocka_unit_test(pictures_without_error_end),
