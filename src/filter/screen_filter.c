@@ -359,30 +359,57 @@ static float filtered_share(const struct screen_filter *f, int x, int y)
            (1.0f - f->seen[row_index(f, y) + (size_t)x]);
 }
 
-/* Mixes row y into the frame. While the film is empty the frame is not filled
- * yet. */
-static void mix_row(const struct screen_filter *f, int y, struct develop how,
-                    bool is_empty, struct frame *frame)
+/* Returns the pixel of a picture of `size` that shows pixel i of a frame. */
+static int scaled(int i, int size, int frame_size)
 {
-    size_t first = row_index(f, y);
+    return (int)((2 * (int64_t)i + 1) * size / (2 * (int64_t)frame_size));
+}
 
-    develop_row(how, f->width, f->rgb + 3 * first, f->bytes);
-    for (int x = 0; x < f->width; x++) {
-        float share = filtered_share(f, x, y);
-        uint8_t *from = f->bytes + 3 * x,
-                *to = frame->rgb + 3 * (first + (size_t)x);
-        float rgb[3];
+/* Mixes a pixel into the frame. While the film is empty the frame is not filled
+ * yet. */
+static inline void mix(const struct screen_filter *f, int x, int y,
+                       struct develop how, bool is_empty, uint8_t to[3])
+{
+    float share = filtered_share(f, x, y);
+    const uint8_t *from = f->bytes + 3 * (size_t)x;
+    float rgb[3];
 
-        if (is_empty && share < 1.0f) {
-            unfiltered(f, first + (size_t)x, rgb);
-            develop_row(how, 1, rgb, to);
-        }
-        for (int c = 0; c < 3; c++)
-            to[c] = share < 1.0f
-                        ? (uint8_t)(share * (float)from[c] +
-                                    (1.0f - share) * (float)to[c] + 0.5f)
-                        : from[c];
+    if (share >= 1.0f) {
+        memcpy(to, from, 3);
+        return;
     }
+    if (is_empty) {
+        unfiltered(f, row_index(f, y) + (size_t)x, rgb);
+        develop_row(how, 1, rgb, to);
+    }
+    for (int c = 0; c < 3; c++)
+        to[c] = (uint8_t)(share * (float)from[c] +
+                          (1.0f - share) * (float)to[c] + 0.5f);
+}
+
+static void mix_rows(const struct screen_filter *f, struct develop how,
+                     bool is_empty, struct frame *frame)
+{
+    uint8_t *to = frame->rgb;
+
+    for (int i = 0; i < frame->height; i++) {
+        int y = scaled(i, f->height, frame->height);
+
+        develop_row(how, f->width, f->rgb + 3 * row_index(f, y), f->bytes);
+        for (int j = 0; j < frame->width; j++, to += 3)
+            mix(f, scaled(j, f->width, frame->width), y, how, is_empty, to);
+    }
+}
+
+/* Returns true if the draft has the pixels of the frame, or those of a film
+ * that the frame enlarges. */
+static bool fits(const struct film *film, const struct film *draft,
+                 const struct frame *frame)
+{
+    return (draft->width == frame->width ||
+            (draft->width == film->width && film->width < frame->width)) &&
+           (draft->height == frame->height ||
+            (draft->height == film->height && film->height < frame->height));
 }
 
 bool screen_filter_show(struct screen_filter *f, struct film *film,
@@ -394,8 +421,8 @@ bool screen_filter_show(struct screen_filter *f, struct film *film,
                                          give_light};
     bool is_empty = atomic_load(&film->samples) == 0;
 
-    if (frame->width != surfaces->width || frame->height != surfaces->height ||
-        !resize(f, frame->width, frame->height))
+    if (!fits(film, surfaces, frame) ||
+        !resize(f, surfaces->width, surfaces->height))
         return false;
     if (!is_empty)
         film_preview(film, draft, how, frame);
@@ -403,7 +430,6 @@ bool screen_filter_show(struct screen_filter *f, struct film *film,
     filter_run(&f->filter, &source, levels, NULL, f->rgb);
     for (int y = 0; y < f->height; y++)
         find_changes(f, y, how);
-    for (int y = 0; y < f->height; y++)
-        mix_row(f, y, how, is_empty, frame);
+    mix_rows(f, how, is_empty, frame);
     return true;
 }

@@ -49,7 +49,8 @@ struct screen_filter {
 /* Fills a frame as film_preview() does from film and draft, but filtered.
  * `surfaces` is the draft with surfaces, each pixel of which has a sample;
  * `draft` is that or NULL, as for film_preview(). Returns false and leaves the
- * frame as it is if it does not have the draft's size, or without memory.
+ * frame as it is without memory, or if it has not the draft's size; but it may
+ * enlarge a draft of the film's size.
  * Blocks. */
 bool screen_filter_show(struct screen_filter *f, struct film *film,
                         struct film *draft, struct film *surfaces,

@@ -8,6 +8,7 @@
 #include "glim/version.h"
 #include "studio/help.h"
 #include "studio/panel_draw.h"
+#include "studio/screen_draft.h"
 #include "studio/status_line.h"
 
 #define MS_NS UINT64_C(1000000)
@@ -59,20 +60,12 @@ void workspace_refresh(struct workspace *workspace)
     workspace->progress_panel.due_ns = 0;
 }
 
-/* Sets the draft's size from the next restart on: a cell shows two pixels, one
- * above the other. */
-static void set_draft(struct session *s, const struct cells_rect *fit)
-{
-    s->draft_width = fit->cols;
-    s->draft_height = 2 * fit->rows;
-}
-
 void workspace_expect(struct session *s)
 {
     struct cells_rect fit =
         screen_expect(&s->options->display, s->crop.width, s->crop.height);
 
-    set_draft(s, &fit);
+    screen_draft_expect(s, &fit);
 }
 
 /* Makes the frame in the size that the screen wants; none if the window is too
@@ -103,8 +96,7 @@ void workspace_layout(struct workspace *workspace)
         render_control_say_error(workspace->control, err.text);
     }
     panel_draw(&workspace->panel);
-    /* the present draft is resampled until the next restart */
-    set_draft(workspace->control->session, &workspace->screen.fit);
+    screen_draft_fit(workspace->control, &workspace->screen);
     inspector_open_table(&workspace->inspector); /* the layout closed it */
 }
 

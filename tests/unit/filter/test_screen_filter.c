@@ -257,11 +257,11 @@ static void other_frames_stay(void **state)
     (void)state;
     open_films(1);
     add_samples(&draft, 1, 0, noisy_light);
-    assert_true(frame_init(&other, WIDTH + 1, HEIGHT, &err));
-    memset(other.rgb, 77, BYTES);
+    assert_true(frame_init(&other, WIDTH - 1, HEIGHT, &err));
+    memset(other.rgb, 77, BYTES - 3 * HEIGHT);
     assert_false(screen_filter_show(&filter, &film, &draft, &draft,
                                     develop_linear(0), FILTER_LEVELS, &other));
-    for (int i = 0; i < BYTES; i++)
+    for (int i = 0; i < BYTES - 3 * HEIGHT; i++)
         assert_int_equal(other.rgb[i], 77);
     frame_free(&other);
     close_films();

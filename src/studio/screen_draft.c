@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "studio/screen_draft.h"
+
+/* Pixels of the largest frame that is filtered if its cells have more pixels
+ * than half blocks. A larger draft would take long. */
+#define PIXELS_MAX (400 * 240)
+
+/* A cell of half blocks shows two pixels, one above the other. */
+void screen_draft_expect(struct session *s, const struct cells_rect *fit)
+{
+    s->draft_width = fit->cols;
+    s->draft_height = 2 * fit->rows;
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* Returns true if the draft has the size that the next one will have. */
+static bool is_current(const struct session *s, const struct film *draft)
+{
+    return draft->width == smaller(s->draft_width, s->crop.width) &&
+           draft->height == smaller(s->draft_height, s->crop.height);
+}
+
+void screen_draft_fit(struct render_control *control,
+                      const struct screen *screen)
+{
+    struct session *s = control->session;
+    const struct film *young = render_draft(s->render);
+
+    screen_draft_expect(s, &screen->fit);
+    if (s->is_filtered &&
+        screen->frame_width * screen->frame_height <= PIXELS_MAX) {
+        s->draft_width = screen->frame_width;
+        s->draft_height = screen->frame_height;
+    }
+    if (control->is_live && !control->is_halted && s->draft_has_surfaces &&
+        young && !screen->is_too_small && !is_current(s, young))
+        render_control_restart(control);
+}
