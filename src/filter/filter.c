@@ -200,7 +200,7 @@ static float gap_weight(const struct filter_planes *planes, ptrdiff_t p,
 
         square += difference * difference;
     }
-    return 1.0f / (1.0f + square * square);
+    return filter_weight(1.0f, 0.0f, square);
 }
 
 /* Fills half h of a pixel that has no samples there with the mean of the four
