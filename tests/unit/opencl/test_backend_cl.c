@@ -44,6 +44,7 @@ struct pair {
     bool is_adaptive;
     uint32_t sample; /* enum sample_kind */
     bool has_surfaces;
+    bool draft_has_surfaces;
 };
 
 static struct backend *device; /* NULL: not available */
@@ -125,6 +126,7 @@ static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
                              .limits.spp = spp,
                              .draft_width = p->draft_width,
                              .draft_height = p->draft_height,
+                             .draft_has_surfaces = p->draft_has_surfaces,
                              .is_adaptive = p->is_adaptive};
     struct error err;
 
@@ -294,6 +296,16 @@ static void adaptive_pictures_are_equal(void **state)
     close_pair(&p);
 }
 
+/* Drafts for the filter have the same halves and surfaces. */
+static void assert_equal_surfaces(const struct film *a, const struct film *b)
+{
+    size_t pixels = (size_t)b->width * (size_t)b->height;
+
+    assert_memory_equal(a->odd_sums, b->odd_sums,
+                        3 * pixels * sizeof *b->odd_sums);
+    assert_memory_equal(a->surfaces, b->surfaces, pixels * sizeof *b->surfaces);
+}
+
 /* A small film is rendered before the film, which it does not affect. */
 static void drafts_are_equal(void **state)
 {
@@ -307,6 +319,7 @@ static void drafts_are_equal(void **state)
         const struct film *a, *b;
 
         p.draft_width = 33 + 7 * i;
+        p.draft_has_surfaces = i == 1;
         p.draft_height = 20;
         render_both(&p, (struct rect){9, 5, 80, 50}, 3, 1);
         a = render_draft(p.renders[0]);
@@ -317,6 +330,8 @@ static void drafts_are_equal(void **state)
         if (is_exact)
             assert_memory_equal(a->sums, b->sums,
                                 3 * (size_t)b->width * 20 * sizeof *b->sums);
+        if (is_exact && p.draft_has_surfaces)
+            assert_equal_surfaces(a, b);
     }
     close_pair(&p);
 }
