@@ -377,6 +377,7 @@ static enum screen_result send(struct workspace *workspace, bool has_frame)
 {
     struct screen *screen = &workspace->screen;
     struct view_mode *view_mode = &workspace->inspector.view_mode;
+    bool was_filtered = view_mode->is_filtered;
     enum screen_result result;
 
     if (!screen_draw_text(screen))
@@ -385,8 +386,8 @@ static enum screen_result send(struct workspace *workspace, bool has_frame)
         return screen_draw(screen, NULL, 0);
     inspector_preview(&workspace->inspector, &workspace->frame);
     result = screen_draw(screen, &workspace->frame, frame_step(workspace));
-    if (view_mode->legend_is_new)
-        workspace->status_ns = 0;
+    if (view_mode->legend_is_new || view_mode->is_filtered != was_filtered)
+        workspace->status_ns = 0; /* it was written before the frame */
     view_mode->legend_is_new = false;
     return result;
 }
