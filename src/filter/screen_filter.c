@@ -233,6 +233,7 @@ static void gather(const struct films *s, int y)
     struct screen_filter *f = s->filter;
     float unit = 1.0f / ((float)f->width * (float)f->height);
     size_t first = row_index(f, y), size = (size_t)f->width * sizeof(float);
+    size_t pixels = row_index(f, f->height);
 
     for (int h = 0; h < 2; h++) {
         for (int c = 0; c < 3; c++)
@@ -246,7 +247,8 @@ static void gather(const struct films *s, int y)
         size_t at = first + (size_t)x;
         struct pixel_halves draft = {.count = {0}};
 
-        prefetch(s->surfaces->surfaces + at + AHEAD);
+        if (at + AHEAD < pixels)
+            prefetch(s->surfaces->surfaces + at + AHEAD);
         if (s->draft != NULL)
             draft = pixel_halves(s->draft, x, y, (x + y) & 1);
         set_half(f, at, 0, unit, &draft);
