@@ -40,8 +40,8 @@ static void give_features(void *context, int y, const struct filter_row *to)
     for (int x = 0; x < f->width; x++) {
         size_t at = row_index(f, y) + (size_t)x;
 
-        to->count[0][x] = (float)((f->counts[at] + 1) / 2);
-        to->count[1][x] = (float)(f->counts[at] / 2);
+        to->count[0][x] = (float)film_even_count(f->counts[at]);
+        to->count[1][x] = (float)film_odd_count(f->counts[at]);
     }
     film_unlock_row(f, y);
 }
@@ -52,8 +52,8 @@ static void put_light(const struct film *f, size_t at, int component, int x,
                       float *to[2][3])
 {
     const struct surface_sums *surface = &f->surfaces[at];
-    float even_count = (float)((f->counts[at] + 1) / 2);
-    float odd_count = (float)(f->counts[at] / 2);
+    float even_count = (float)film_even_count(f->counts[at]);
+    float odd_count = (float)film_odd_count(f->counts[at]);
 
     for (int c = 0; c < 3; c++) {
         struct sum all = surface->direct[c], odd = surface->odd_direct[c];

@@ -104,8 +104,8 @@ static inline struct pixel_halves pixel_halves(const struct film *f, int x,
     int odd = 1 - even;
     struct pixel_halves p = {.count = {0}};
 
-    p.count[even] = (float)((count + 1) / 2);
-    p.count[odd] = (float)(count / 2);
+    p.count[even] = (float)film_even_count(count);
+    p.count[odd] = (float)film_odd_count(count);
     if (count == 1) {
         for (size_t c = 0; c < 3; c++)
             p.light[even][c] = sum_float(f->sums[3 * at + c]);

@@ -125,7 +125,7 @@ static double set_shares(struct adaptive *a, const struct plan *p, int colour,
 /* Chooses the shares of a colour, whose mean is SHARE_ONE. */
 static void choose_shares(struct adaptive *a, const struct plan *p, int colour)
 {
-    const double most = SHARE_MOST / SHARE_ONE;
+    const double most = (double)SHARE_MOST / SHARE_ONE;
     double low = 0x1p-100, high = 0x1p100; /* of the factor */
     double mean = set_shares(a, p, colour, high, LEAST);
 

@@ -69,6 +69,18 @@ float develop_factor(struct develop how);
 void develop_row(struct develop how, int count, const float *rgb,
                  uint8_t *bytes);
 
+/* Return how many of the first `count` samples of a pixel are in each half:
+ * those with even indices, and those with odd ones. */
+static inline uint64_t film_even_count(uint64_t count)
+{
+    return (count + 1) / 2;
+}
+
+static inline uint64_t film_odd_count(uint64_t count)
+{
+    return count / 2;
+}
+
 bool film_init(struct film *film, int width, int height, struct error *err);
 
 /* Gives an empty film sums of first surfaces, for the denoising filter. */

@@ -49,8 +49,8 @@ bool film_pixel_error(const struct film *f, size_t at, float mean[3],
                       float e[3])
 {
     uint64_t count = f->counts[at];
-    float odd_count = (float)(count / 2);
-    float even_count = (float)(count - count / 2);
+    float odd_count = (float)film_odd_count(count);
+    float even_count = (float)film_even_count(count);
     /* for unequal counts, var(x) is var(a - b) times this factor squared */
     float factor = sqrtf(even_count * odd_count) / (float)count;
 
