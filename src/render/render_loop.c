@@ -20,6 +20,10 @@
  * large as the film's. */
 #define DRAFT_STRIDE_MAX 8
 
+/* Halts that may interrupt the error of a pass. Then it is completed, as halts
+ * in quick succession would keep the render from going on. */
+#define ERROR_HALTS_MAX 3
+
 struct render {
     struct backend *backend;
     struct render_films films;
@@ -50,6 +54,7 @@ struct render {
     /* set while the render thread is parked */
     struct render_job job;
     struct render_limits limits;
+    int error_halts; /* halts since the last pass that came before its error */
     /* film of the backend's last begin(); NULL: a new picture */
     const struct film *begun_film;
 };
@@ -163,22 +168,26 @@ static enum render_limit limit_at_pass_end(const struct render *r)
     return render_limits_at(&r->limits, r->spp_done, &r->film_error);
 }
 
-static struct film_error estimate(struct render *r)
+static struct film_error estimate(struct render *r, const struct cancel *cancel)
 {
     return film_error(&r->films.film, r->job.exposure, r->backend->pool,
-                      &r->cancel);
+                      cancel);
 }
 
 /* Finds the error at the end of a pass, unless it is known already. */
 static enum pass_result estimate_pass(struct render *r)
 {
+    bool may_halt = r->error_halts < ERROR_HALTS_MAX;
     struct film_error e;
 
     if (r->has_error)
         return PASS_DONE;
-    e = estimate(r);
-    if (cancel_requested(&r->cancel))
+    e = estimate(r, may_halt ? &r->cancel : NULL);
+    if (may_halt && cancel_requested(&r->cancel)) {
+        r->error_halts++;
         return PASS_CANCELLED;
+    }
+    r->error_halts = 0;
     pthread_mutex_lock(&r->lock);
     r->film_error = e;
     r->has_error = true;
@@ -199,7 +208,7 @@ static void estimate_cut(struct render *r)
     struct film_error e;
 
     r->cancel.deadline_ns = 0; /* requests still count */
-    e = estimate(r);
+    e = estimate(r, &r->cancel);
     pthread_mutex_lock(&r->lock);
     r->cut_error = e;
     pthread_mutex_unlock(&r->lock);
@@ -351,6 +360,7 @@ bool render_start(struct render *r, const struct render_job *job,
         return false;
     r->job = *job;
     r->begun_film = NULL;
+    r->error_halts = 0;
     pthread_mutex_lock(&r->lock);
     r->limits = job->limits;
     r->spp_done = 0;
