@@ -307,7 +307,7 @@ measure_calibration() {
 
 measure_filter() {
     stress_log filter
-    sed -n 's|^\(ok\|FAIL\) filter: scenes/\([a-z_0-9]*\).obj, \([0-9]*\) spp: relMSE \([0-9.e+-]*\), filtered \([0-9.e+-]*\), own \([0-9.e+-]*\);.*|\2,\3,\4,\5,\6|p' "$log" |
+    sed -n 's#^\(ok\|FAIL\) filter: scenes/\([a-z_0-9]*\).obj, \([0-9]*\) spp: relMSE \([0-9.e+-]*\), filtered \([0-9.e+-]*\), own \([0-9.e+-]*\);.*#\2,\3,\4,\5,\6#p' "$log" |
         save filter 'scene,samples per pixel,relMSE raw,filtered,own error of the reference'
 }
 
