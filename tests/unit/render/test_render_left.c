@@ -150,14 +150,26 @@ static void the_nearest_limit_counts(void **state)
     left = render_left(&p);
     assert_int_equal(left.limit, RENDER_LIMIT_ERROR);
     check_close(left.ns, 1.28e9, 1e3);
-    p.is_adaptive = true; /* the round ends at 128, passes at 136 to 232 */
-    check_close(render_left(&p).ns, 1.32e9, 1e3);
-    p.is_adaptive = false;
     p.error_limit = 0.04;
     p.time_limit_ns = 1; /* over */
     left = render_left(&p);
     assert_int_equal(left.limit, RENDER_LIMIT_TIME);
     assert_true(left.ns == 0 && left.part == 1);
+}
+
+/* 12 samples, of which 18.5 reach the target: passes end at 20 and 28, those of
+ * an adaptive render at 16 and 24. */
+static void errors_are_known_at_the_ends_of_passes(void **state)
+{
+    const struct error_trend none = {.count = 0};
+    const struct simulation s = {.p = 1, .first_error = 0.5};
+    struct render_progress p = at(&s, 12, &none);
+
+    (void)state;
+    p.error_limit = p.film_error.high * sqrt(12 / 18.5);
+    check_close(render_left(&p).ns, (20 - 12) * 1e7, 1e3);
+    p.is_adaptive = true;
+    check_close(render_left(&p).ns, (24 - 12) * 1e7, 1e3);
 }
 
 static void unknown_errors_have_no_time(void **state)
@@ -262,6 +274,7 @@ int main(void)
         cmocka_unit_test(time_to_an_error_is_right_from_a_tenth_on),
         cmocka_unit_test(exponents_are_fitted),
         cmocka_unit_test(the_nearest_limit_counts),
+        cmocka_unit_test(errors_are_known_at_the_ends_of_passes),
         cmocka_unit_test(unknown_errors_have_no_time),
         cmocka_unit_test(errors_have_two_digits),
         cmocka_unit_test(texts_say_what_is_known),
