@@ -33,6 +33,8 @@ bool render_left_to_error(const struct render_progress *p, double target,
         return false;
     spp = error_trend_spp((double)p->spp_done, e->high, target,
                           p->error_exponent);
+    if (spp < RENDER_ERROR_SPP_MIN)
+        spp = RENDER_ERROR_SPP_MIN;
     if (e->high > target && spp < SPP_MAX) /* the error is known after passes */
         spp = (double)pass_plan_end(p->spp_done, (uint64_t)spp + 1,
                                     p->is_adaptive);

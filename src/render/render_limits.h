@@ -11,6 +11,10 @@
 
 #include "picture/film_error.h"
 
+/* Samples of each pixel before the error can end a render: in fewer, rare light
+ * is often neither in the picture nor in its error. */
+#define RENDER_ERROR_SPP_MIN 16
+
 /* 0 is none. The first that holds ends the render. */
 struct render_limits {
     uint64_t spp;

@@ -17,7 +17,8 @@ static void an_error_is_reached_by_its_upper_end(void **state)
     e.is_known = false;
     assert_int_equal(render_limits_at(&limits, 64, &e), RENDER_LIMIT_NONE);
     e = (struct film_error){.is_known = true}; /* a picture without noise */
-    assert_int_equal(render_limits_at(&limits, 2, &e), RENDER_LIMIT_ERROR);
+    assert_int_equal(render_limits_at(&limits, 16, &e), RENDER_LIMIT_ERROR);
+    assert_int_equal(render_limits_at(&limits, 15, &e), RENDER_LIMIT_NONE);
 }
 
 static void the_error_counts_more_than_samples(void **state)
