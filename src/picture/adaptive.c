@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "picture/film_error.h"
@@ -39,9 +40,9 @@ void adaptive_reset(struct adaptive *a)
 /* Numbers of the decision, for each pixel. */
 struct plan {
     int width, height;
-    float *squares;    /* of relative errors, of one colour */
-    float *deviations; /* roots of their means, of the other colour */
-    float *line;       /* a row or a column */
+    int colour;        /* of the squares; the deviations have the other one */
+    float *squares;    /* of relative errors; their sums along rows */
+    float *deviations; /* roots of their means */
 };
 
 static int smaller(int a, int b)
@@ -54,19 +55,24 @@ static int larger(int a, int b)
     return a > b ? a : b;
 }
 
-/* Replaces `count` numbers, `step` floats apart, by the sums of those within
- * REACH. */
-static void sum_line(float *x, int count, size_t step, float *line)
+/* Replaces the squares of a row by the sums of those within REACH. */
+static void sum_row(void *context, uint32_t y, int worker)
 {
-    for (int i = 0; i < count; i++)
-        line[i] = x[(size_t)i * step];
-    for (int i = 0; i < count; i++) {
-        int last = smaller(i + REACH, count - 1);
+    const struct plan *p = context;
+    float *row = p->squares + (size_t)y * (size_t)p->width;
+    float before[REACH] = {0}; /* old values of the pixels before */
+
+    (void)worker;
+    for (int i = 0; i < p->width; i++) {
+        int last = smaller(i + REACH, p->width - 1);
         float sum = 0.0f;
 
-        for (int j = larger(i - REACH, 0); j <= last; j++)
-            sum += line[j];
-        x[(size_t)i * step] = sum;
+        for (int j = 0; j < REACH; j++)
+            sum += before[j];
+        for (int j = i; j <= last; j++)
+            sum += row[j];
+        before[i % REACH] = row[i];
+        row[i] = sum;
     }
 }
 
@@ -81,69 +87,121 @@ static float count_around(const struct plan *p, int x, int y)
     return (float)(is_corner_other ? (all + 1) / 2 : all / 2);
 }
 
-/* Finds the deviations of pixels of the other colour. Returns false if a pixel
- * lacks samples. */
-static bool find_deviations(struct plan *p, struct film *film, float exposure,
-                            struct pool *pool, int colour)
+/* Finds the deviations of a row, from the sums of the rows around. */
+static void find_row(void *context, uint32_t row, int worker)
 {
+    const struct plan *p = context;
+    int y = (int)row;
+    int y0 = larger(y - REACH, 0), y1 = smaller(y + REACH, p->height - 1);
     size_t width = (size_t)p->width;
 
-    if (!film_error_squares(film, exposure, colour, pool, p->squares))
-        return false;
-    for (int y = 0; y < p->height; y++)
-        sum_line(p->squares + (size_t)y * width, p->width, 1, p->line);
-    for (size_t x = 0; x < width; x++)
-        sum_line(p->squares + x, p->height, width, p->line);
-    for (int y = 0; y < p->height; y++)
-        for (int x = (y + colour + 1) & 1; x < p->width; x += 2) {
-            size_t at = (size_t)y * width + (size_t)x;
+    (void)worker;
+    for (int x = (y + p->colour + 1) & 1; x < p->width; x += 2) {
+        float sum = 0.0f;
 
-            p->deviations[at] = sqrtf(p->squares[at] / count_around(p, x, y));
-        }
+        for (int j = y0; j <= y1; j++)
+            sum += p->squares[(size_t)j * width + (size_t)x];
+        p->deviations[(size_t)y * width + (size_t)x] =
+            sqrtf(sum / count_around(p, x, y));
+    }
+}
+
+/* Finds the deviations of the pixels of a colour. Returns false after a cancel,
+ * or if a pixel lacks samples. */
+static bool find_deviations(struct plan *p, int colour, struct film *film,
+                            float exposure, struct pool *pool,
+                            const struct cancel *cancel)
+{
+    p->colour = 1 - colour;
+    if (!film_error_squares(film, exposure, p->colour, pool, cancel,
+                            p->squares))
+        return false;
+    pool_each(pool, (uint32_t)p->height, sum_row, p);
+    pool_each(pool, (uint32_t)p->height, find_row, p);
     return true;
 }
 
-/* Sets the shares of pixels of a colour to these multiples of the deviations,
- * but at least to `least`. Returns their mean over SHARE_ONE. */
-static double set_shares(struct adaptive *a, const struct plan *p, int colour,
-                         double factor, double least)
+/* Deviations of the pixels of a colour, sorted into bins of nearly equal ones.
+ * A bin is the upper bits of a float: 32 for each power of two. */
+#define BIN_BITS 18
+#define BINS     (0x80000000u >> BIN_BITS)
+
+struct histogram {
+    double counts[BINS], sums[BINS];
+    double count;
+};
+
+static void count_deviations(struct histogram *h, const struct plan *p,
+                             int colour)
 {
-    double sum = 0, count = 0;
+    memset(h, 0, sizeof *h);
+    for (int y = 0; y < p->height; y++)
+        for (int x = (y + colour) & 1; x < p->width; x += 2) {
+            float d = p->deviations[(size_t)y * (size_t)p->width + (size_t)x];
+            uint32_t bin = float_bits(d) >> BIN_BITS;
 
-    for (int y = 0; y < a->height; y++)
-        for (int x = (y + colour) & 1; x < a->width; x += 2, count++) {
-            size_t at = (size_t)y * (size_t)a->width + (size_t)x;
-            double share = fmax((double)p->deviations[at] * factor, least);
-
-            share = fmin(share * SHARE_ONE, SHARE_MOST);
-            a->shares[at] = (uint16_t)lrint(share);
-            sum += a->shares[at];
+            h->counts[bin]++;
+            h->sums[bin] += (double)d;
+            h->count++;
         }
-    return sum / (count * SHARE_ONE);
 }
 
-/* Chooses the shares of a colour, whose mean is SHARE_ONE. */
-static void choose_shares(struct adaptive *a, const struct plan *p, int colour)
+/* Returns the share of a pixel over SHARE_ONE. */
+static double share_of(double deviation, double factor, double least)
 {
-    const double most = (double)SHARE_MOST / SHARE_ONE;
-    double low = 0x1p-100, high = 0x1p100; /* of the factor */
-    double mean = set_shares(a, p, colour, high, LEAST);
+    return fmin(fmax(deviation * factor, least), SHARE_MOST / SHARE_ONE);
+}
 
+static double mean_share(const struct histogram *h, double factor, double least)
+{
+    double sum = 0;
+
+    for (uint32_t i = 0; i < BINS; i++)
+        if (h->counts[i] > 0)
+            sum += h->counts[i] *
+                   share_of(h->sums[i] / h->counts[i], factor, least);
+    return sum / h->count;
+}
+
+/* Finds the factor of deviations and the least share with which the mean of the
+ * shares is SHARE_ONE. */
+static void find_factor(const struct histogram *h, double *factor,
+                        double *least)
+{
+    const double most = SHARE_MOST / SHARE_ONE;
+    double low = 0x1p-100, high = 0x1p100;
+    double mean = mean_share(h, high, LEAST);
+
+    *factor = high;
+    *least = LEAST;
     if (mean < 1) { /* few pixels have an error: the others share the rest */
         double few = (mean - LEAST) / (most - LEAST);
 
-        set_shares(a, p, colour, high, (1 - most * few) / (1 - few));
+        *least = (1 - most * few) / (1 - few);
         return;
     }
-    for (int i = 0; i < 40; i++) {
-        double middle = sqrt(low * high);
-
-        if (set_shares(a, p, colour, middle, LEAST) <= 1)
-            low = middle;
+    for (int i = 0; i < 50; i++) {
+        *factor = sqrt(low * high);
+        if (mean_share(h, *factor, LEAST) <= 1)
+            low = *factor;
         else
-            high = middle;
+            high = *factor;
     }
-    set_shares(a, p, colour, low, LEAST);
+}
+
+static void set_shares(struct adaptive *a, const struct plan *p,
+                       const struct histogram *h, int colour)
+{
+    double factor, least;
+
+    find_factor(h, &factor, &least);
+    for (int y = 0; y < a->height; y++)
+        for (int x = (y + colour) & 1; x < a->width; x += 2) {
+            size_t at = (size_t)y * (size_t)a->width + (size_t)x;
+            double share = share_of((double)p->deviations[at], factor, least);
+
+            a->shares[at] = (uint16_t)lrint(share * SHARE_ONE);
+        }
 }
 
 static bool plan_init(struct plan *p, const struct adaptive *a)
@@ -155,42 +213,39 @@ static bool plan_init(struct plan *p, const struct adaptive *a)
         .height = a->height,
         .squares = alloc_array(pixels, sizeof *p->squares),
         .deviations = alloc_array(pixels, sizeof *p->deviations),
-        .line =
-            alloc_array((size_t)larger(a->width, a->height), sizeof *p->line),
     };
-    return p->squares != NULL && p->deviations != NULL && p->line != NULL;
+    return p->squares != NULL && p->deviations != NULL;
 }
 
 static void plan_free(struct plan *p)
 {
     free(p->squares);
     free(p->deviations);
-    free(p->line);
-}
-
-/* Returns false if a pixel lacks samples. */
-static bool decide(struct adaptive *a, struct plan *p, struct film *film,
-                   float exposure, struct pool *pool)
-{
-    for (int colour = 0; colour < 2; colour++) {
-        if (!find_deviations(p, film, exposure, pool, 1 - colour))
-            return false;
-        choose_shares(a, p, colour);
-    }
-    return true;
 }
 
 bool adaptive_decide(struct adaptive *a, struct film *film, float exposure,
-                     struct pool *pool, struct error *err)
+                     struct pool *pool, const struct cancel *cancel,
+                     struct error *err)
 {
-    struct plan p;
+    struct histogram *h = NULL;
+    struct plan p = {0};
     bool has_memory;
 
     if (a->is_decided)
         return true;
-    has_memory = plan_init(&p, a);
-    a->is_decided = has_memory && decide(a, &p, film, exposure, pool);
+    h = alloc_array(1, sizeof *h);
+    has_memory = plan_init(&p, a) && h != NULL;
+    a->is_decided = has_memory;
+    for (int colour = 0; colour < 2 && a->is_decided; colour++) {
+        a->is_decided =
+            find_deviations(&p, colour, film, exposure, pool, cancel);
+        if (!a->is_decided)
+            break;
+        count_deviations(h, &p, colour);
+        set_shares(a, &p, h, colour);
+    }
     plan_free(&p);
+    free(h);
     return has_memory ||
            fail(err, "out of memory for adaptive sampling of %dx%d pixels",
                 a->width, a->height);

@@ -42,8 +42,9 @@ void adaptive_free(struct adaptive *a);
 void adaptive_reset(struct adaptive *a);
 
 /* Computes the shares, unless they are. The film has ADAPTIVE_FIRST samples in
- * each pixel. */
+ * each pixel. After a cancel, which may be NULL, they are not decided. */
 bool adaptive_decide(struct adaptive *a, struct film *film, float exposure,
-                     struct pool *pool, struct error *err);
+                     struct pool *pool, const struct cancel *cancel,
+                     struct error *err);
 
 #endif

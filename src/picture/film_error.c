@@ -411,18 +411,19 @@ static void map_row_of_tiles(void *context, uint32_t row, int worker)
     }
 }
 
-/* Writes the squared errors of the pixels of a colour, or of ALL. Returns false
- * if one has a half without a sample. */
-static bool find_squares(struct film *f, float exposure, int colour,
-                         struct pool *pool, float *squares)
+bool film_error_squares(struct film *f, float exposure, int colour,
+                        struct pool *pool, const struct cancel *cancel,
+                        float *squares)
 {
     struct job j = {.film = f,
                     .exposure = exposure,
                     .colour = colour,
+                    .cancel = cancel,
                     .map = squares};
 
     pool_each(pool, (uint32_t)tiles_in(f->height), map_row_of_tiles, &j);
-    return !atomic_load(&j.is_unknown);
+    return !atomic_load(&j.is_unknown) &&
+           (cancel == NULL || !cancel_requested(cancel));
 }
 
 bool film_error_map(struct film *f, float exposure, struct pool *pool,
@@ -430,7 +431,7 @@ bool film_error_map(struct film *f, float exposure, struct pool *pool,
 {
     size_t width = (size_t)f->width;
 
-    if (!find_squares(f, exposure, ALL, pool, map))
+    if (!film_error_squares(f, exposure, ALL, pool, NULL, map))
         return false;
     for (int y = 0; y < f->height; y++)
         average(map + (size_t)y * width, f->width, 1);
@@ -439,10 +440,4 @@ bool film_error_map(struct film *f, float exposure, struct pool *pool,
     for (size_t i = 0; i < width * (size_t)f->height; i++)
         map[i] = sqrtf(map[i]);
     return true;
-}
-
-bool film_error_squares(struct film *f, float exposure, int colour,
-                        struct pool *pool, float *squares)
-{
-    return find_squares(f, exposure, colour, pool, squares);
 }

@@ -59,9 +59,10 @@ bool film_error_map(struct film *film, float exposure, struct pool *pool,
 
 /* Writes the squared relative error of each pixel of one colour of a chess
  * board: 0 for those with even x + y, or 1. It depends on pixels of that colour
- * only. Pixels of the other one get 0. Returns false if the error is unknown.
- */
+ * only. Pixels of the other one get 0. Returns false if the error is unknown,
+ * and after a cancel, which may be NULL. */
 bool film_error_squares(struct film *film, float exposure, int colour,
-                        struct pool *pool, float *squares);
+                        struct pool *pool, const struct cancel *cancel,
+                        float *squares);
 
 #endif

@@ -168,6 +168,13 @@ static enum render_limit limit_at_pass_end(const struct render *r)
     return render_limits_at(&r->limits, r->spp_done, &r->film_error);
 }
 
+/* Returns the cancel of work between passes, or NULL if it has been halted too
+ * often: a series of halts could delay it for ever. */
+static const struct cancel *cancel_between(const struct render *r)
+{
+    return r->error_halts < ERROR_HALTS_MAX ? &r->cancel : NULL;
+}
+
 static struct film_error estimate(struct render *r, const struct cancel *cancel)
 {
     return film_error(&r->films.film, r->job.exposure, r->backend->pool,
@@ -177,13 +184,13 @@ static struct film_error estimate(struct render *r, const struct cancel *cancel)
 /* Finds the error at the end of a pass, unless it is known already. */
 static enum pass_result estimate_pass(struct render *r)
 {
-    bool may_halt = r->error_halts < ERROR_HALTS_MAX;
+    const struct cancel *cancel = cancel_between(r);
     struct film_error e;
 
     if (r->has_error)
         return PASS_DONE;
-    e = estimate(r, may_halt ? &r->cancel : NULL);
-    if (may_halt && cancel_requested(&r->cancel)) {
+    e = estimate(r, cancel);
+    if (cancel != NULL && cancel_requested(cancel)) {
         r->error_halts++;
         return PASS_CANCELLED;
     }
@@ -214,19 +221,32 @@ static void estimate_cut(struct render *r)
     pthread_mutex_unlock(&r->lock);
 }
 
+/* Decides the shares of adaptive sampling before the passes that need them. */
+static enum pass_result decide_shares(struct render *r)
+{
+    struct adaptive *a = &r->films.adaptive;
+
+    if (!pass_plan_has_shares(r->spp_done, is_adaptive(r)))
+        return PASS_DONE;
+    if (!adaptive_decide(a, &r->films.film, r->job.exposure, r->backend->pool,
+                         cancel_between(r), &r->error))
+        return PASS_FAILED;
+    if (a->is_decided)
+        return PASS_DONE;
+    r->error_halts++;
+    return PASS_CANCELLED;
+}
+
 static enum pass_result run_film_pass(struct render *r)
 {
     uint64_t *spp_done = &r->spp_done;
     uint64_t target = is_stepping(r) ? *spp_done + 1
                                      : pass_plan_next(*spp_done, r->limits.spp,
                                                       is_adaptive(r));
-    enum pass_result result;
+    enum pass_result result = decide_shares(r);
 
-    if (pass_plan_has_shares(*spp_done, is_adaptive(r)) &&
-        !adaptive_decide(&r->films.adaptive, &r->films.film, r->job.exposure,
-                         r->backend->pool, &r->error))
-        return PASS_FAILED;
-    result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
+    if (result == PASS_DONE)
+        result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
     if (result != PASS_DONE)
         return result;
     r->has_error = false;

@@ -196,6 +196,10 @@ table_features() {
     plain features
 }
 
+table_adaptive() {
+    plain adaptive
+}
+
 table_oidn() {
     plain oidn
 }

@@ -25,7 +25,7 @@ mkdir -p "$results" "$cache"
 
 shipped='cornell materials glass_mirror interior skylit lights200'
 sections='samples cores frames triangles features convergence peers oidn stress'
-sections="$sections calibration filter"
+sections="$sections calibration filter adaptive"
 
 say() {
     echo "results: $*"
@@ -127,6 +127,44 @@ measure_frames() {
                     else { print $i "," $(i + 1); i += 2 }
                 }
             }' | save frames 'scene,size,bounces,samples per pixel,error %'
+}
+
+# Renders a scene with three seeds and sets squares, rays and cpu to the sum of
+# the squared errors, that of the rays and the least processor time.
+render_seeds() { # OPTION SCENE
+    local seed
+
+    for seed in 1 2 3; do
+        timed "$build/glim" -b -t 1 "$1" -s 128 -w 160 -h 120 --seed $seed \
+            --stats "$work/stats" -o "$work/out.pfm" "$2"
+        echo "$(value error "$work/stats") $(value rays "$work/stats") $cpu_s"
+    done | awk '{ squares += $1 * $1; rays += $2
+            if (NR == 1 || $3 < cpu) cpu = $3 }
+        END { print squares, rays, cpu }' >"$work/seeds"
+    read -r squares rays cpu <"$work/seeds"
+}
+
+# Adaptive against uniform sampling: ratios of squared error, rays and time.
+measure_adaptive() {
+    local name scene all=''
+
+    for name in $shipped; do
+        all="$all scenes/$name.obj"
+    done
+    for name in scenes-bench/sky scenes-bench/many_lights scenes-real/bunny \
+        scenes-real/spot; do
+        scene=$shared/$name/${name#*/}.obj
+        [ ! -e "$scene" ] || all="$all $scene"
+    done
+    for scene in $all; do
+        render_seeds --no-adaptive "$scene"
+        set -- "$squares" "$rays" "$cpu"
+        render_seeds --adaptive "$scene"
+        name=${scene##*/}
+        echo "${name%.obj} $* $squares $rays $cpu"
+    done | awk '{ e = $2 / $5; r = $6 / $3; t = $7 / $4
+            printf "%s,%.2f,%.2f,%.2f,%.2f,%.2f\n", $1, e, r, t, e / r, e / t
+        }' | save adaptive 'scene,squared error lower by,rays more by,processor time more by,gain by rays,gain by time'
 }
 
 measure_triangles() {

@@ -5,12 +5,12 @@ size=100x30
 start flat.obj
 wait_for_rows 25 "48;2;188;124;0"
 keys '?'
-wait_for "save PNG, linear HDR"
+wait_for "save a new PNG file"
 expect "Q e *move down, up"
 expect "any key closes"
 expect "half blocks, [0-9.]* ms away" # whole: it fits into its column
 # no picture shines through the window
-row=$(screen_colors | grep "save PNG, linear")
+row=$(screen_colors | grep "save a new PNG")
 inside=${row#*│}
 inside=${inside%│*}
 case $inside in
@@ -19,7 +19,7 @@ esac
 keys '~'
 wait_until_gone "any key closes"
 wait_for_rows 25 "48;2;188;124;0"
-reject "save PNG, linear"
+reject "save a new PNG"
 keys '?'
 wait_for "any key closes"
 keys q # closes the help, does not quit

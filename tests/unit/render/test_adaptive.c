@@ -181,7 +181,7 @@ static void take_film(struct film *film, struct adaptive *a, uint64_t mean,
     film_clear(film);
     adaptive_reset(a);
     take_samples(film, a, ADAPTIVE_FIRST, x0);
-    assert_true(adaptive_decide(a, film, 0, NULL, &err));
+    assert_true(adaptive_decide(a, film, 0, NULL, NULL, &err));
     take_samples(film, a, mean, x0);
 }
 
@@ -238,7 +238,7 @@ static void a_share_does_not_depend_on_its_pixel(void **state)
                                  ? &flash
                                  : &(struct path_sample){{1, 1, 1}, 1, 0},
                              NULL, (const int[]){1});
-            assert_true(adaptive_decide(&a[i], &film, 0, NULL, &err));
+            assert_true(adaptive_decide(&a[i], &film, 0, NULL, NULL, &err));
         }
         assert_int_equal(a[0].shares[at], a[1].shares[at]);
         for (int x = 0; x < 20 * 14; x++)
@@ -318,7 +318,7 @@ static void shares_are_in_proportion_to_deviations(void **state)
 
         film_add_row(&film, x, y, 1, 1, &sample, NULL, (const int[]){1});
     }
-    assert_true(adaptive_decide(&a, &film, 0, NULL, &err));
+    assert_true(adaptive_decide(&a, &film, 0, NULL, NULL, &err));
     for (int i = 0; i < 64 * 64; i++) {
         left += i % 64 < 25 ? a.shares[i] : 0;
         right += i % 64 >= 39 ? a.shares[i] : 0;
