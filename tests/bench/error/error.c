@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
  * error - relative MSE over seconds, with all techniques and with each of them
- * off, and the gain over glim's first integrator
+ * off, with adaptive sampling, and the gain over glim's first integrator
  *
  * usage: error FOLDER THREADS ROUNDS [PART_OF_A_NAME]
  *
@@ -47,7 +47,8 @@ enum need {
     NEED_GUIDE
 };
 
-/* All techniques, or all except the one of this name. */
+/* All techniques that are on by default, or all except the one of this name, or
+ * those and this one. */
 static const struct technique {
     const char *name;
     const struct cpu_kernel *paths;
@@ -55,26 +56,30 @@ static const struct technique {
     enum sky_use sky_use;
     enum need need;
     bool is_unguided;
+    bool is_adaptive;
 } techniques[] = {
-    {"everything", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_NOTHING, false},
+    {"everything", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_NOTHING, false,
+     false},
     {"first integrator", &paths_hashed, DIRECT_BSDF, SKY_WITH_MIS, NEED_NOTHING,
-     true},
+     true, false},
     {"without light samples", &paths_whole, DIRECT_BSDF, SKY_WITH_MIS,
-     NEED_LIGHT_SAMPLES, false},
+     NEED_LIGHT_SAMPLES, false, false},
     {"without light by chance", &paths_whole, DIRECT_LIGHTS, SKY_ALONE,
-     NEED_LIGHT_SAMPLES, false},
+     NEED_LIGHT_SAMPLES, false, false},
     {"without sobol points", &paths_hashed, DIRECT_MIS, SKY_WITH_MIS,
-     NEED_NOTHING, false},
+     NEED_NOTHING, false, false},
     {"without the light tree", &paths_uniform, DIRECT_MIS, SKY_WITH_MIS,
-     NEED_LIGHTS, false},
+     NEED_LIGHTS, false, false},
     {"without compensation", &paths_whole, DIRECT_MIS, SKY_ALONE,
-     NEED_SKY_TABLE, false},
+     NEED_SKY_TABLE, false, false},
     {"without root in roulette", &paths_throughput, DIRECT_MIS, SKY_WITH_MIS,
-     NEED_NOTHING, false},
+     NEED_NOTHING, false, false},
     {"with all shadow rays", &paths_shadows, DIRECT_MIS, SKY_WITH_MIS,
-     NEED_LIGHT_SAMPLES, false},
+     NEED_LIGHT_SAMPLES, false, false},
     {"without the guide", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_GUIDE,
-     true},
+     true, false},
+    {"with adaptive sampling", &paths_whole, DIRECT_MIS, SKY_WITH_MIS,
+     NEED_NOTHING, false, true},
 };
 
 enum { TECHNIQUES = sizeof techniques / sizeof techniques[0] };
@@ -164,14 +169,16 @@ static bool start(struct render *r, const struct render_job *job,
 
 /* Adds one render of this world to a curve; afterwards `rgb` is its picture. */
 static bool measure_world(struct measurement *m, struct curve *c, int round,
-                          const struct world *world, struct error *err)
+                          const struct world *world, bool is_adaptive,
+                          struct error *err)
 {
     struct session *s = &m->session;
     struct render_job job = {.world = *world,
                              .host = &s->world,
                              .crop = {0, 0, s->edit.now.view.width_px,
                                       s->edit.now.view.height_px},
-                             .limits.spp = 1};
+                             .limits.spp = 1,
+                             .is_adaptive = is_adaptive};
     double seconds = 0, error = 0;
 
     if (!start(s->render, &job, err)) /* builds the tree, loads the code */
@@ -217,7 +224,7 @@ static bool measure_round(struct measurement *m, int technique, int round,
         path_guide_lend(&(struct path_guide){.cells = NULL}, &world);
     world.settings.direct = t->direct;
     render_set_backend(s->render, m->bench->backends[technique]);
-    return measure_world(m, c, round, &world, err);
+    return measure_world(m, c, round, &world, t->is_adaptive, err);
 }
 
 /* Converts sums over rounds to means without the reference's noise. */
