@@ -40,7 +40,7 @@ void adaptive_reset(struct adaptive *a)
 /* Numbers of the decision, for each pixel. */
 struct plan {
     int width, height;
-    int colour;        /* of the squares; the deviations have the other one */
+    int colour;        /* of the deviations; the squares have the other one */
     float *squares;    /* of relative errors; their sums along rows */
     float *deviations; /* roots of their means */
 };
@@ -96,7 +96,7 @@ static void find_row(void *context, uint32_t row, int worker)
     size_t width = (size_t)p->width;
 
     (void)worker;
-    for (int x = (y + p->colour + 1) & 1; x < p->width; x += 2) {
+    for (int x = (y + p->colour) & 1; x < p->width; x += 2) {
         float sum = 0.0f;
 
         for (int j = y0; j <= y1; j++)
@@ -106,14 +106,12 @@ static void find_row(void *context, uint32_t row, int worker)
     }
 }
 
-/* Finds the deviations of the pixels of a colour. Returns false after a cancel,
- * or if a pixel lacks samples. */
-static bool find_deviations(struct plan *p, int colour, struct film *film,
-                            float exposure, struct pool *pool,
-                            const struct cancel *cancel)
+/* Finds the deviations of the pixels of the plan's colour. Returns false after
+ * a cancel, or if a pixel lacks samples. */
+static bool find_deviations(struct plan *p, struct film *film, float exposure,
+                            struct pool *pool, const struct cancel *cancel)
 {
-    p->colour = 1 - colour;
-    if (!film_error_squares(film, exposure, p->colour, pool, cancel,
+    if (!film_error_squares(film, exposure, 1 - p->colour, pool, cancel,
                             p->squares))
         return false;
     pool_each(pool, (uint32_t)p->height, sum_row, p);
@@ -131,12 +129,11 @@ struct histogram {
     double count;
 };
 
-static void count_deviations(struct histogram *h, const struct plan *p,
-                             int colour)
+static void count_deviations(struct histogram *h, const struct plan *p)
 {
     memset(h, 0, sizeof *h);
     for (int y = 0; y < p->height; y++)
-        for (int x = (y + colour) & 1; x < p->width; x += 2) {
+        for (int x = (y + p->colour) & 1; x < p->width; x += 2) {
             float d = p->deviations[(size_t)y * (size_t)p->width + (size_t)x];
             uint32_t bin = float_bits(d) >> BIN_BITS;
 
@@ -189,14 +186,16 @@ static void find_factor(const struct histogram *h, double *factor,
     }
 }
 
+/* Sets the shares of the pixels of the plan's colour; h is for its use. */
 static void set_shares(struct adaptive *a, const struct plan *p,
-                       const struct histogram *h, int colour)
+                       struct histogram *h)
 {
     double factor, least;
 
+    count_deviations(h, p);
     find_factor(h, &factor, &least);
     for (int y = 0; y < a->height; y++)
-        for (int x = (y + colour) & 1; x < a->width; x += 2) {
+        for (int x = (y + p->colour) & 1; x < a->width; x += 2) {
             size_t at = (size_t)y * (size_t)a->width + (size_t)x;
             double share = share_of((double)p->deviations[at], factor, least);
 
@@ -236,13 +235,10 @@ bool adaptive_decide(struct adaptive *a, struct film *film, float exposure,
     h = alloc_array(1, sizeof *h);
     has_memory = plan_init(&p, a) && h != NULL;
     a->is_decided = has_memory;
-    for (int colour = 0; colour < 2 && a->is_decided; colour++) {
-        a->is_decided =
-            find_deviations(&p, colour, film, exposure, pool, cancel);
-        if (!a->is_decided)
-            break;
-        count_deviations(h, &p, colour);
-        set_shares(a, &p, h, colour);
+    for (p.colour = 0; p.colour < 2 && a->is_decided; p.colour++) {
+        a->is_decided = find_deviations(&p, film, exposure, pool, cancel);
+        if (a->is_decided)
+            set_shares(a, &p, h);
     }
     plan_free(&p);
     free(h);

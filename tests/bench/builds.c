@@ -15,9 +15,9 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "scene/world.h"
 #include "session/session.h"
 #include "tests/bench/median.h"
+#include "tests/bench/render_crop.h"
 
 #define ROUNDS 5
 #define WIDTH  480
@@ -54,19 +54,11 @@ static uint64_t cpu_ns(const struct session *s)
 static double rate(struct session *s, uint32_t more_features, struct rect crop,
                    uint64_t spp, struct render_progress *p)
 {
-    struct render_job job = {.host = &s->world,
-                             .crop = crop,
-                             .limits.spp = spp};
     uint64_t begin_ns = cpu_ns(s);
     struct error err;
 
-    if (!world_lend(&s->world, &s->scene, &s->edit.now.view, 0, &job.world,
-                    &err))
+    if (!render_crop(s, crop, spp, 0, more_features, &err))
         stop(&err);
-    job.world.settings.features |= more_features;
-    if (!render_start(s->render, &job, &err))
-        stop(&err);
-    render_wait(s->render, -1);
     *p = render_progress(s->render);
     return (double)p->samples * 1e3 / (double)(cpu_ns(s) - begin_ns);
 }

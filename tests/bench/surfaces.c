@@ -16,6 +16,7 @@
 #include "picture/image_write.h"
 #include "session/session.h"
 #include "terminal/xmalloc.h"
+#include "tests/bench/render_crop.h"
 
 static _Noreturn void stop(const struct error *err)
 {
@@ -25,19 +26,12 @@ static _Noreturn void stop(const struct error *err)
 
 static void render(struct session *s, uint64_t spp)
 {
-    struct render_job job = {.host = &s->world,
-                             .crop = {0, 0, s->edit.now.view.width_px,
-                                      s->edit.now.view.height_px},
-                             .limits.spp = spp};
+    struct rect crop = {0, 0, s->edit.now.view.width_px,
+                        s->edit.now.view.height_px};
     struct error err;
 
-    if (!world_lend(&s->world, &s->scene, &s->edit.now.view, 1, &job.world,
-                    &err))
+    if (!render_crop(s, crop, spp, 1, FEATURE_FILTER, &err))
         stop(&err);
-    job.world.settings.features |= FEATURE_FILTER;
-    if (!render_start(s->render, &job, &err))
-        stop(&err);
-    render_wait(s->render, -1);
 }
 
 static void write_floats(const struct film *film, const float *rgb,

@@ -20,6 +20,7 @@
 #include "base/thread.h"
 #include "filter/film_filter.h"
 #include "session/session.h"
+#include "tests/bench/render_crop.h"
 #include "rows.h"
 
 #define WIDTH   96
@@ -49,34 +50,23 @@ static void stop(const struct error *err)
 /* Renders the crop and copies its light. Samples and seeds are those given. */
 static void render(struct session *s, uint64_t spp, uint32_t seed, float *rgb)
 {
-    struct render_job job = {.host = &s->world,
-                             .crop = {272, 144, WIDTH, HEIGHT},
-                             .limits.spp = spp};
+    struct rect crop = {272, 144, WIDTH, HEIGHT};
     struct error err;
 
-    if (!world_lend(&s->world, &s->scene, &s->edit.now.view, seed, &job.world,
-                    &err))
+    if (!render_crop(s, crop, spp, seed, FEATURE_FILTER, &err))
         stop(&err);
-    job.world.settings.features |= FEATURE_FILTER;
-    if (!render_start(s->render, &job, &err))
-        stop(&err);
-    render_wait(s->render, -1);
     film_linear(render_film(s->render), rgb);
 }
 
 static void filter(struct session *s, float *rgb)
 {
-    struct pool *pool;
     struct film to;
     struct error err;
 
-    pool = pool_create(usable_threads(), &err);
-    if (pool == NULL || !film_init(&to, WIDTH, HEIGHT, &err) ||
-        !film_filter(render_film(s->render), pool, &to, &err))
+    if (!film_filter_copy(render_film(s->render), usable_threads(), &to, &err))
         stop(&err);
     film_linear(&to, rgb);
     film_free(&to);
-    pool_destroy(pool);
 }
 
 static double rel_mse(const float *a, const float *truth)
