@@ -12,7 +12,7 @@
 #ifndef KERNELS_TONE_H
 #define KERNELS_TONE_H
 
-#include "kernels/dialect.h"
+#include "kernels/vec.h"
 
 /* srgb_thresholds[i] is the linear value at which byte i ends and i + 1 begins:
  * the inverse of the curve at (i + 1/2) / 255. */
@@ -116,15 +116,31 @@ static inline void tone_curve(uint32_t tone, float *rgb)
         rgb[c] = tone == TONE_ACES ? aces(rgb[c]) : rgb[c] / (1.0f + luminance);
 }
 
-/* Counts the thresholds at or below `linear` by bisection, without branches,
- * which noise would make unpredictable. */
+/* Returns a number from 1 to 254 that is at most one beside the byte of x,
+ * which is from 0 to 1. The curve is approximated by powers of the root. */
+static inline int32_t srgb_near(float x)
+{
+    float root = sqrtf(x);
+    float curve =
+        x < 0.0031308f
+            ? 3294.6f * x
+            : ((55.31f * root - 137.82f) * root + 346.14f) * root - 8.148f;
+
+    return (int32_t)f_min(f_max(curve + 0.5f, 1.0f), 254.0f);
+}
+
+/* Returns the byte of x, given srgb_near(x). */
+static inline uint32_t srgb_byte_near(float x, int32_t near)
+{
+    return (uint32_t)(near - 1 + (x >= srgb_thresholds[near - 1]) +
+                      (x >= srgb_thresholds[near]));
+}
+
 static inline uint32_t srgb_byte(float linear)
 {
-    uint32_t byte = 0;
+    float x = f_min(f_max(linear, 0.0f), 1.0f);
 
-    for (uint32_t step = 128; step > 0; step >>= 1)
-        byte += step * (uint32_t)(linear >= srgb_thresholds[byte + step - 1]);
-    return byte;
+    return srgb_byte_near(x, srgb_near(x));
 }
 
 #endif

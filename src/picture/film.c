@@ -332,14 +332,35 @@ static void encode(f4 shown, uint8_t *bytes)
         bytes[c] = (uint8_t)srgb_byte(rgb[c]);
 }
 
+/* Encodes up to 3 * RUN numbers. The first loop has no table, so that it
+ * becomes vector code. */
+static void encode_run(int count, float *linear, uint8_t *bytes)
+{
+    int32_t near[3 * RUN];
+
+    for (int i = 0; i < count; i++) {
+        linear[i] = f_min(f_max(linear[i], 0.0f), 1.0f);
+        near[i] = srgb_near(linear[i]);
+    }
+    for (int i = 0; i < count; i++)
+        bytes[i] = (uint8_t)srgb_byte_near(linear[i], near[i]);
+}
+
 void develop_row(struct develop how, int count, const float *rgb,
                  uint8_t *bytes)
 {
     float factor = develop_factor(how);
 
-    for (int i = 0; i < count; i++, rgb += 3)
-        encode(show(f4_set3(rgb[0], rgb[1], rgb[2]), factor, how.tone),
-               bytes + 3 * i);
+    for (int x = 0; x < count; x += RUN) {
+        int n = 3 * (count - x < RUN ? count - x : RUN);
+        float shown[3 * RUN];
+
+        for (int i = 0; i < n; i++)
+            shown[i] = factor * rgb[3 * x + i];
+        for (int i = 0; how.tone != TONE_LINEAR && i < n; i += 3)
+            tone_curve(how.tone, shown + i);
+        encode_run(n, shown, bytes + 3 * (size_t)x);
+    }
 }
 
 void film_resolve(struct film *f, struct develop how, struct frame *frame)
