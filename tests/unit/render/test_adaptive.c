@@ -279,7 +279,7 @@ static void samples_go_where_the_error_is(void **state)
 
 /* A single lamp before the dark: all but a few pixels have no error, and share
  * what those cannot take. */
-static void a_few_noisy_pixels_take_four_times_the_samples(void **state)
+static void a_few_noisy_pixels_take_the_most_samples(void **state)
 {
     struct adaptive a = {0};
     struct film film;
@@ -289,7 +289,7 @@ static void a_few_noisy_pixels_take_four_times_the_samples(void **state)
     assert_true(film_init(&film, 64, 64, &err));
     assert_true(adaptive_init(&a, 64, 64, &err));
     take_film(&film, &a, 256, 63);
-    assert_int_equal(film.counts[64 * 32 + 63], 16 + 4 * 240);
+    assert_int_equal(film.counts[64 * 32 + 63], 16 + 5 * 240 / 2);
     assert_true(film.counts[64 * 32] > 100);
     check_close((double)atomic_load(&film.samples), 256 * 64 * 64,
                 0.5 * 64 * 64);
@@ -297,9 +297,9 @@ static void a_few_noisy_pixels_take_four_times_the_samples(void **state)
     film_free(&film);
 }
 
-/* Light of mean 1 whose deviation is twice as large in the right half: so are
- * the shares, which are a third less and a third more than one in the mean. */
-static void shares_are_in_proportion_to_deviations(void **state)
+/* Light of mean 1 whose deviation is twice as large in the right half: shares
+ * there are 2^(5/8) times as large, and one in the mean. */
+static void shares_follow_deviations(void **state)
 {
     struct adaptive a = {0};
     struct film film;
@@ -323,8 +323,32 @@ static void shares_are_in_proportion_to_deviations(void **state)
         left += i % 64 < 25 ? a.shares[i] : 0;
         right += i % 64 >= 39 ? a.shares[i] : 0;
     }
-    check_close(left / (25 * 64) / SHARE_ONE, 2.0 / 3, 0.03);
-    check_close(right / (25 * 64) / SHARE_ONE, 4.0 / 3, 0.03);
+    check_close(left / (25 * 64) / SHARE_ONE, 2 / (1 + exp2(0.625)), 0.03);
+    check_close(right / (25 * 64) / SHARE_ONE, 2 / (1 + exp2(-0.625)), 0.03);
+    adaptive_free(&a);
+    film_free(&film);
+}
+
+/* Pixels of equal deviations have equal shares, at sides and corners too. */
+static void equal_deviations_have_equal_shares(void **state)
+{
+    struct adaptive a = {0};
+    struct film film;
+    struct error err;
+
+    (void)state;
+    assert_true(film_init(&film, 17, 10, &err));
+    assert_true(adaptive_init(&a, 17, 10, &err));
+    for (int i = 0; i < 17 * 10 * (int)ADAPTIVE_FIRST; i++) {
+        float light = i / (17 * 10) % 2 == 0 ? 0.999f : 1.001f;
+        struct path_sample sample = {{light, light, light}, 1, 0};
+
+        film_add_row(&film, i % 17, i / 17 % 10, 1, 1, &sample, NULL,
+                     (const int[]){1});
+    }
+    assert_true(adaptive_decide(&a, &film, 0, NULL, NULL, &err));
+    for (int i = 0; i < 17 * 10; i++)
+        check_close((double)a.shares[i] / SHARE_ONE, 1, 0.001);
     adaptive_free(&a);
     film_free(&film);
 }
@@ -386,8 +410,9 @@ int main(void)
         cmocka_unit_test(rare_light_is_not_lost),
         cmocka_unit_test(a_share_does_not_depend_on_its_pixel),
         cmocka_unit_test(samples_go_where_the_error_is),
-        cmocka_unit_test(shares_are_in_proportion_to_deviations),
-        cmocka_unit_test(a_few_noisy_pixels_take_four_times_the_samples),
+        cmocka_unit_test(shares_follow_deviations),
+        cmocka_unit_test(equal_deviations_have_equal_shares),
+        cmocka_unit_test(a_few_noisy_pixels_take_the_most_samples),
         cmocka_unit_test(the_bits_are_the_same),
         cmocka_unit_test(pictures_without_error_end),
     };
