@@ -60,6 +60,12 @@ struct backend_cl {
 
     struct cl_film film;
     uint32_t x0, y0; /* corner of the film in the picture */
+    /* the last pass, and how many of its points have all their samples; a pass
+     * that was cancelled continues there, as halts in quick succession would
+     * end before it came so far again */
+    uint64_t target;
+    int stride;
+    uint32_t complete_points;
     struct slot slots[2];
     uint32_t task_paths;
     uint64_t done_ns; /* time when the last task ended */
@@ -165,6 +171,7 @@ static bool cl_begin(struct backend *base, const struct host_world *host,
     cl_machine_drop(&b->machine, &b->shares);
     b->x0 = (uint32_t)x0;
     b->y0 = (uint32_t)y0;
+    b->complete_points = 0;
     return cl_world_update(&b->world, &b->machine, host, world, &b->bvh,
                            &base->upload_count, err) &&
            cl_film_begin(&b->film, &b->machine, film, err) &&
@@ -331,6 +338,9 @@ static bool finish_task(struct backend_cl *b, struct slot *s,
         cl_film_store_points(&b->film, &s->task);
     else
         cl_readback_store(&s->reading, &b->film, s->task.stride);
+    /* kernels that see the cancel leave samples out */
+    if (!cancel_requested(cancel) || !b->machine.device->is_cpu)
+        b->complete_points = s->task.first + s->task.count;
     if (!cancel_requested(cancel))
         adapt(b, s);
     return true;
@@ -426,6 +436,11 @@ static enum pass_result cl_pass(struct backend *base, const struct pass *pass,
         .rows = ((uint32_t)film->height + stride - 1) / stride,
     };
 
+    if (b->target != pass->target || b->stride != pass->stride)
+        b->complete_points = 0;
+    b->target = pass->target;
+    b->stride = pass->stride;
+    p.next = p.read = b->complete_points;
     b->done_ns = 0;
     if (!bind_cancel(b, cancel, err) || !bind_shares(b, pass, err) ||
         !run_tasks(b, &p, cancel, err)) {
