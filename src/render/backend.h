@@ -18,7 +18,7 @@
 enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 
 /* Most samples of a pixel in a pass. */
-#define PASS_SAMPLES_MAX 20
+#define PASS_SAMPLES_MAX 160
 
 /* One pass over the pixels of a grid (0, stride, 2 stride, ... in both
  * directions). Pixels with fewer samples than their target get up to that

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "render/backend.h"
 
-#include <assert.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -59,13 +58,18 @@ static uint32_t permuted(const struct job *j, uint32_t item)
     return item;
 }
 
-/* Samples of consecutive grid pixels in a row, in the order of the pixels. */
+/* Most samples of a pixel that are added to the film together. */
+#define ADDED_TOGETHER 32
+
+/* The next samples of consecutive grid pixels in a row, in the order of the
+ * pixels. */
 struct row {
     int counts[BLOCK_SIDE];
     uint32_t count; /* total of the counts */
-    struct sample_id ids[BLOCK_SIDE * PASS_SAMPLES_MAX];
-    struct path_sample samples[BLOCK_SIDE * PASS_SAMPLES_MAX];
-    struct first_surface surfaces[BLOCK_SIDE * PASS_SAMPLES_MAX];
+    bool has_more;  /* a pixel needs more samples than these */
+    struct sample_id ids[BLOCK_SIDE * ADDED_TOGETHER];
+    struct path_sample samples[BLOCK_SIDE * ADDED_TOGETHER];
+    struct first_surface surfaces[BLOCK_SIDE * ADDED_TOGETHER];
 };
 
 static uint64_t target_of(const struct job *j, int x, int y)
@@ -78,20 +82,26 @@ static uint64_t target_of(const struct job *j, int x, int y)
                : j->pass.target;
 }
 
-/* Lists the samples that pixels x, x + stride, ... of row y need to reach the
- * target. */
+/* Lists the next samples of pixels x, x + stride, ... of row y on the way to
+ * the target. */
 static void row_begin(struct row *r, const struct job *j, int x, int y,
                       int pixel_count)
 {
     const struct backend_cpu *b = j->backend;
 
     r->count = 0;
+    r->has_more = false;
     for (int i = 0; i < pixel_count; i++) {
         int px = x + i * j->pass.stride;
         uint64_t target = target_of(j, px, y);
+        uint64_t k = film_count(b->film, px, y);
         uint32_t before = r->count;
 
-        for (uint64_t k = film_count(b->film, px, y); k < target; k++)
+        if (target > k + ADDED_TOGETHER) {
+            target = k + ADDED_TOGETHER;
+            r->has_more = true;
+        }
+        for (; k < target; k++)
             r->ids[r->count++] = (struct sample_id){(uint32_t)(b->x0 + px),
                                                     (uint32_t)(b->y0 + y), k};
         r->counts[i] = (int)(r->count - before);
@@ -109,24 +119,37 @@ static int row_pixels(const struct row *r, uint32_t done, int pixel_count)
     return whole;
 }
 
-/* Renders the pixels x, x + stride, ... of row y up to the target. Returns
- * false if cancelled; pixels that were complete by then are in the film. */
-static bool render_row(const struct job *j, int x, int y, int pixel_count)
+/* Renders the samples of a row. Returns false if cancelled; pixels that were
+ * complete by then are in the film. */
+static bool render_samples(const struct job *j, int x, int y, int pixel_count,
+                           struct row *r)
 {
     const struct backend_cpu *b = j->backend;
-    struct row r;
     uint32_t done = 0, n;
 
-    row_begin(&r, j, x, y, pixel_count);
-    for (; done < r.count && !cancel_requested(j->cancel); done += n) {
-        n = r.count - done < SAMPLE_BLOCK ? r.count - done : SAMPLE_BLOCK;
-        b->kernel->samples(&b->world.world, r.ids + done, n, r.samples + done,
-                           r.surfaces + done);
+    for (; done < r->count && !cancel_requested(j->cancel); done += n) {
+        n = r->count - done < SAMPLE_BLOCK ? r->count - done : SAMPLE_BLOCK;
+        b->kernel->samples(&b->world.world, r->ids + done, n, r->samples + done,
+                           r->surfaces + done);
     }
     film_add_row(b->film, x, y, j->pass.stride,
-                 row_pixels(&r, done, pixel_count), r.samples, r.surfaces,
-                 r.counts);
-    return done == r.count;
+                 row_pixels(r, done, pixel_count), r->samples, r->surfaces,
+                 r->counts);
+    return done == r->count;
+}
+
+/* Renders the pixels x, x + stride, ... of row y up to the target. Returns
+ * false if cancelled. */
+static bool render_row(const struct job *j, int x, int y, int pixel_count)
+{
+    struct row r;
+
+    do {
+        row_begin(&r, j, x, y, pixel_count);
+        if (!render_samples(j, x, y, pixel_count, &r))
+            return false;
+    } while (r.has_more);
+    return true;
 }
 
 static void render_block(void *context, uint32_t item, int worker)
@@ -187,7 +210,6 @@ static enum pass_result cpu_pass(struct backend *base, const struct pass *pass,
     int side = BLOCK_SIDE * pass->stride;
 
     (void)err;
-    assert(pass->samples <= PASS_SAMPLES_MAX);
     j.columns = (uint32_t)((b->film->width + side - 1) / side);
     j.count = j.columns * (uint32_t)((b->film->height + side - 1) / side);
     while (j.bits < 32 && (1u << j.bits) < j.count)

@@ -4,6 +4,10 @@
 #include "kernels/path_types.h"
 #include "kernels/sample_share.h"
 
+/* Samples of a long pass: a share of those before, and at most PASS_MOST. */
+#define PASS_SHARE 16
+#define PASS_MOST  (PASS_SAMPLES_MAX * SHARE_ONE / SHARE_MOST)
+
 static uint64_t smaller(uint64_t a, uint64_t b)
 {
     return a < b ? a : b;
@@ -14,23 +18,36 @@ bool pass_plan_has_shares(uint64_t done, bool is_adaptive)
     return is_adaptive && done >= ADAPTIVE_FIRST;
 }
 
-uint64_t pass_plan_next(uint64_t done, uint64_t limit, bool is_adaptive)
+/* Returns the number of samples in the pass after `done` samples, if no limit
+ * of samples and no decision comes before. */
+static uint64_t pass_length(uint64_t done, bool has_error_limit)
 {
-    uint64_t more = done == 0 ? 1 : smaller(done, SAMPLE_BLOCK);
-    uint64_t target = done + more;
+    uint64_t share = done / PASS_SHARE / SAMPLE_BLOCK * SAMPLE_BLOCK;
+
+    if (done <= SAMPLE_BLOCK)
+        return done == 0 ? 1 : done;
+    return has_error_limit || share < SAMPLE_BLOCK ? SAMPLE_BLOCK
+                                                   : smaller(share, PASS_MOST);
+}
+
+uint64_t pass_plan_next(uint64_t done, const struct render_limits *limits,
+                        bool is_adaptive)
+{
+    uint64_t target = done + pass_length(done, limits->error > 0);
 
     /* the decision has the same samples wherever a step or a limit stopped */
     if (is_adaptive && done < ADAPTIVE_FIRST)
         target = smaller(target, ADAPTIVE_FIRST);
-    return limit != 0 ? smaller(target, limit) : target;
+    return limits->spp != 0 ? smaller(target, limits->spp) : target;
 }
 
 uint64_t pass_plan_end(uint64_t done, uint64_t spp, bool is_adaptive)
 {
+    const struct render_limits limits = {.error = 1};
     uint64_t equal_from = is_adaptive ? ADAPTIVE_FIRST : SAMPLE_BLOCK;
 
     while (done < spp && done < equal_from)
-        done = pass_plan_next(done, 0, is_adaptive);
+        done = pass_plan_next(done, &limits, is_adaptive);
     if (done >= spp)
         return done;
     return done + (spp - done + SAMPLE_BLOCK - 1) / SAMPLE_BLOCK * SAMPLE_BLOCK;

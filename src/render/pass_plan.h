@@ -3,8 +3,10 @@
  * pass_plan.h - the plan of passes: how many samples each of them adds
  *
  * Passes double, from one sample per pixel to SAMPLE_BLOCK: short passes give
- * early pictures, and in long ones the wait at the end is a small share. The
- * plan depends on sample counts, never on the clock.
+ * early pictures. Then, without a limit of the error, they grow with the
+ * samples before them. At the end of a pass threads wait, a device's film is
+ * read back and the error is estimated, which is a small share of long passes.
+ * The plan depends on sample counts, never on the clock.
  *
  * Units:     samples per pixel; of adaptive renders in the mean
  */
@@ -13,17 +15,18 @@
 
 #include "picture/adaptive.h"
 #include "render/backend.h"
+#include "render/render_limits.h"
 
 /* Returns whether the passes after `done` samples have the shares of adaptive
  * sampling, in a render that is adaptive or not. */
 bool pass_plan_has_shares(uint64_t done, bool is_adaptive);
 
-/* Returns the number of samples at the end of the pass after `done` samples,
- * which is at most `limit` (0: no limit). */
-uint64_t pass_plan_next(uint64_t done, uint64_t limit, bool is_adaptive);
+/* Returns the number of samples at the end of the pass after `done` samples. */
+uint64_t pass_plan_next(uint64_t done, const struct render_limits *limits,
+                        bool is_adaptive);
 
 /* Returns the number of samples at the end of the pass in which a render with
- * `done` samples gets `spp` samples, if no limit comes before. */
+ * `done` samples and a limit of the error gets `spp` samples. */
 uint64_t pass_plan_end(uint64_t done, uint64_t spp, bool is_adaptive);
 
 /* Returns the pass from `done` to `target` samples over a grid. `adaptive` has

@@ -240,9 +240,9 @@ static enum pass_result decide_shares(struct render *r)
 static enum pass_result run_film_pass(struct render *r)
 {
     uint64_t *spp_done = &r->spp_done;
-    uint64_t target = is_stepping(r) ? *spp_done + 1
-                                     : pass_plan_next(*spp_done, r->limits.spp,
-                                                      is_adaptive(r));
+    uint64_t target =
+        is_stepping(r) ? *spp_done + 1
+                       : pass_plan_next(*spp_done, &r->limits, is_adaptive(r));
     enum pass_result result = decide_shares(r);
 
     if (result == PASS_DONE)

@@ -5,12 +5,15 @@
 
 #include "kernels/sample_share.h"
 
+static const struct render_limits none = {0};
+static const struct render_limits some_error = {.error = 0.1};
+
 /* Compares the ends of the passes after `done` samples. */
 static void check_passes(uint64_t done, bool is_adaptive, const uint64_t *ends,
                          int count)
 {
     for (int i = 0; i < count; i++) {
-        done = pass_plan_next(done, 0, is_adaptive);
+        done = pass_plan_next(done, &none, is_adaptive);
         assert_int_equal(done, ends[i]);
     }
 }
@@ -24,6 +27,27 @@ static void passes_double_up_to_a_block(void **state)
     check_passes(3, false, (const uint64_t[]){6, 12, 20, 28, 36}, 5);
 }
 
+/* A later pass is at most a 16th of the samples before it, or a block, as are
+ * all passes of a render that ends at an error. */
+static void long_passes_are_a_share(void **state)
+{
+    uint64_t done = 8, before;
+    int count = 0;
+
+    (void)state;
+    check_passes(240, false, (const uint64_t[]){248, 256, 272, 288}, 4);
+    assert_int_equal(pass_plan_next(1016, &some_error, false), 1024);
+    check_passes(1016, false, (const uint64_t[]){1072, 1136, 1200, 1264}, 4);
+    while (done < 4096) {
+        before = done;
+        done = pass_plan_next(before, &none, false);
+        assert_true(done - before <= 64);
+        assert_true(done - before == 8 || 16 * (done - before) <= before);
+        count++;
+    }
+    assert_true(count < 110);
+}
+
 /* Shares are decided after as many samples wherever a step or a limit stopped.
  */
 static void adaptive_passes_stop_at_the_decision(void **state)
@@ -34,15 +58,22 @@ static void adaptive_passes_stop_at_the_decision(void **state)
     check_passes(17, true, (const uint64_t[]){25, 33}, 2);
 }
 
+static uint64_t next_within(uint64_t done, uint64_t limit, bool is_adaptive)
+{
+    const struct render_limits limits = {.spp = limit};
+
+    return pass_plan_next(done, &limits, is_adaptive);
+}
+
 static void a_limit_ends_the_last_pass(void **state)
 {
     (void)state;
     for (int adaptive = 0; adaptive <= 1; adaptive++) {
-        assert_int_equal(pass_plan_next(0, 1, adaptive), 1);
-        assert_int_equal(pass_plan_next(2, 3, adaptive), 3);
-        assert_int_equal(pass_plan_next(16, 20, adaptive), 20);
-        assert_int_equal(pass_plan_next(16, 24, adaptive), 24);
-        assert_int_equal(pass_plan_next(16, 1000, adaptive), 24);
+        assert_int_equal(next_within(0, 1, adaptive), 1);
+        assert_int_equal(next_within(2, 3, adaptive), 3);
+        assert_int_equal(next_within(16, 20, adaptive), 20);
+        assert_int_equal(next_within(16, 24, adaptive), 24);
+        assert_int_equal(next_within(16, 1000, adaptive), 24);
     }
 }
 
@@ -51,12 +82,12 @@ static void the_pass_of_a_sample_is_found(void **state)
 {
     (void)state;
     for (int adaptive = 0; adaptive <= 1; adaptive++)
-        for (uint64_t done = 0; done < 150; done++)
-            for (uint64_t spp = 0; spp < 300; spp++) {
+        for (uint64_t done = 0; done < 1500; done += 1 + done / 10)
+            for (uint64_t spp = 0; spp < 3000; spp += 1 + spp / 50) {
                 uint64_t end = done;
 
                 while (end < spp)
-                    end = pass_plan_next(end, 0, adaptive);
+                    end = pass_plan_next(end, &some_error, adaptive);
                 assert_int_equal(pass_plan_end(done, spp, adaptive), end);
             }
     assert_int_equal(pass_plan_end(3, UINT64_C(1000000000000001), false),
@@ -68,7 +99,7 @@ static void the_pass_of_a_sample_is_found(void **state)
 static void shares_count_after_the_first_samples(void **state)
 {
     uint16_t shares[16] = {0};
-    struct adaptive none = {0};
+    struct adaptive off = {0};
     struct adaptive adaptive = {.shares = shares};
     struct pass p;
 
@@ -78,7 +109,7 @@ static void shares_count_after_the_first_samples(void **state)
     assert_int_equal(p.target, 16);
     assert_int_equal(p.samples, 8);
     assert_null(p.shares);
-    p = pass_plan_pass(16, 24, 1, &none);
+    p = pass_plan_pass(16, 24, 1, &off);
     assert_int_equal(p.samples, 8);
     assert_null(p.shares);
     p = pass_plan_pass(16, 24, 1, &adaptive);
@@ -116,6 +147,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(passes_double_up_to_a_block),
+        cmocka_unit_test(long_passes_are_a_share),
         cmocka_unit_test(adaptive_passes_stop_at_the_decision),
         cmocka_unit_test(a_limit_ends_the_last_pass),
         cmocka_unit_test(the_pass_of_a_sample_is_found),

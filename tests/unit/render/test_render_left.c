@@ -55,11 +55,12 @@ static struct render_progress at(const struct simulation *s, uint64_t spp,
  * deviation as a part of the true one, but of a second at least. */
 static double worst_deviation(const struct simulation *s, double target)
 {
+    const struct render_limits limits = {.error = target};
     struct error_trend trend = {.count = 0};
     double shown_ns[4096], at_ns[4096], worst = 0;
     int count = 0;
 
-    for (uint64_t spp = 1;; spp = pass_plan_next(spp, 0, false)) {
+    for (uint64_t spp = 1;; spp = pass_plan_next(spp, &limits, false)) {
         struct render_progress p;
         struct render_left left;
 
