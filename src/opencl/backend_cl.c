@@ -258,7 +258,8 @@ static bool enqueue_task(struct backend_cl *b, struct slot *s,
 /* Enqueues a readback of the points of all queued tasks, behind them. Readbacks
  * have whole rows, so an incomplete last row is read again later. */
 static bool enqueue_reading(struct backend_cl *b, struct progress *p,
-                            struct cl_readback *r, struct error *err)
+                            struct cl_readback *r, cl_event *done,
+                            struct error *err)
 {
     uint32_t stride = (uint32_t)p->pass->stride;
     uint32_t end = (p->next + p->columns - 1) / p->columns;
@@ -267,7 +268,7 @@ static bool enqueue_reading(struct backend_cl *b, struct progress *p,
     r->count = (uint32_t)smaller(end - r->first, b->film.readback_rows);
     p->read = (uint32_t)smaller(p->next, (r->first + r->count) * p->columns);
     b->read_ns = clock_ns();
-    return cl_readback_enqueue(r, &b->film, &b->machine, stride, err);
+    return cl_readback_enqueue(r, &b->film, &b->machine, stride, done, err);
 }
 
 static bool is_reading_due(const struct backend_cl *b, uint64_t now_ns)
@@ -301,7 +302,7 @@ static bool start_task(struct backend_cl *b, struct progress *p, struct slot *s,
     return make_room(b, s, s->task.count * samples, err) &&
            enqueue_task(b, s, err) &&
            (!is_reading_due(b, s->begin_ns) ||
-            enqueue_reading(b, p, &s->reading, err)) &&
+            enqueue_reading(b, p, &s->reading, NULL, err)) &&
            call_done(b,
                      api->EnqueueReadBuffer(b->machine.queue, s->tally,
                                             CL_FALSE, 0, sizeof s->result,
@@ -347,20 +348,27 @@ static bool finish_task(struct backend_cl *b, struct slot *s,
 }
 
 /* Reads back the points that no earlier readback contains, at the end of a
- * pass. */
+ * pass. The host stores one readback while the device sends the next. */
 static bool read_rest(struct backend_cl *b, struct progress *p,
                       struct error *err)
 {
-    struct cl_readback *r = &b->slots[0].reading;
+    for (int turn = 0;; turn = 1 - turn) {
+        struct slot *next = &b->slots[turn], *s = &b->slots[1 - turn];
+        bool has_more = !cl_film_is_shared(&b->film) && p->read < p->next;
 
-    while (!cl_film_is_shared(&b->film) && p->read < p->next) {
-        if (!enqueue_reading(b, p, r, err) ||
-            !call_done(b, b->machine.api->Finish(b->machine.queue), "clFinish",
-                       err))
+        if (has_more &&
+            (!enqueue_reading(b, p, &next->reading, &next->done, err) ||
+             !call_done(b, b->machine.api->Flush(b->machine.queue), "clFlush",
+                        err)))
             return false;
-        cl_readback_store(r, &b->film, (uint32_t)p->pass->stride);
+        if (s->done != NULL) {
+            if (!cl_machine_wait(&b->machine, &s->done, err))
+                return false;
+            cl_readback_store(&s->reading, &b->film, (uint32_t)p->pass->stride);
+        } else if (!has_more) {
+            return true;
+        }
     }
-    return true;
 }
 
 /* Gives the kernels the word to test for cancellation. A device that is a CPU

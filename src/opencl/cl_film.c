@@ -159,10 +159,11 @@ void cl_readback_free(struct cl_readback *r)
 
 /* Enqueues a read of every stride-th row of a device buffer. The last row is
  * read by itself, as NVIDIA's driver refuses a rectangle whose last row pitch
- * ends beyond the buffer. */
+ * ends beyond the buffer. `done` may be NULL. */
 static bool read_rows(const struct cl_readback *r, const struct cl_film *f,
                       const struct cl_machine *m, cl_mem buffer, void *to,
-                      size_t pixel_bytes, uint32_t stride, struct error *err)
+                      size_t pixel_bytes, uint32_t stride, cl_event *done,
+                      struct error *err)
 {
     size_t row_bytes = (size_t)f->film->width * pixel_bytes;
     size_t last = r->count - 1;
@@ -182,23 +183,23 @@ static bool read_rows(const struct cl_readback *r, const struct cl_film *f,
                                 m->queue, buffer, CL_FALSE,
                                 (r->first + last) * stride * row_bytes,
                                 row_bytes, (char *)to + last * row_bytes, 0,
-                                NULL, NULL),
+                                NULL, done),
                             "clEnqueueReadBuffer", err);
 }
 
 bool cl_readback_enqueue(struct cl_readback *r, const struct cl_film *f,
                          const struct cl_machine *m, uint32_t stride,
-                         struct error *err)
+                         cl_event *done, struct error *err)
 {
-    return read_rows(r, f, m, f->sums, r->sums, PIXEL_SUMS_BYTES, stride,
+    return read_rows(r, f, m, f->sums, r->sums, PIXEL_SUMS_BYTES, stride, NULL,
                      err) &&
            read_rows(r, f, m, f->odd_sums, r->odd_sums, PIXEL_SUMS_BYTES,
-                     stride, err) &&
+                     stride, NULL, err) &&
            (f->surfaces == NULL ||
             read_rows(r, f, m, f->surfaces, r->surfaces, sizeof *r->surfaces,
-                      stride, err)) &&
+                      stride, NULL, err)) &&
            read_rows(r, f, m, f->counts, r->counts, sizeof *r->counts, stride,
-                     err);
+                     done, err);
 }
 
 void cl_readback_store(struct cl_readback *r, struct cl_film *f,

@@ -60,10 +60,11 @@ bool cl_readback_begin(struct cl_readback *r, const struct cl_film *f,
 void cl_readback_free(struct cl_readback *r);
 
 /* Enqueues the transfer of r->count rows of a grid from r->first on; `stride`
- * is the distance of grid rows in rows of the film. */
+ * is the distance of grid rows in rows of the film. *done is signalled at its
+ * end; NULL: none. */
 bool cl_readback_enqueue(struct cl_readback *r, const struct cl_film *f,
                          const struct cl_machine *m, uint32_t stride,
-                         struct error *err);
+                         cl_event *done, struct error *err);
 
 /* Stores the rows that were read and empties the reading. */
 void cl_readback_store(struct cl_readback *r, struct cl_film *f,
