@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "render/render_run.h"
+
+#include "base/clock.h"
+#include "render/pass_plan.h"
+
+/* Stride of the coarsest grid in a draft, whose pixels are about ten times as
+ * large as the film's. */
+#define DRAFT_STRIDE_MAX 8
+
+/* Halts that may interrupt the error of a pass. Then it is completed, as halts
+ * in quick succession would keep the render from going on. */
+#define ERROR_HALTS_MAX 3
+
+static bool is_adaptive(const struct render *r)
+{
+    return r->films.adaptive.shares != NULL;
+}
+
+static void note_first_picture(struct render *r)
+{
+    pthread_mutex_lock(&r->lock);
+    if (r->first_picture_ns == 0)
+        r->first_picture_ns = r->run_before_ns + clock_ns() - r->run_begin_ns;
+    pthread_mutex_unlock(&r->lock);
+}
+
+/* Renders every pixel from *spp_done up to `target` samples; the first sample
+ * from the coarsest grid to the finest. */
+static enum pass_result run_to(struct render *r, uint64_t target,
+                               int stride_max, uint64_t *spp_done)
+{
+    enum pass_result result = PASS_DONE;
+
+    for (int stride = *spp_done == 0 ? stride_max : 1;
+         stride > 0 && result == PASS_DONE; stride /= 2) {
+        struct pass pass =
+            pass_plan_pass(*spp_done, target, stride, &r->films.adaptive);
+
+        result = r->backend->pass(r->backend, &pass, &r->cancel, &r->error);
+        if (result == PASS_DONE)
+            note_first_picture(r);
+    }
+    if (result == PASS_DONE) {
+        pthread_mutex_lock(&r->lock);
+        *spp_done = target;
+        pthread_mutex_unlock(&r->lock);
+    }
+    return result;
+}
+
+/* Loads the shape into the backend, unless it has it already. */
+static enum pass_result load(struct render *r)
+{
+    struct backend *b = r->backend;
+    uint64_t shape = r->job.host->versions[WORLD_SHAPE];
+    uint64_t begin_ns = clock_ns();
+    bool ok =
+        b->shape == shape || b->load(b, r->job.host, &r->job.world, &r->error);
+
+    if (b->shape != shape) {
+        pthread_mutex_lock(&r->lock);
+        r->build_ns = clock_ns() - begin_ns;
+        pthread_mutex_unlock(&r->lock);
+    }
+    b->shape = ok ? shape : 0;
+    return ok ? PASS_DONE : PASS_FAILED;
+}
+
+/* Begins the film in the backend, unless it continues with it after a halt. */
+static enum pass_result begin(struct render *r, const struct world *world,
+                              struct film *film, int x0, int y0)
+{
+    if (r->begun_film == film)
+        return PASS_DONE;
+    r->begun_film = NULL;
+    if (!r->backend->begin(r->backend, r->job.host, world, film, x0, y0,
+                           &r->error))
+        return PASS_FAILED;
+    r->begun_film = film;
+    return PASS_DONE;
+}
+
+/* Renders the draft in two passes, one for each sample set of ORDER_DRAFT. */
+static enum pass_result run_draft(struct render *r)
+{
+    struct world world = render_films_draft_world(&r->films, &r->job);
+    uint64_t spp = render_films_draft_spp(&r->job);
+    uint64_t *spp_done = &r->draft_spp_done;
+    enum pass_result result = begin(r, &world, &r->films.draft, 0, 0);
+
+    while (result == PASS_DONE && *spp_done < spp)
+        result =
+            run_to(r, *spp_done == 0 ? 1 : spp, DRAFT_STRIDE_MAX, spp_done);
+    return result;
+}
+
+static bool is_stepping(struct render *r)
+{
+    bool has_steps;
+
+    pthread_mutex_lock(&r->lock);
+    has_steps = r->steps > 0;
+    pthread_mutex_unlock(&r->lock);
+    return has_steps;
+}
+
+/* Counts a step after its pass. Returns true if it was the last. */
+static bool was_last_step(struct render *r)
+{
+    bool is_last;
+
+    pthread_mutex_lock(&r->lock);
+    is_last = r->steps > 0 && --r->steps == 0;
+    pthread_mutex_unlock(&r->lock);
+    return is_last;
+}
+
+enum render_limit render_run_limit(const struct render *r)
+{
+    return render_limits_at(&r->limits, r->spp_done, &r->film_error);
+}
+
+/* Returns the cancel of work between passes, or NULL if it has been halted too
+ * often: a series of halts could delay it for ever. */
+static const struct cancel *cancel_between(const struct render *r)
+{
+    return r->error_halts < ERROR_HALTS_MAX ? &r->cancel : NULL;
+}
+
+static struct film_error estimate(struct render *r, const struct cancel *cancel)
+{
+    return film_error(&r->films.film, r->job.exposure, r->backend->pool,
+                      cancel);
+}
+
+/* Finds the error at the end of a pass, unless it is known already. */
+static enum pass_result estimate_pass(struct render *r)
+{
+    const struct cancel *cancel = cancel_between(r);
+    struct film_error e;
+
+    if (r->has_error)
+        return PASS_DONE;
+    e = estimate(r, cancel);
+    if (cancel != NULL && cancel_requested(cancel)) {
+        r->error_halts++;
+        return PASS_CANCELLED;
+    }
+    r->error_halts = 0;
+    pthread_mutex_lock(&r->lock);
+    r->film_error = e;
+    r->has_error = true;
+    if (e.is_known)
+        error_trend_add(&r->error_trend, r->spp_done, e.high);
+    pthread_mutex_unlock(&r->lock);
+    return PASS_DONE;
+}
+
+static bool is_out_of_time(const struct render *r)
+{
+    return r->cancel.deadline_ns != 0 && clock_ns() >= r->cancel.deadline_ns;
+}
+
+/* Finds the error of a film that the limit of time has cut within a pass. */
+static void estimate_cut(struct render *r)
+{
+    struct film_error e;
+
+    r->cancel.deadline_ns = 0; /* requests still count */
+    e = estimate(r, &r->cancel);
+    pthread_mutex_lock(&r->lock);
+    r->cut_error = e;
+    pthread_mutex_unlock(&r->lock);
+}
+
+/* Decides the shares of adaptive sampling before the passes that need them. */
+static enum pass_result decide_shares(struct render *r)
+{
+    struct adaptive *a = &r->films.adaptive;
+
+    if (!pass_plan_has_shares(r->spp_done, is_adaptive(r)))
+        return PASS_DONE;
+    if (!adaptive_decide(a, &r->films.film, r->job.exposure, r->backend->pool,
+                         cancel_between(r), &r->error))
+        return PASS_FAILED;
+    if (a->is_decided)
+        return PASS_DONE;
+    r->error_halts++;
+    return PASS_CANCELLED;
+}
+
+static enum pass_result run_film_pass(struct render *r)
+{
+    uint64_t *spp_done = &r->spp_done;
+    uint64_t target =
+        is_stepping(r) ? *spp_done + 1
+                       : pass_plan_next(*spp_done, &r->limits, is_adaptive(r));
+    enum pass_result result = decide_shares(r);
+
+    if (result == PASS_DONE)
+        result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
+    if (result != PASS_DONE)
+        return result;
+    r->has_error = false;
+    return estimate_pass(r);
+}
+
+/* Renders the film until a limit, the last step, a cancel or an error. */
+static enum pass_result run_film(struct render *r)
+{
+    enum pass_result result =
+        begin(r, &r->job.world, &r->films.film, r->job.crop.x, r->job.crop.y);
+
+    if (result == PASS_DONE) /* a halt may have come between pass and error */
+        result = estimate_pass(r);
+    while (result == PASS_DONE && render_run_limit(r) == RENDER_LIMIT_NONE) {
+        result = run_film_pass(r);
+        if (result == PASS_DONE && was_last_step(r) &&
+            render_run_limit(r) == RENDER_LIMIT_NONE)
+            result = PASS_CANCELLED;
+    }
+    if (result == PASS_CANCELLED && is_out_of_time(r))
+        estimate_cut(r);
+    return result;
+}
+
+enum pass_result render_run(struct render *r)
+{
+    enum pass_result result = load(r);
+
+    if (result == PASS_DONE && r->films.draft.width > 0 &&
+        r->draft_spp_done < render_films_draft_spp(&r->job))
+        result = run_draft(r);
+    return result == PASS_DONE && render_films_want_light(&r->job) ? run_film(r)
+                                                                   : result;
+}
