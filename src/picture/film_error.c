@@ -350,28 +350,30 @@ static void add_total(struct total *to, const struct total *t)
     }
 }
 
-struct film_error film_error(struct film *f, float exposure, struct pool *pool,
-                             const struct cancel *cancel)
+bool film_error(struct film *f, float exposure, struct pool *pool,
+                const struct cancel *cancel, struct film_error *error,
+                struct error *err)
 {
     struct job j = {.film = f,
                     .exposure = exposure,
                     .colour = ALL,
                     .cancel = cancel};
     int rows = tiles_in(f->height);
-    struct film_error error = {0};
 
+    *error = (struct film_error){0};
     j.totals = alloc_array((size_t)rows, sizeof *j.totals);
     if (j.totals == NULL)
-        return error;
+        return fail(err, "out of memory for the error of %dx%d pixels",
+                    f->width, f->height);
     pool_each(pool, (uint32_t)rows, add_row_of_tiles, &j);
     /* in order, so that the threads do not change the bits */
     for (int i = 1; i < rows; i++)
         add_total(&j.totals[0], &j.totals[i]);
     if (!atomic_load(&j.is_unknown) &&
         (cancel == NULL || !cancel_requested(cancel)))
-        error = conclude(&j.totals[0], (double)f->width * (double)f->height);
+        *error = conclude(&j.totals[0], (double)f->width * (double)f->height);
     free(j.totals);
-    return error;
+    return true;
 }
 
 /* Replaces `count` numbers, `step` floats apart, by the means of the 5 around

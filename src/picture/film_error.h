@@ -47,10 +47,11 @@ bool film_pixel_error(const struct film *film, size_t at, float mean[3],
                       float e[3]);
 
 /* Estimates the error of the film. It has the same bits with any pool; NULL is
- * the caller's thread. The error is unknown after a cancel (NULL: none), and if
- * memory is out. */
-struct film_error film_error(struct film *film, float exposure,
-                             struct pool *pool, const struct cancel *cancel);
+ * the caller's thread. The error is unknown after a cancel (NULL: none).
+ * Returns false without memory. */
+bool film_error(struct film *film, float exposure, struct pool *pool,
+                const struct cancel *cancel, struct film_error *error,
+                struct error *err);
 
 /* Writes the error of each pixel, as a root mean square over the 5 x 5 pixels
  * around it. The pool may be NULL. Returns false if the error is unknown. */

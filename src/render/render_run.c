@@ -128,10 +128,11 @@ static const struct cancel *cancel_between(const struct render *r)
     return r->error_halts < ERROR_HALTS_MAX ? &r->cancel : NULL;
 }
 
-static struct film_error estimate(struct render *r, const struct cancel *cancel)
+static bool estimate(struct render *r, const struct cancel *cancel,
+                     struct film_error *e)
 {
-    return film_error(&r->films.film, r->job.exposure, r->backend->pool,
-                      cancel);
+    return film_error(&r->films.film, r->job.exposure, r->backend->pool, cancel,
+                      e, &r->error);
 }
 
 /* Finds the error at the end of a pass, unless it is known already. */
@@ -142,7 +143,8 @@ static enum pass_result estimate_pass(struct render *r)
 
     if (r->has_error)
         return PASS_DONE;
-    e = estimate(r, cancel);
+    if (!estimate(r, cancel, &e))
+        return PASS_FAILED;
     if (cancel != NULL && cancel_requested(cancel)) {
         r->error_halts++;
         return PASS_CANCELLED;
@@ -163,15 +165,17 @@ static bool is_out_of_time(const struct render *r)
 }
 
 /* Finds the error of a film that the limit of time has cut within a pass. */
-static void estimate_cut(struct render *r)
+static enum pass_result estimate_cut(struct render *r)
 {
     struct film_error e;
 
     r->cancel.deadline_ns = 0; /* requests still count */
-    e = estimate(r, &r->cancel);
+    if (!estimate(r, &r->cancel, &e))
+        return PASS_FAILED;
     pthread_mutex_lock(&r->lock);
     r->cut_error = e;
     pthread_mutex_unlock(&r->lock);
+    return PASS_CANCELLED;
 }
 
 /* Decides the shares of adaptive sampling before the passes that need them. */
@@ -220,9 +224,8 @@ static enum pass_result run_film(struct render *r)
             render_run_limit(r) == RENDER_LIMIT_NONE)
             result = PASS_CANCELLED;
     }
-    if (result == PASS_CANCELLED && is_out_of_time(r))
-        estimate_cut(r);
-    return result;
+    return result == PASS_CANCELLED && is_out_of_time(r) ? estimate_cut(r)
+                                                         : result;
 }
 
 enum pass_result render_run(struct render *r)

@@ -44,6 +44,22 @@ static void fill(struct film *film, const struct noise *n, int spp)
     free(samples);
 }
 
+static struct film_error error_by(struct film *film, float exposure,
+                                  struct pool *pool,
+                                  const struct cancel *cancel)
+{
+    struct film_error e;
+    struct error err;
+
+    assert_true(film_error(film, exposure, pool, cancel, &e, &err));
+    return e;
+}
+
+static struct film_error error_of(struct film *film, float exposure)
+{
+    return error_by(film, exposure, NULL, NULL);
+}
+
 /* The error of the picture itself, whose truth is the same everywhere. */
 static double true_error(struct film *film, double mean, double exposure)
 {
@@ -77,7 +93,7 @@ static void the_error_is_that_of_the_noise(void **state)
         struct film_error e;
 
         fill(&film, &(struct noise){1, 0.5}, spp[i]);
-        e = film_error(&film, 0, NULL, NULL);
+        e = error_of(&film, 0);
         assert_true(e.is_known && e.is_resolved);
         check_close(e.error, 1 / sqrt(spp[i] * 1.01), 0.03 * e.error);
         assert_true(e.low < e.error && e.error < e.high);
@@ -104,7 +120,7 @@ static void intervals_are_calibrated(void **state)
             double truth;
 
             fill(&film, &noises[i], spp[i]);
-            e = film_error(&film, 0, NULL, NULL);
+            e = error_of(&film, 0);
             truth = true_error(&film, noises[i].mean, 0);
             inside += e.low <= truth && truth <= e.high;
         }
@@ -125,13 +141,13 @@ static void the_error_is_relative_to_white(void **state)
     make(&film);
     state_of_random = 7;
     fill(&film, &(struct noise){0.25, 0.5}, 8);
-    error = film_error(&film, 0, NULL, NULL).error;
+    error = error_of(&film, 0).error;
     state_of_random = 7;
     fill(&film, &(struct noise){256, 0.5}, 8);
-    check_close(film_error(&film, -10, NULL, NULL).error, error, 1e-6 * error);
-    assert_true(film_error(&film, 0, NULL, NULL).error > error);
+    check_close(error_of(&film, -10).error, error, 1e-6 * error);
+    assert_true(error_of(&film, 0).error > error);
     fill(&film, &(struct noise){1e-6, 0.5}, 8);
-    check_at_most(film_error(&film, 0, NULL, NULL).error, 1e-5);
+    check_at_most(error_of(&film, 0).error, 1e-5);
     film_free(&film);
 }
 
@@ -144,14 +160,14 @@ static void one_sample_says_nothing(void **state)
 
     (void)state;
     make(&film);
-    assert_false(film_error(&film, 0, NULL, NULL).is_known);
+    assert_false(error_of(&film, 0).is_known);
     fill(&film, &(struct noise){1, 0.5}, 1);
-    e = film_error(&film, 0, NULL, NULL);
+    e = error_of(&film, 0);
     assert_false(e.is_known || film_error_map(&film, 0, NULL, map));
     fill(&film, &(struct noise){1, 0.5}, 2);
-    assert_true(film_error(&film, 0, NULL, NULL).is_known);
+    assert_true(error_of(&film, 0).is_known);
     film_clear(&film);
-    assert_false(film_error(&film, 0, NULL, NULL).is_known);
+    assert_false(error_of(&film, 0).is_known);
     film_free(&film);
 }
 
@@ -165,7 +181,7 @@ static void fireflies_are_unresolved(void **state)
     make(&film);
     fill(&film, &(struct noise){1, 0.5}, 16);
     film_add_row(&film, 30, 31, 1, 1, &flash, NULL, (const int[]){1});
-    assert_false(film_error(&film, 0, NULL, NULL).is_resolved);
+    assert_false(error_of(&film, 0).is_resolved);
     film_free(&film);
 }
 
@@ -223,7 +239,7 @@ static void odd_pictures_have_numbers(void **state)
             for (int x = 0; x < sides[i][0]; x++)
                 film_add_row(&film, x, y, 1, 1, samples, NULL,
                              (const int[]){4});
-        e = film_error(&film, 0, NULL, NULL);
+        e = error_of(&film, 0);
         assert_true(e.is_known && isfinite(e.error) && isfinite(e.high));
         assert_true(e.low >= 0 && e.low <= e.error && e.error <= e.high);
         assert_true(film_error_map(&film, 0, NULL, map));
@@ -251,17 +267,17 @@ static void threads_give_the_same_bits(void **state)
     (void)state;
     make(&film);
     fill(&film, &(struct noise){1, 0.5}, 4);
-    error = film_error(&film, 0, NULL, NULL);
+    error = error_of(&film, 0);
     assert_true(film_error_map(&film, 0, NULL, alone));
     for (int threads = 1; threads <= 4; threads++) {
         struct pool *pool = pool_create(threads, &err);
 
         assert_non_null(pool);
-        assert_same_error(film_error(&film, 0, pool, &cancel), error);
+        assert_same_error(error_by(&film, 0, pool, &cancel), error);
         assert_true(film_error_map(&film, 0, pool, map));
         assert_memory_equal(map, alone, sizeof map);
         cancel_request(&cancel);
-        assert_false(film_error(&film, 0, pool, &cancel).is_known);
+        assert_false(error_by(&film, 0, pool, &cancel).is_known);
         cancel_reset(&cancel);
         pool_destroy(pool);
     }

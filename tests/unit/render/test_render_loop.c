@@ -255,7 +255,7 @@ static void errors_belong_to_the_film(void **state)
         p = wait_for_done(r);
     } while (!p.film_error.is_known);
     assert_int_equal(p.stopped_by, RENDER_LIMIT_TIME);
-    e = film_error(render_film(r), 0, NULL, NULL);
+    assert_true(film_error(render_film(r), 0, NULL, NULL, &e, &err));
     check_close(p.film_error.error, e.error, 0);
     check_close(p.film_error.high, e.high, 0);
     job.limits = (struct render_limits){.spp = 40};
