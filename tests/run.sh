@@ -140,6 +140,7 @@ program_is_hardened()
 
 wanted layers && run_check layers tests/layers.sh
 wanted tour && run_check tour tests/tour.sh
+wanted mutants && run_check mutants tests/mutants/check.sh
 wanted links && run_check links tests/links.sh
 wanted results && run_check results tests/bench/results/draw.sh --check
 wanted man && run_check man-lint mandoc -T lint -W warning man/glim.1 man/libglim.3

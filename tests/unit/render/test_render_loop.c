@@ -117,6 +117,27 @@ static void thread_counts_give_the_same_bits(void **state)
 }
 
 /* The last 3 of the 11 samples are in a block that is not full. */
+/* The last passes give each pixel 48 and 64 samples. */
+static void long_passes_are_complete(void **state)
+{
+    struct render *r = open_render(2);
+    struct render_job job;
+    struct mesh m;
+    struct error err;
+
+    (void)state;
+    make_room(&m);
+    job = job_of(&m, 1130);
+    job.crop = (struct rect){0, 0, 9, 5};
+    assert_true(render_start(r, &job, &err));
+    assert_true(render_wait(r, 60000));
+    assert_int_equal(render_progress(r).samples, 1130 * 9 * 5);
+    for (int i = 0; i < 9 * 5; i++)
+        assert_int_equal(film_count(render_film(r), i % 9, i / 9), 1130);
+    close_render(r);
+    mesh_free(&m);
+}
+
 static void instruction_sets_give_the_same_bits(void **state)
 {
     struct render *plain = open_render_with(cpu_kernel_named("plain", NULL), 2);
@@ -484,6 +505,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(thread_counts_give_the_same_bits),
+        cmocka_unit_test(long_passes_are_complete),
         cmocka_unit_test(instruction_sets_give_the_same_bits),
         cmocka_unit_test(halts_lose_and_repeat_no_samples),
         cmocka_unit_test(time_ends_a_render),
