@@ -142,8 +142,8 @@ $(PATHS): $(B)/paths_%.o: src/render/cpu_kernel.c $(B)/flags
 
 $(FILTERS): $(B)/filter_loops_%.o: src/filter/filter_loops.c $(B)/flags
 	$(SAY) CC '$< ($*)'
-	$(Q)$(CC) $(ALL_CFLAGS) $(FLAGS_$*) -DLOOPS=filter_loops_$* \
-		-MMD -MP -c -o $@ $<
+	$(Q)$(CC) $(ALL_CFLAGS) $(FLAGS_$*) -mprefer-vector-width=512 \
+		-DLOOPS=filter_loops_$* -MMD -MP -c -o $@ $<
 
 # The time of the folder changes when a file is added or removed.
 $(B)/kernels.c: kernels $(KERNELS) kernels/embed.sh $(B)/flags

@@ -33,7 +33,7 @@ struct surface_sums {
     uint32_t albedo_square; /* mean of the components' squares */
     uint32_t count;         /* samples that were added to features, */
     uint32_t hit_count;     /* and those that have some */
-    uint32_t pad;
+    uint32_t seen_count;    /* samples with light that is seen, or black sky */
 };
 
 static inline void surface_clear(GLOBAL struct surface_sums *sums)
@@ -46,7 +46,7 @@ static inline void surface_clear(GLOBAL struct surface_sums *sums)
         sums->albedo[c] = sums->normal[c] = 0;
     }
     sums->depth = sums->depth_square = zero;
-    sums->albedo_square = sums->count = sums->hit_count = sums->pad = 0;
+    sums->albedo_square = sums->count = sums->hit_count = sums->seen_count = 0;
 }
 
 /* Returns the number of 16 bits for x in [0, 1]. */
@@ -95,6 +95,8 @@ static inline void surface_add(GLOBAL struct surface_sums *sums, uint64_t index,
         s.direct.y = s.seen.y = 0.0f;
     if (!sum_accepts(radiance.z))
         s.direct.z = s.seen.z = 0.0f;
+    if (s.seen.x + s.seen.y + s.seen.z > 0.0f || !(s.depth > 0.0f))
+        sums->seen_count++;
     rgb_add(sums->direct, s.direct, &bad, &full);
     rgb_add(sums->seen, s.seen, &bad, &full);
     if ((index & 1) != 0) {

@@ -120,11 +120,9 @@ static inline void tone_curve(uint32_t tone, float *rgb)
  * which is from 0 to 1. The curve is approximated by powers of the root. */
 static inline int32_t srgb_near(float x)
 {
-    float root = sqrtf(x);
-    float curve =
-        x < 0.0031308f
-            ? 3294.6f * x
-            : ((55.31f * root - 137.82f) * root + 346.14f) * root - 8.148f;
+    float root = sqrtf(x), line = 3294.6f * x;
+    float power = ((55.31f * root - 137.82f) * root + 346.14f) * root - 8.148f;
+    float curve = x < 0.0031308f ? line : power;
 
     return (int32_t)f_min(f_max(curve + 0.5f, 1.0f), 254.0f);
 }

@@ -4,6 +4,9 @@
 /* Depth of a film without surfaces. */
 #define DEPTH_ANY 1.0f
 
+/* Prefetch distance in pixels. Features are in no cache. */
+#define AHEAD 16
+
 float film_features_far(struct film *f, int stride)
 {
     float far = 0.0f;
@@ -64,9 +67,15 @@ static void put_features(const struct surface_sums *s, float far, int x,
 void film_features(struct film *f, float far, int y,
                    const struct filter_row *to)
 {
+    const struct surface_sums *row = f->surfaces + (size_t)y * (size_t)f->width;
+
     film_lock_row(f, y);
-    for (int x = 0; x < f->width; x++)
-        put_features(&f->surfaces[(size_t)y * (size_t)f->width + (size_t)x],
-                     far, x, to);
+    for (int x = 0; x < f->width; x++) {
+        if (x + AHEAD < f->width) {
+            __builtin_prefetch(&row[x + AHEAD].depth);
+            __builtin_prefetch(&row[x + AHEAD].count);
+        }
+        put_features(row + x, far, x, to);
+    }
     film_unlock_row(f, y);
 }

@@ -23,6 +23,7 @@ struct job {
     float depth_scale;
     float light_scale;
     int from, step; /* of a level */
+    bool is_last;
     float *rgb;
 };
 
@@ -36,7 +37,7 @@ static struct filter_tile whole_row(const struct filter_planes *p, int y)
 /* Takes the next plane of the memory. Returns its pixel (0, 0). */
 static float *take(const struct filter_planes *p, float **next)
 {
-    float *first = *next + FILTER_PAD * p->pitch + FILTER_PAD;
+    float *first = *next + FILTER_PAD * p->pitch + FILTER_MARGIN;
 
     *next += p->pitch * (p->height + 2 * FILTER_PAD);
     return first;
@@ -45,21 +46,23 @@ static float *take(const struct filter_planes *p, float **next)
 bool filter_init(struct filter *f, int width, int height, struct error *err)
 {
     struct filter_planes *p = &f->planes;
-    size_t floats =
-        (size_t)(width + 2 * FILTER_PAD) * (size_t)(height + 2 * FILTER_PAD);
+    int lines = (width + FILTER_LINE - 1) / FILTER_LINE;
+    int pitch = lines * FILTER_LINE + 2 * FILTER_MARGIN;
+    size_t floats = (size_t)pitch * (size_t)(height + 2 * FILTER_PAD);
     float *next;
 
     *f = (struct filter){.loops = filter_loops_at(0)};
-    f->memory = alloc_array(floats, PLANES * sizeof *f->memory);
+    f->memory = alloc_aligned(floats, PLANES * sizeof *f->memory);
     f->row_max = alloc_array((size_t)height, sizeof *f->row_max);
     if (f->memory == NULL || f->row_max == NULL) {
         filter_free(f);
         return fail(err, "out of memory for filtering %dx%d pixels", width,
                     height);
     }
+    memset(f->memory, 0, floats * PLANES * sizeof *f->memory);
     p->width = width;
     p->height = height;
-    p->pitch = width + 2 * FILTER_PAD;
+    p->pitch = pitch;
     next = f->memory;
     for (int i = 0; i < 2; i++)
         for (int h = 0; h < 2; h++) {
@@ -85,7 +88,7 @@ void filter_free(struct filter *f)
     *f = (struct filter){0};
 }
 
-/* ---- features ---- */
+/* ---- rows of the source ---- */
 
 /* Lets the source fill a row. Noise of normals and depths goes to planes that
  * are free until the first level. */
@@ -119,6 +122,62 @@ static void load_features(void *context, uint32_t item, int worker)
             noise[x] * (FILTER_ALBEDO_SCALE * FILTER_ALBEDO_SCALE) +
             normal_noise[x] * (FILTER_NORMAL_SCALE * FILTER_NORMAL_SCALE);
     }
+}
+
+/* Divides the light of both halves in a row by the albedo. */
+VECTORISED static void divide(const float *restrict albedo, int width,
+                              float *restrict a, float *restrict b)
+{
+    for (int x = 0; x < width; x++) {
+        float inverse = 1.0f / (albedo[x] * (1.0f / FILTER_ALBEDO_SCALE) +
+                                FILTER_ALBEDO_MIN);
+
+        a[x] *= inverse;
+        b[x] *= inverse;
+    }
+}
+
+/* Returns the largest of numbers that are not negative, compared as integers.
+ */
+VECTORISED static float largest(const float *x, int count, float least)
+{
+    int32_t most = (int32_t)float_bits(least);
+
+    for (int i = 0; i < count; i++) {
+        int32_t bits = (int32_t)float_bits(x[i]);
+
+        most = bits > most ? bits : most;
+    }
+    return bits_float((uint32_t)most);
+}
+
+static void load_light(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter_planes *p = &j->filter->planes;
+    ptrdiff_t at = (int)item * p->pitch;
+    float *to[2][3];
+    float max = 0;
+
+    (void)worker;
+    for (int h = 0; h < 2; h++)
+        for (int c = 0; c < 3; c++)
+            to[h][c] = p->halves[0].light[h][c] + at;
+    j->source->light(j->source->context, j->component, (int)item, to);
+    for (int c = 0; c < 3; c++) {
+        divide(p->features[c] + at, p->width, to[0][c], to[1][c]);
+        for (int h = 0; h < 2; h++)
+            max = largest(to[h][c], p->width, max);
+    }
+    j->filter->row_max[item] = max;
+}
+
+/* Loads a row of the features and of the first component, one after the other,
+ * so that a source may compute both at once. */
+static void load_row(void *context, uint32_t item, int worker)
+{
+    load_features(context, item, worker);
+    load_light(context, item, worker);
 }
 
 static void scale_depths(void *context, uint32_t item, int worker)
@@ -161,31 +220,6 @@ static float divisor(const struct filter_planes *p, int c, ptrdiff_t at)
 {
     return p->features[c][at] * (1.0f / FILTER_ALBEDO_SCALE) +
            FILTER_ALBEDO_MIN;
-}
-
-static void load_light(void *context, uint32_t item, int worker)
-{
-    struct job *j = context;
-    const struct filter_planes *p = &j->filter->planes;
-    ptrdiff_t at = (int)item * p->pitch;
-    float *to[2][3];
-    float max = 0;
-
-    (void)worker;
-    for (int h = 0; h < 2; h++)
-        for (int c = 0; c < 3; c++)
-            to[h][c] = p->halves[0].light[h][c] + at;
-    j->source->light(j->source->context, j->component, (int)item, to);
-    for (int c = 0; c < 3; c++)
-        for (int x = 0; x < p->width; x++) {
-            float inverse = 1.0f / divisor(p, c, at + x);
-
-            for (int h = 0; h < 2; h++) {
-                to[h][c][x] *= inverse;
-                max = f_max(to[h][c][x], max);
-            }
-        }
-    j->filter->row_max[item] = max;
 }
 
 /* Returns the weight of pixel q in the light of p: small where features differ,
@@ -324,7 +358,8 @@ static void run_average(void *context, uint32_t item, int worker)
     const struct filter *f = j->filter;
 
     (void)worker;
-    f->loops->average(&f->planes, tile_at(&f->planes, item), j->from, j->step);
+    f->loops->average(&f->planes, tile_at(&f->planes, item), j->from, j->step,
+                      j->is_last);
 }
 
 /* Adds a row of the filtered component to the picture. */
@@ -360,7 +395,8 @@ static void run_component(struct job *j, int levels, struct pool *pool)
     const struct filter_planes *p = &j->filter->planes;
     uint32_t rows = (uint32_t)p->height;
 
-    pool_each(pool, rows, load_light, j);
+    if (j->component > 0)
+        pool_each(pool, rows, load_light, j);
     pool_each(pool, rows, fill_gaps, j);
     j->light_scale = light_scale(j->filter);
     pool_each(pool, rows, scale_light, j);
@@ -368,6 +404,7 @@ static void run_component(struct job *j, int levels, struct pool *pool)
     j->from = 0;
     for (int l = 0; l < levels; l++, j->from = 1 - j->from) {
         j->step = 1 << l;
+        j->is_last = l == levels - 1;
         pool_each(pool, tile_count(p), run_weights, j);
         pool_each(pool, tile_count(p), run_average, j);
     }
@@ -383,7 +420,7 @@ void filter_run(struct filter *f, const struct filter_source *source,
 
     assert(levels <= FILTER_LEVELS);
     memset(rgb, 0, (size_t)p->width * (size_t)p->height * 3 * sizeof *rgb);
-    pool_each(pool, rows, load_features, &j);
+    pool_each(pool, rows, load_row, &j);
     j.depth_scale = depth_scale(p);
     pool_each(pool, rows, scale_depths, &j);
     for (; j.component < source->component_count; j.component++)

@@ -250,7 +250,7 @@ static struct taps taps_of(const struct filter_planes *p, int h, ptrdiff_t at,
 }
 
 /* Averages half h with the weights of the other half. */
-static void average_half(const struct tile *t, int h, int step,
+static void average_half(const struct tile *t, int h, int step, bool is_last,
                          const struct filter_halves *to)
 {
     for (int y = 0; y < t->at.height; y++) {
@@ -262,21 +262,24 @@ static void average_half(const struct tile *t, int h, int step,
         for (int c = 0; c < 3; c++)
             average_light(&taps, t->from->light[h][c] + at, inverse,
                           t->at.width, to->light[h][c] + at);
-        average_variance(&taps, t->from->variance[h] + at, inverse, t->at.width,
-                         to->variance[h] + at);
+        if (!is_last)
+            average_variance(&taps, t->from->variance[h] + at, inverse,
+                             t->at.width, to->variance[h] + at);
     }
+    if (is_last)
+        return;
     for (int c = 0; c < 3; c++)
         filter_extend(t->planes, to->light[h][c], t->at);
     filter_extend(t->planes, to->variance[h], t->at);
 }
 
 static void average(const struct filter_planes *p, struct filter_tile at,
-                    int from, int step)
+                    int from, int step, bool is_last)
 {
     struct tile t = {p, &p->halves[from], at};
 
     for (int h = 0; h < 2; h++)
-        average_half(&t, h, step, &p->halves[1 - from]);
+        average_half(&t, h, step, is_last, &p->halves[1 - from]);
 }
 
 /* ---- variance ---- */
@@ -321,5 +324,28 @@ static void variance(const struct filter_planes *p, struct filter_tile t)
     filter_extend(p, s->variance[1], t);
 }
 
+/* ---- sums ---- */
+
+/* Converts without instructions for 64-bit integers, which few instruction sets
+ * have for vectors: each half of the bits becomes the fraction of a double. */
+static inline double double_of(uint64_t x)
+{
+    uint64_t low = (x & 0xffffffffu) | 0x4330000000000000u; /* 2^52 + x */
+    uint64_t high = x >> 32 | 0x4530000000000000u;          /* 2^84 + 2^32 x */
+    double a, b;
+
+    memcpy(&a, &low, sizeof a);
+    memcpy(&b, &high, sizeof b);
+    return a + (b - 0x1.00000001p84);
+}
+
+VECTORISED static void convert(const struct sum *restrict sums, int count,
+                               float *restrict to)
+{
+    for (int i = 0; i < count; i++)
+        to[i] =
+            (float)(double_of(sums[i].hi) + double_of(sums[i].lo) * 0x1p-64);
+}
+
 extern const struct filter_loops LOOPS;
-const struct filter_loops LOOPS = {variance, weigh, average};
+const struct filter_loops LOOPS = {variance, weigh, average, convert};

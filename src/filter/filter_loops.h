@@ -13,6 +13,7 @@
 #define GLIM_FILTER_LOOPS_H
 
 #include "filter/filter_planes.h"
+#include "kernels/sum.h"
 
 struct filter_loops {
     /* Computes the variances of halves[0] from its light. */
@@ -24,9 +25,12 @@ struct filter_loops {
                   int step);
 
     /* Filters halves[from] into halves[1 - from] with the weights of all
-     * tiles. */
+     * tiles. The last level needs no variance. */
     void (*average)(const struct filter_planes *p, struct filter_tile t,
-                    int from, int step);
+                    int from, int step, bool is_last);
+
+    /* Converts sums to floats. */
+    void (*convert)(const struct sum *sums, int count, float *to);
 };
 
 #endif

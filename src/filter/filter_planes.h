@@ -17,8 +17,13 @@
 
 #include "kernels/filter.h"
 
-/* Room on each side: the largest step, and one pixel for 3x3. */
+/* Rows above and below the picture: the largest step, and one pixel for 3x3. */
 #define FILTER_PAD ((1 << (FILTER_LEVELS - 1)) + 1)
+
+/* Floats of a cache line, and pixels to the left and to the right of the
+ * picture: FILTER_PAD in whole lines. */
+#define FILTER_LINE   16
+#define FILTER_MARGIN 48
 
 /* Copied pixels on each side, for 5x5 pixels. */
 #define FILTER_COPIES 2

@@ -7,10 +7,6 @@
  * of the draft's first surfaces; the film needs none. Direct and indirect light
  * are filtered together.
  *
- * Halves: pixels of draft and film have independent halves (kernels/rng.h). The
- * even samples of neighbours belong to different halves, so that a single
- * sample of each pixel gives both.
- *
  * A picture whose film is young is filtered in fewer levels, which is faster.
  *
  * Lamps and the sky are shown without the filter, as the draft's pixels see
@@ -25,21 +21,21 @@
 #define GLIM_SCREEN_FILTER_H
 
 #include "filter/filter.h"
-#include "picture/film.h"
+#include "filter/screen_halves.h"
 
 struct screen_filter {
     struct filter filter;
+    struct screen_halves halves;
     int width, height; /* 0: no memory yet */
     float *memory;
-    /* Numbers for each pixel: means of each half, their samples, the area of
-     * the film's pixels that have some, and the share of light that is seen. */
-    float *light[2][3];
-    float *count[2];
-    float *area[2];
-    float *seen;
-    float *change;  /* by the filter, in steps of 255 */
-    float *rgb;     /* 3 numbers for each pixel */
-    uint8_t *bytes; /* of a row, developed */
+    /* for each pixel: the share of light that is seen, and the change by the
+     * filter in steps of 255 */
+    float *seen, *change;
+    float *raw, *rgb; /* 3 numbers for each pixel: unfiltered and filtered */
+    /* the row that is processed */
+    float *rows;
+    float *changes, *shares, *largest;
+    uint8_t *bytes; /* filtered and raw */
 };
 
 /* Levels for a film without a sample in each pixel: the camera may be moving.

@@ -332,35 +332,49 @@ static void encode(f4 shown, uint8_t *bytes)
         bytes[c] = (uint8_t)srgb_byte(rgb[c]);
 }
 
-/* Encodes up to 3 * RUN numbers. The first loop has no table, so that it
- * becomes vector code. */
-static void encode_run(int count, float *linear, uint8_t *bytes)
+/* Scales numbers and cuts them to [0, 1]. */
+VECTORISED static void scale_numbers(const float *restrict from, float factor,
+                                     int count, float *restrict to)
 {
-    int32_t near[3 * RUN];
-
-    for (int i = 0; i < count; i++) {
-        linear[i] = f_min(f_max(linear[i], 0.0f), 1.0f);
-        near[i] = srgb_near(linear[i]);
-    }
     for (int i = 0; i < count; i++)
+        to[i] = f_min(f_max(factor * from[i], 0.0f), 1.0f);
+}
+
+VECTORISED static void find_near(const float *restrict linear, int count,
+                                 int32_t *restrict near)
+{
+    for (int i = 0; i < count; i++)
+        near[i] = srgb_near(linear[i]);
+}
+
+/* Develops up to RUN pixels. */
+static void develop_run(struct develop how, int count, const float *rgb,
+                        uint8_t *bytes)
+{
+    float toned[3 * RUN], linear[3 * RUN];
+    int32_t near[3 * RUN];
+    float factor = develop_factor(how);
+
+    if (how.tone != TONE_LINEAR) {
+        for (int i = 0; i < count; i++)
+            put(show(f4_set3(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]),
+                     factor, how.tone),
+                toned + 3 * i);
+        rgb = toned;
+        factor = 1.0f;
+    }
+    scale_numbers(rgb, factor, 3 * count, linear);
+    find_near(linear, 3 * count, near);
+    for (int i = 0; i < 3 * count; i++)
         bytes[i] = (uint8_t)srgb_byte_near(linear[i], near[i]);
 }
 
 void develop_row(struct develop how, int count, const float *rgb,
                  uint8_t *bytes)
 {
-    float factor = develop_factor(how);
-
-    for (int x = 0; x < count; x += RUN) {
-        int n = 3 * (count - x < RUN ? count - x : RUN);
-        float shown[3 * RUN];
-
-        for (int i = 0; i < n; i++)
-            shown[i] = factor * rgb[3 * x + i];
-        for (int i = 0; how.tone != TONE_LINEAR && i < n; i += 3)
-            tone_curve(how.tone, shown + i);
-        encode_run(n, shown, bytes + 3 * (size_t)x);
-    }
+    for (int x = 0; x < count; x += RUN)
+        develop_run(how, count - x < RUN ? count - x : RUN, rgb + 3 * x,
+                    bytes + 3 * x);
 }
 
 void film_resolve(struct film *f, struct develop how, struct frame *frame)
@@ -510,23 +524,35 @@ static f4 finish(const struct showing *s, struct film *film, struct film *draft,
     return f4_add(light, f4_div(sure, f4_set1(whole)));
 }
 
-void film_preview(struct film *film, struct film *draft, struct develop how,
-                  struct frame *frame)
+void film_preview_part(struct film *film, struct film *draft,
+                       struct develop how, int x, int y, int count,
+                       struct frame *frame)
 {
     struct showing s = {frame, draft != NULL, develop_factor(how), how.tone};
 
-    for (int y = 0; y < frame->height; y++) {
-        for (int x = 0; x < frame->width; x += RUN) {
-            int left = frame->width - x;
-            struct run r = {.x = x, .y = y, .count = left < RUN ? left : RUN};
-            size_t at = (size_t)y * (size_t)frame->width + (size_t)x;
+    while (count > 0) {
+        size_t at = (size_t)y * (size_t)frame->width + (size_t)x;
+        struct run r;
 
-            add_film(&s, film, false, &r);
-            if (draft)
-                add_film(&s, draft, true, &r);
-            for (int i = 0; i < r.count; i++)
-                encode(finish(&s, film, draft, &r, i),
-                       frame->rgb + 3 * (at + (size_t)i));
-        }
+        r.x = x;
+        r.y = y;
+        r.count = count < RUN ? count : RUN;
+        memset(r.shown, 0, (size_t)r.count * sizeof *r.shown);
+        memset(r.light, 0, (size_t)r.count * sizeof *r.light);
+        add_film(&s, film, false, &r);
+        if (draft)
+            add_film(&s, draft, true, &r);
+        for (int i = 0; i < r.count; i++)
+            encode(finish(&s, film, draft, &r, i),
+                   frame->rgb + 3 * (at + (size_t)i));
+        x += r.count;
+        count -= r.count;
     }
+}
+
+void film_preview(struct film *film, struct film *draft, struct develop how,
+                  struct frame *frame)
+{
+    for (int y = 0; y < frame->height; y++)
+        film_preview_part(film, draft, how, 0, y, frame->width, frame);
 }

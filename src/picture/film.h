@@ -136,4 +136,9 @@ void film_resolve(struct film *film, struct develop how, struct frame *frame);
 void film_preview(struct film *film, struct film *draft, struct develop how,
                   struct frame *frame);
 
+/* The same for `count` pixels of row y from x on. */
+void film_preview_part(struct film *film, struct film *draft,
+                       struct develop how, int x, int y, int count,
+                       struct frame *frame);
+
 #endif

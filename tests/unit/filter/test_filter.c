@@ -559,6 +559,35 @@ static void ends_of_the_range_are_finite(void **state)
     }
 }
 
+/* Sums of any size become the nearest floats, or those beside them. */
+static void sums_are_converted(void **state)
+{
+    enum { COUNT = 67 };
+    struct sum sums[COUNT] = {{0, 0}, {1, 0}, {0, (uint64_t)1 << 63}};
+    uint64_t seed = 5;
+
+    (void)state;
+    for (int i = 3; i < COUNT; i++) {
+        double size = check_random(&seed) * 126 - 63;
+
+        sums[i].lo = (uint64_t)(check_random(&seed) * 0x1p64);
+        if (size < 0)
+            sums[i].lo >>= (int)-size;
+        else
+            sums[i].hi = (uint64_t)exp2(size);
+    }
+    for (int k = 0; filter_loops_at(k) != NULL; k++) {
+        float to[COUNT];
+
+        filter_loops_at(k)->convert(sums, COUNT, to);
+        for (int i = 0; i < COUNT; i++) {
+            double exact = (double)sums[i].hi + ldexp((double)sums[i].lo, -64);
+
+            check_close(to[i], exact, 1.3e-7 * exact);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -572,6 +601,7 @@ int main(void)
         cmocka_unit_test(bits_depend_on_the_picture_only),
         cmocka_unit_test(halves_are_alike),
         cmocka_unit_test(ends_of_the_range_are_finite),
+        cmocka_unit_test(sums_are_converted),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -226,6 +226,7 @@ static void check_lamp(uint64_t samples)
             struct surface_sums *s = &draft.surfaces[y * WIDTH + x];
 
             memcpy(s->seen, s->direct, sizeof s->seen);
+            s->seen_count = s->count;
         }
     show(&draft);
     for (int y = 18; y < 25; y++)
@@ -246,6 +247,31 @@ static void lamps_stay_sharp(void **state)
     (void)state;
     check_lamp(1);
     check_lamp(5);
+}
+
+/* Light of a lamp's edge, which the draft does not see under a black sky. */
+static float edge_light(float x, float y, uint64_t index)
+{
+    return (int)x == 20 ? noisy_light(x, y, index) : 0;
+}
+
+/* Light in the film where the draft sees a black sky stays in its pixel. */
+static void edges_under_a_black_sky_stay(void **state)
+{
+    static const int one = 1;
+    const struct path_sample dark = {{0, 0, 0}, 1, 0};
+    const struct first_surface none = {.state = SURFACE_AHEAD};
+
+    (void)state;
+    open_films(1);
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            film_add_row(&draft, x, y, 1, 1, &dark, &none, &one);
+    for (uint64_t i = 0; i < 20; i++)
+        add_samples(&film, 1, i, edge_light);
+    show(NULL);
+    assert_memory_equal(clean.rgb, raw.rgb, BYTES);
+    close_films();
 }
 
 /* The films of one screen are not used for a frame of another size. */
@@ -274,6 +300,7 @@ int main(void)
         cmocka_unit_test(pictures_without_noise_stay),
         cmocka_unit_test(noise_falls),
         cmocka_unit_test(lamps_stay_sharp),
+        cmocka_unit_test(edges_under_a_black_sky_stay),
         cmocka_unit_test(other_frames_stay),
     };
 
