@@ -76,7 +76,7 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
         return eon_terms(m, wo, wi, pdf);
     if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
         return metal_terms(m, wo, wi, ggx_albedo(wo.z, m->alpha).loss, pdf);
-    return plastic_terms(m, wo, wi, coat_albedo(m, wo.z), pdf);
+    return plastic_terms(m, wo, wi, specular_albedo(m, wo.z), pdf);
 }
 
 /* Factor of radiance from wi beside f: 1/eta^2 for transmission into glass

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * plastic.h - a clear GGX coat over a diffuse base
+ * plastic.h - a clear GGX surface over a diffuse base
  *
- * The base is scaled by what the coat does not reflect on the way in and out,
- * (1 - E(mu_o)) (1 - E(mu_i)) / (1 - E_mean), with E the albedo of the coat
- * itself (Kelemen and Szirmay-Kalos 2001). So a white base reflects all light
- * under any coat, and the BSDF is reciprocal.
+ * The base is scaled by what the surface does not reflect on the way in and
+ * out, (1 - E(mu_o)) (1 - E(mu_i)) / (1 - E_mean), with E the albedo of the
+ * surface itself (Kelemen and Szirmay-Kalos 2001). So a white base reflects all
+ * light under any surface, and the BSDF is reciprocal.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
  */
@@ -17,9 +17,11 @@
 #include "kernels/fresnel.h"
 #include "kernels/ggx.h"
 
-/* Albedo of a coat with Schlick's Fresnel, from the two parts of it: F0 (E - S)
+/* Albedo of a surface with Schlick's Fresnel, from the two parts of it: F0 (E -
+ * S)
  * + S. */
-static inline struct vec3 coat_albedo_of(struct vec3 f0, struct ggx_albedo e)
+static inline struct vec3 specular_albedo_of(struct vec3 f0,
+                                             struct ggx_albedo e)
 {
     float part = 1.0f - e.loss - e.schlick;
 
@@ -27,49 +29,51 @@ static inline struct vec3 coat_albedo_of(struct vec3 f0, struct ggx_albedo e)
               f0.z * part + e.schlick);
 }
 
-static inline struct vec3 coat_albedo(const struct bsdf *m, float mu)
+static inline struct vec3 specular_albedo(const struct bsdf *m, float mu)
 {
     if (is_smooth(m))
-        return fresnel_schlick(m->coat, mu);
-    return coat_albedo_of(m->coat, ggx_albedo(mu, m->alpha));
+        return fresnel_schlick(m->specular, mu);
+    return specular_albedo_of(m->specular, ggx_albedo(mu, m->alpha));
 }
 
-static inline struct vec3 coat_albedo_mean(const struct bsdf *m)
+static inline struct vec3 specular_albedo_mean(const struct bsdf *m)
 {
     if (is_smooth(m))
-        return fresnel_schlick_mean(m->coat);
-    return coat_albedo_of(m->coat, ggx_albedo_mean(m->alpha));
+        return fresnel_schlick_mean(m->specular);
+    return specular_albedo_of(m->specular, ggx_albedo_mean(m->alpha));
 }
 
-/* (1 - o) (1 - i) / (1 - mean), or 0 under a coat that reflects all light. */
+/* (1 - o) (1 - i) / (1 - mean), or 0 under a surface that reflects all light.
+ */
 static inline float base_scale(float o, float i, float mean)
 {
     return mean < 1.0f ? (1.0f - o) * (1.0f - i) / (1.0f - mean) : 0.0f;
 }
 
-/* Probability to sample the coat: its share of the light, summed over the
- * channels. coat_o: coat_albedo() at wo. */
-static inline float coat_probability(const struct bsdf *m, struct vec3 coat_o)
+/* Probability to sample the surface: its share of the light, summed over the
+ * channels. specular_o: specular_albedo() at wo. */
+static inline float specular_probability(const struct bsdf *m,
+                                         struct vec3 specular_o)
 {
-    float coat = coat_o.x + coat_o.y + coat_o.z;
-    float base = m->color.x * (1.0f - coat_o.x) +
-                 m->color.y * (1.0f - coat_o.y) +
-                 m->color.z * (1.0f - coat_o.z);
+    float specular = specular_o.x + specular_o.y + specular_o.z;
+    float base = m->color.x * (1.0f - specular_o.x) +
+                 m->color.y * (1.0f - specular_o.y) +
+                 m->color.z * (1.0f - specular_o.z);
 
-    return coat + base > 0.0f ? coat / (coat + base) : 1.0f;
+    return specular + base > 0.0f ? specular / (specular + base) : 1.0f;
 }
 
 static inline struct vec3 plastic_terms(const struct bsdf *m, struct vec3 wo,
-                                        struct vec3 wi, struct vec3 coat_o,
+                                        struct vec3 wi, struct vec3 specular_o,
                                         float *pdf)
 {
-    struct vec3 coat_i = coat_albedo(m, wi.z);
-    struct vec3 mean = coat_albedo_mean(m);
+    struct vec3 specular_i = specular_albedo(m, wi.z);
+    struct vec3 mean = specular_albedo_mean(m);
     float cosine = cosine_pdf(wi);
-    float chance = coat_probability(m, coat_o);
-    struct vec3 share = v3(base_scale(coat_o.x, coat_i.x, mean.x),
-                           base_scale(coat_o.y, coat_i.y, mean.y),
-                           base_scale(coat_o.z, coat_i.z, mean.z));
+    float chance = specular_probability(m, specular_o);
+    struct vec3 share = v3(base_scale(specular_o.x, specular_i.x, mean.x),
+                           base_scale(specular_o.y, specular_i.y, mean.y),
+                           base_scale(specular_o.z, specular_i.z, mean.z));
     struct vec3 f = v3_scale(v3_mul(m->color, share), cosine);
     struct vec3 h;
 
@@ -78,7 +82,7 @@ static inline struct vec3 plastic_terms(const struct bsdf *m, struct vec3 wo,
         return f;
     h = half_vector(wo, wi);
     *pdf += chance * ggx_reflection_pdf(wo, h, m->alpha);
-    return v3_add(f, v3_scale(fresnel_schlick(m->coat, v3_dot(wo, h)),
+    return v3_add(f, v3_scale(fresnel_schlick(m->specular, v3_dot(wo, h)),
                               ggx_reflection(wo, wi, h, m->alpha)));
 }
 
@@ -86,8 +90,8 @@ static inline bool plastic_sample(const struct bsdf *m, struct vec3 wo,
                                   struct vec2 u, float choice,
                                   struct bsdf_sample *s)
 {
-    struct vec3 coat_o = coat_albedo(m, wo.z);
-    float chance = coat_probability(m, coat_o);
+    struct vec3 specular_o = specular_albedo(m, wo.z);
+    float chance = specular_probability(m, specular_o);
     struct vec3 wi, f;
     float pdf;
 
@@ -95,12 +99,12 @@ static inline bool plastic_sample(const struct bsdf *m, struct vec3 wo,
         wi = cosine_hemisphere(u);
     else if (is_smooth(m))
         return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
-                            v3_scale(coat_o, 1.0f / chance));
+                            v3_scale(specular_o, 1.0f / chance));
     else
         wi = ggx_reflect(wo, m->alpha, u);
     if (!(wi.z > COSINE_MIN))
         return false;
-    f = plastic_terms(m, wo, wi, coat_o, &pdf);
+    f = plastic_terms(m, wo, wi, specular_o, &pdf);
     return sample_density(s, wi, f, pdf);
 }
 

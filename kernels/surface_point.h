@@ -90,9 +90,10 @@ static inline struct bsdf bsdf_at(const struct world *w,
     b.color = m->color;
     if (has_maps && m->color_texture != NO_INDEX)
         b.color = v3_mul(b.color, texture_at(w, m->color_texture, v->uv).color);
-    b.coat = m->coat;
-    if (has_maps && m->coat_texture != NO_INDEX)
-        b.coat = v3_mul(b.coat, texture_at(w, m->coat_texture, v->uv).color);
+    b.specular = m->specular;
+    if (has_maps && m->specular_texture != NO_INDEX)
+        b.specular =
+            v3_mul(b.specular, texture_at(w, m->specular_texture, v->uv).color);
     b.alpha = m->alpha;
     if (has_maps && m->alpha_texture != NO_INDEX) {
         float roughness = texture_at(w, m->alpha_texture, v->uv).alpha;

@@ -38,7 +38,7 @@ enum material_kind {
     MATERIAL_DIFFUSE,       /* color: albedo */
     MATERIAL_ROUGH_DIFFUSE, /* color: albedo; alpha: roughness */
     MATERIAL_METAL,         /* color: reflectance at normal incidence; alpha */
-    MATERIAL_PLASTIC,       /* color: albedo of the base; coat; alpha */
+    MATERIAL_PLASTIC,       /* color: albedo of the base; specular; alpha */
     MATERIAL_GLASS,         /* color: tint of each crossing; ior, alpha */
     MATERIAL_THIN_GLASS     /* color: tint of each crossing; ior */
 };
@@ -52,8 +52,8 @@ struct material {
     uint32_t color_texture;    /* multiplies color; NO_INDEX: none */
     uint32_t emission_texture; /* multiplies emission; NO_INDEX: none */
     float opacity;             /* probability that a ray is stopped */
-    struct vec3 coat;          /* reflectance of the coat at normal incidence */
-    uint32_t coat_texture;     /* multiplies coat; NO_INDEX: none */
+    struct vec3 specular;      /* reflectance of the face at normal incidence */
+    uint32_t specular_texture; /* multiplies specular; NO_INDEX: none */
     uint32_t alpha_texture;    /* its square multiplies alpha; NO_INDEX: none */
     uint32_t metal_texture;    /* metal where it times metalness is >= 1/2 */
     uint32_t opacity_texture;  /* a hole where its alpha is below 1/2 */

@@ -68,8 +68,8 @@ struct material caustics_material(struct material m)
 {
     float grey = casts(&m) ? 1.0f : 0.5f;
 
-    m.color = m.coat = v3(grey, grey, grey);
-    m.color_texture = m.coat_texture = NO_INDEX;
+    m.color = m.specular = v3(grey, grey, grey);
+    m.color_texture = m.specular_texture = NO_INDEX;
     return m;
 }
 

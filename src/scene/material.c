@@ -129,7 +129,7 @@ struct material material_default(void)
         .kind = MATERIAL_DIFFUSE,
         .color_texture = NO_INDEX,
         .emission_texture = NO_INDEX,
-        .coat_texture = NO_INDEX,
+        .specular_texture = NO_INDEX,
         .alpha_texture = NO_INDEX,
         .metal_texture = NO_INDEX,
         .opacity_texture = NO_INDEX,
@@ -279,9 +279,10 @@ static void make_plastic(struct material *m, const struct vec3 *ks,
                          const struct diagnostics *at)
 {
     m->kind = MATERIAL_PLASTIC;
-    m->coat = (struct vec3){ks->x * MATERIAL_COAT, ks->y * MATERIAL_COAT,
-                            ks->z * MATERIAL_COAT};
-    m->coat_texture = mtl_source_map(s, MTL_MAP_KS);
+    m->specular =
+        (struct vec3){ks->x * MATERIAL_SPECULAR, ks->y * MATERIAL_SPECULAR,
+                      ks->z * MATERIAL_SPECULAR};
+    m->specular_texture = mtl_source_map(s, MTL_MAP_KS);
     roughen(m, s, at);
 }
 
@@ -345,9 +346,9 @@ static void check_map(const struct mtl_source *s, enum mtl_map which,
 {
     uint32_t map = mtl_source_map(s, which);
 
-    if (map != NO_INDEX && map != m->color_texture && map != m->coat_texture &&
-        map != m->alpha_texture && map != m->metal_texture &&
-        map != m->opacity_texture)
+    if (map != NO_INDEX && map != m->color_texture &&
+        map != m->specular_texture && map != m->alpha_texture &&
+        map != m->metal_texture && map != m->opacity_texture)
         warnings_add(at->report, "maps that their material does not use",
                      "%s: found %s, which this material does not use: ignored",
                      at->path, mtl_map_keys[which]);
@@ -398,7 +399,7 @@ struct mtl_source mtl_source_needed(const struct mtl_source *file,
     struct mtl_source s = *wanted;
     struct mtl_source candidate;
 
-    /* colours first, so that Pm makes the metal and not the Ks of a coat */
+    /* colours first, so that Pm makes the metal and not the Ks of plastic */
     for (int i = 0; i < MTL_PROPERTIES; i++) {
         const struct mtl_property *p = &mtl_properties[i];
 
@@ -418,8 +419,8 @@ struct mtl_source mtl_source_needed(const struct mtl_source *file,
 static bool has_texture(const struct material *m)
 {
     const uint32_t textures[] = {
-        m->color_texture,  m->coat_texture,  m->emission_texture,
-        m->alpha_texture,  m->metal_texture, m->opacity_texture,
+        m->color_texture,  m->specular_texture, m->emission_texture,
+        m->alpha_texture,  m->metal_texture,    m->opacity_texture,
         m->normal_texture, m->bump_texture,
     };
 

@@ -10,7 +10,7 @@
  *   metal        illum 3 or 5 with map_Ks or with Ks that is not black;
  *                colour Ks
  *   plastic      map_Ks, or Ks that is not black: diffuse of colour Kd under a
- *                clear coat of reflectance MATERIAL_COAT times Ks
+ *                clear surface of reflectance MATERIAL_SPECULAR times Ks
  *   diffuse      all others; colour Kd, roughness Kd_roughness (default 0)
  * A map multiplies its colour. Roughness alpha is Pr squared; without Pr it is
  * sqrt(2 / (Ns + 2)), or 0 if Ns is absent, 0, or at least 1000. Pr defaults
@@ -29,9 +29,9 @@
 #include "base/warnings.h"
 #include "kernels/types.h"
 
-/* Reflectance of a coat whose Ks is 1. Exporters write Ks 0.5 for ordinary
+/* Reflectance of plastic whose Ks is 1. Exporters write Ks 0.5 for ordinary
  * surfaces, which then reflect 4 %, like glass and varnish. */
-#define MATERIAL_COAT 0.08f
+#define MATERIAL_SPECULAR 0.08f
 
 /* Colour of a material whose file gives none. */
 #define MATERIAL_GREY 0.8f

@@ -280,10 +280,10 @@ static void resolve_data_map(const struct host_world *host, uint32_t *texture)
 
 static void list_maps(const struct material *m, uint32_t maps[MAPS])
 {
-    const uint32_t all[MAPS] = {m->color_texture,  m->emission_texture,
-                                m->coat_texture,   m->alpha_texture,
-                                m->metal_texture,  m->opacity_texture,
-                                m->normal_texture, m->bump_texture};
+    const uint32_t all[MAPS] = {m->color_texture,    m->emission_texture,
+                                m->specular_texture, m->alpha_texture,
+                                m->metal_texture,    m->opacity_texture,
+                                m->normal_texture,   m->bump_texture};
 
     memcpy(maps, all, sizeof all);
 }
@@ -324,13 +324,13 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
     }
     resolve_map(host, &m->color_texture, &m->color, 1, MATERIAL_GREY);
     resolve_map(host, &m->emission_texture, &m->emission, 1, 0);
-    resolve_map(host, &m->coat_texture, &m->coat, MATERIAL_COAT, 0);
+    resolve_map(host, &m->specular_texture, &m->specular, MATERIAL_SPECULAR, 0);
     resolve_data_map(host, &m->alpha_texture);
     resolve_data_map(host, &m->metal_texture);
     resolve_data_map(host, &m->opacity_texture);
     resolve_data_map(host, &m->normal_texture);
     resolve_data_map(host, &m->bump_texture);
-    if (m->kind == MATERIAL_PLASTIC && is_black(&m->coat))
+    if (m->kind == MATERIAL_PLASTIC && is_black(&m->specular))
         m->kind = MATERIAL_DIFFUSE;
     return true;
 }

@@ -7,7 +7,7 @@
 #include "base/decimal.h"
 #include "base/file.h"
 
-/* Ks that a material gets when it becomes plastic; see MATERIAL_COAT. */
+/* Ks that a material gets when it becomes plastic; see MATERIAL_SPECULAR. */
 #define COAT_DEFAULT 0.5
 
 /* ---- statements ---- */
@@ -174,13 +174,13 @@ static void set_roughness(struct owner *o, const struct value *v)
                v->number);
 }
 
-static bool get_coat(const struct owner *o, struct value *v)
+static bool get_specular(const struct owner *o, struct value *v)
 {
     v->number = largest(o->source.ks.rgb);
     return true;
 }
 
-static void set_coat(struct owner *o, const struct value *v)
+static void set_specular(struct owner *o, const struct value *v)
 {
     put_grey(&o->source.ks, v->number);
 }
@@ -288,8 +288,8 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
      .set = set_color},
     {"roughness", OPAQUE | GLASS, VALUE_NUMBER, &scale_unit,
      .get = get_roughness, .set = set_roughness},
-    {"coat", PLASTIC, VALUE_NUMBER, &scale_coat, .get = get_coat,
-     .set = set_coat},
+    {"specular", PLASTIC, VALUE_NUMBER, &scale_specular, .get = get_specular,
+     .set = set_specular},
     {"index", CLEAR, VALUE_NUMBER, &scale_ior, STATEMENT(ni, ior)},
     {"cover", OPAQUE, VALUE_NUMBER, &scale_unit, STATEMENT(d, opacity)},
     {"light", ALL, VALUE_NUMBER, &scale_emission, .get = get_emission,

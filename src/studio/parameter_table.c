@@ -14,7 +14,7 @@
 #define TO_MAX "a number from 0 to 1e30"
 
 const struct value_scale scale_unit = {0, 1, 0, 1, 0.01, 3, .expected = TO_1};
-const struct value_scale scale_coat = {
+const struct value_scale scale_specular = {
     0, 1, 0, 1, 0.01, 3, .is_positive = true, .expected = TO_1};
 const struct value_scale scale_hue = {
     0, 360, 0, 360, 1, 3, .wraps = true, .expected = "an angle from 0 to 360"};

@@ -35,7 +35,7 @@ struct value_scale {
 #define RADIANCE_MAX 1e30
 
 extern const struct value_scale scale_unit;
-extern const struct value_scale scale_coat; /* 0 is outside: no coat */
+extern const struct value_scale scale_specular; /* 0 is outside */
 extern const struct value_scale scale_hue;
 extern const struct value_scale scale_ior;
 extern const struct value_scale scale_emission;

@@ -27,7 +27,7 @@ static int is_texture(const struct scene *scene, uint32_t index)
 static void check_material(const struct scene *scene, const struct material *m)
 {
     require(is_reflectance(m->color), "colour");
-    require(is_reflectance(m->coat), "coat");
+    require(is_reflectance(m->specular), "specular");
     require(is_light(m->emission), "emission");
     require(m->alpha >= 0 && m->alpha <= 1, "roughness");
     require(m->opacity >= 0 && m->opacity <= 1, "opacity");
@@ -35,7 +35,7 @@ static void check_material(const struct scene *scene, const struct material *m)
     require(isfinite(m->bump_scale), "height of bumps");
     require(is_texture(scene, m->color_texture) &&
                 is_texture(scene, m->emission_texture) &&
-                is_texture(scene, m->coat_texture) &&
+                is_texture(scene, m->specular_texture) &&
                 is_texture(scene, m->alpha_texture) &&
                 is_texture(scene, m->metal_texture) &&
                 is_texture(scene, m->opacity_texture) &&

@@ -21,7 +21,7 @@ static const uint32_t *const *maps_of(const struct material *m)
 
     maps[0] = &m->color_texture;
     maps[1] = &m->emission_texture;
-    maps[2] = &m->coat_texture;
+    maps[2] = &m->specular_texture;
     maps[3] = &m->alpha_texture;
     maps[4] = &m->metal_texture;
     maps[5] = &m->opacity_texture;

@@ -284,7 +284,7 @@ static void check_extremes(void)
         float z = heights[i / 125 % 4];
         struct vec3 wo = v3(sqrtf(1 - z * z), 0, z);
         struct bsdf b = {.color = {1, 1, 1},
-                         .coat = {0.04f, 0.04f, 0.04f},
+                         .specular = {0.04f, 0.04f, 0.04f},
                          .alpha = alphas[i / 500 % 4],
                          .kind = kinds[i / 2000],
                          .eta = 1.5f};

@@ -60,7 +60,7 @@ static inline void at_all_reflections(visit f)
     for (m.alpha = 0.25f; m.alpha <= 1; m.alpha += 0.25f)
         at_all_cosines(f, &m);
     m = (struct bsdf){.color = brick,
-                      .coat = strong,
+                      .specular = strong,
                       .eta = 1,
                       .kind = MATERIAL_PLASTIC};
     at_all_cosines(f, &m); /* perfectly smooth */
@@ -71,7 +71,7 @@ static inline void at_all_reflections(visit f)
                           .kind = MATERIAL_METAL};
         at_all_cosines(f, &m);
         m = (struct bsdf){.color = brick,
-                          .coat = strong,
+                          .specular = strong,
                           .alpha = alphas[a],
                           .eta = 1,
                           .kind = MATERIAL_PLASTIC};

@@ -127,9 +127,9 @@ static void statements_choose_the_kind(void **state)
 static void ks_is_the_coat(void **state)
 {
     (void)state;
-    check_color(only_material("Kd .5\nKs .5 1 0", 0).coat, .04, .08, 0);
-    check_color(only_material("Kd .5\nKs 2 -1 .25", 1).coat, .08, 0, .02);
-    check_color(only_material("Kd .5\nKs 1\nillum 3", 0).coat, 0, 0, 0);
+    check_color(only_material("Kd .5\nKs .5 1 0", 0).specular, .04, .08, 0);
+    check_color(only_material("Kd .5\nKs 2 -1 .25", 1).specular, .08, 0, .02);
+    check_color(only_material("Kd .5\nKs 1\nillum 3", 0).specular, 0, 0, 0);
 }
 
 static void ke_is_the_emission(void **state)
@@ -385,7 +385,7 @@ static void equal_maps_are_shared(void **state)
     assert_int_equal(m[4].color_texture, 0);
     assert_int_equal(m[5].kind, MATERIAL_PLASTIC);
     assert_int_equal(m[5].color_texture, 1);
-    assert_int_equal(m[5].coat_texture, 0);
+    assert_int_equal(m[5].specular_texture, 0);
     assert_int_equal(m[6].kind, MATERIAL_METAL);
     assert_int_equal(m[6].color_texture, 1);
     assert_int_equal(l.report.entry_count, 1);

@@ -122,7 +122,7 @@ static void check_same(const struct scene *got, uint32_t g,
                          there.maps[i] == NO_INDEX);
     b.color_texture = a.color_texture;
     b.emission_texture = a.emission_texture;
-    b.coat_texture = a.coat_texture;
+    b.specular_texture = a.specular_texture;
     b.alpha_texture = a.alpha_texture;
     b.metal_texture = a.metal_texture;
     b.opacity_texture = a.opacity_texture;

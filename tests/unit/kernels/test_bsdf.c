@@ -166,7 +166,7 @@ static void mirrors_and_sheets_have_no_density(void **state)
 
     (void)state;
     for (size_t k = 0; k < COUNT(kinds); k++) {
-        struct bsdf m = {.coat = white, .eta = 1.5f, .kind = kinds[k]};
+        struct bsdf m = {.specular = white, .eta = 1.5f, .kind = kinds[k]};
         struct bsdf_sample s;
 
         assert_true(bsdf_is_delta(&m));
@@ -220,8 +220,8 @@ static void check_furnace(const struct bsdf *m, float mu)
                                                  : albedo(m, mu);
 
     if (fabs(e - 1) > 3e-3)
-        print_error("kind %u alpha %g coat %g eta %g cosine %g\n", m->kind,
-                    (double)m->alpha, (double)m->coat.x, (double)m->eta,
+        print_error("kind %u alpha %g specular %g eta %g cosine %g\n", m->kind,
+                    (double)m->alpha, (double)m->specular.x, (double)m->eta,
                     (double)mu);
     check_close(e, 1, 3e-3);
 }
@@ -242,7 +242,7 @@ static void white_reflections_lose_nothing(void **state)
         at_all_cosines(check_furnace, &m);
         m.kind = MATERIAL_PLASTIC;
         for (size_t k = 0; k < COUNT(coats); k++) {
-            m.coat = coats[k];
+            m.specular = coats[k];
             at_all_cosines(check_furnace, &m);
         }
     }
@@ -343,7 +343,7 @@ static void nothing_is_ever_nan_or_negative(void **state)
     for (uint32_t i = 0; i < 6 * 7 * 5 * 7 * 64; i++) {
         uint32_t k = i / 64;
         struct bsdf m = {.color = k & 1 ? white : v3(0, 1, 0.5f),
-                         .coat = k & 2 ? strong : v3(0, 0, 0),
+                         .specular = k & 2 ? strong : v3(0, 0, 0),
                          .kind = k % 6,
                          .alpha = widths[k / 42 % 5],
                          .eta = indices[k / 210]};

@@ -26,7 +26,7 @@
     S(material) M(material, color) M(material, alpha)                         \
       M(material, emission) M(material, ior) M(material, kind)                \
       M(material, color_texture) M(material, emission_texture)                \
-      M(material, opacity) M(material, coat) M(material, coat_texture)        \
+      M(material, opacity) M(material, specular) M(material, specular_texture)        \
       M(material, alpha_texture) M(material, metal_texture)                   \
       M(material, opacity_texture) M(material, metalness)                     \
       M(material, normal_texture) M(material, bump_texture)                   \

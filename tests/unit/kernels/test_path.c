@@ -104,7 +104,7 @@ static void white_rough_things_vanish(void **state)
 
         m.materials[0] = mesh_material(things[i].kind, 1.0f);
         m.materials[0].alpha = 0.4f;
-        m.materials[0].coat = v3(0.04f, 0.04f, 0.04f);
+        m.materials[0].specular = v3(0.04f, 0.04f, 0.04f);
         m.world.settings.sky.color = v3(1, 1, 1);
         mesh_add_sphere(&m, v3(0, 0, 0), 0.5f, 24, 40, 0);
         mesh_finish(&m);

@@ -242,7 +242,7 @@ static struct vec3 reflected(const struct bsdf *b, struct vec3 wo,
 }
 
 /* Tests a surface of each kind, except mirrors, between a lamp above and one
- * below, from both sides. The smooth coat's mirror image shows neither lamp. */
+ * below, from both sides. The smooth face's mirror image shows neither lamp. */
 static void all_surfaces_shine_as_they_scatter(void **state)
 {
     const struct {
@@ -264,14 +264,14 @@ static void all_surfaces_shine_as_they_scatter(void **state)
         struct bsdf b;
 
         floor.color = v3(0.9f, 0.6f, 0.3f);
-        floor.coat = v3(0.04f, 0.04f, 0.04f);
+        floor.specular = v3(0.04f, 0.04f, 0.04f);
         floor.alpha = kinds[k / 2].alpha;
         s.mesh.materials[FLOOR] = floor;
         s.mesh.materials[LAMP] = lamp_material(1);
         mesh_add_quad(&s.mesh, v3(-0.01f, 0, 0.01f), v3(0.01f, 0, 0.01f),
                       v3(0.01f, 0, -0.01f), v3(-0.01f, 0, -0.01f), FLOOR);
         b = (struct bsdf){.color = floor.color,
-                          .coat = floor.coat,
+                          .specular = floor.specular,
                           .alpha = floor.alpha,
                           .kind = floor.kind,
                           .eta = wo.z > 0 ? 1.5f : 1 / 1.5f};

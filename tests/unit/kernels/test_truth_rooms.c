@@ -68,7 +68,7 @@ static struct material white_thing(size_t k)
     struct material m = mesh_material(white_things[k].kind, 1);
 
     m.alpha = white_things[k].alpha;
-    m.coat = v3(0.04f, 0.04f, 0.04f);
+    m.specular = v3(0.04f, 0.04f, 0.04f);
     return m;
 }
 

@@ -469,7 +469,7 @@ static void textures_are_read_when_used(void **state)
     assert_ptr_not_equal(s.world.textures, textures);
     assert_true(s.world.textures[0].width > 0);
     assert_int_equal(s.world.materials[2].kind, MATERIAL_PLASTIC);
-    assert_int_equal(s.world.materials[2].coat_texture, 0);
+    assert_int_equal(s.world.materials[2].specular_texture, 0);
     save(&s);
     open_session(&again);
     check_same_world(&s, &again);
