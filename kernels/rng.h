@@ -27,6 +27,7 @@
  *
  * A draft with halves has three sets: sample 0, samples 1 and 3, and samples 2
  * and 4. So its halves are independent, for the price of a third more variance.
+ * Further samples, up to DRAFT_HALVES_SPP, are those of a picture of its own.
  *
  * Units:     numbers in [0, 1)
  */
@@ -52,10 +53,11 @@ enum dimension {
     DIMENSION_KINDS = 4      /* number of dimensions at a vertex */
 };
 
-/* Samples of a pixel in a draft, and the longest side of a draft in pixels: the
- * index of a sample on the Morton curve has 32 bits. */
-#define DRAFT_SPP      5u
-#define DRAFT_SIDE_MAX 0x8000
+/* Samples of a pixel in a draft, in one with halves, and the longest side of a
+ * draft in pixels: the index of a sample on the Morton curve has 32 bits. */
+#define DRAFT_SPP        5u
+#define DRAFT_HALVES_SPP 16u
+#define DRAFT_SIDE_MAX   0x8000
 
 struct sampler {
     uint32_t key; /* hash of the pixel, the seed and the upper 32 bits */
@@ -123,6 +125,9 @@ sampler_start_draft_half(uint32_t x, uint32_t y, uint32_t index, uint32_t seed)
     uint32_t rank = spread_bits(x) | spread_bits(y) << 1;
     struct sampler s;
 
+    if (index >= DRAFT_SPP)
+        return sampler_start_half(x, y, index - (DRAFT_SPP - 1u),
+                                  seed + 0xc2b2ae35u);
     s.key = hash_u32(seed + 0xc2b2ae35u);
     if (index != 0) {
         s.key = hash_u32(s.key + (index & 1u));

@@ -118,7 +118,7 @@ static void give_features(void *context, int y, const struct filter_row *to)
     const struct screen_halves *halves = &f->halves;
     size_t first = row_index(f, y);
 
-    screen_halves_row(&f->halves, s->film, s->draft, y);
+    screen_halves_row(&f->halves, s->film, s->surfaces, y);
     memcpy(f->raw + 3 * first, halves->raw,
            3 * (size_t)f->width * sizeof *f->raw);
     for (int h = 0; h < 2; h++)

@@ -94,7 +94,9 @@ bool render_films_want_light(const struct render_job *job)
 
 uint64_t render_films_draft_spp(const struct render_job *job)
 {
-    return render_films_want_light(job) ? DRAFT_SPP : 1;
+    if (!render_films_want_light(job))
+        return 1;
+    return job->draft_has_surfaces ? DRAFT_HALVES_SPP : DRAFT_SPP;
 }
 
 void render_films_count(const struct render_films *f, struct render_progress *p)

@@ -4,6 +4,8 @@
 #include "base/clock.h"
 #include "render/pass_plan.h"
 
+#include "kernels/rng.h"
+
 /* Stride of the coarsest grid in a draft, whose pixels are about ten times as
  * large as the film's. */
 #define DRAFT_STRIDE_MAX 8
@@ -81,7 +83,15 @@ static enum pass_result begin(struct render *r, const struct world *world,
     return PASS_DONE;
 }
 
-/* Renders the draft in two passes, one for each sample set of ORDER_DRAFT. */
+/* Returns the samples of a draft after its next pass. Its sets of samples are
+ * those of ORDER_DRAFT. */
+static uint64_t draft_target(uint64_t spp_done, uint64_t spp)
+{
+    if (spp_done == 0)
+        return 1;
+    return spp_done < DRAFT_SPP ? DRAFT_SPP : spp;
+}
+
 static enum pass_result run_draft(struct render *r)
 {
     struct world world = render_films_draft_world(&r->films, &r->job);
@@ -91,7 +101,7 @@ static enum pass_result run_draft(struct render *r)
 
     while (result == PASS_DONE && *spp_done < spp)
         result =
-            run_to(r, *spp_done == 0 ? 1 : spp, DRAFT_STRIDE_MAX, spp_done);
+            run_to(r, draft_target(*spp_done, spp), DRAFT_STRIDE_MAX, spp_done);
     return result;
 }
 

@@ -401,9 +401,9 @@ static void halves_of_drafts_are_independent(void **state)
             double odd = (double)sum_float(f->odd_sums[3 * i]);
             double all = (double)sum_float(f->sums[3 * i]);
 
-            assert_int_equal(f->counts[i], DRAFT_SPP);
-            halves[k][0][i] = (all - odd) / 3;
-            halves[k][1][i] = odd / 2;
+            assert_int_equal(f->counts[i], DRAFT_HALVES_SPP);
+            halves[k][0][i] = (all - odd) / (DRAFT_HALVES_SPP / 2);
+            halves[k][1][i] = odd / (DRAFT_HALVES_SPP / 2);
             for (int h = 0; h < 2; h++)
                 means[h][i] += halves[k][h][i] / n;
         }

@@ -9,8 +9,6 @@
 #include "formats/scene_load.h"
 #include "tests/unit/files.h"
 
-#define PI 3.14159265358979323846
-
 /* Two texels: an opaque 255 128 0 and a transparent 10 20 30. */
 static const unsigned char two_texels[] = {
     137, 80,  78,  71,  13, 10, 26,  10, 0,  0,  0,   13,  73,  72,  68,
