@@ -308,9 +308,18 @@ static void scale_light(void *context, uint32_t item, int worker)
 
 /* ---- tiles ---- */
 
+/* Returns the width of tiles: about the same for all, in whole cache lines. */
+static int tile_width(const struct filter_planes *p)
+{
+    int columns = (p->width + FILTER_TILE_WIDTH - 1) / FILTER_TILE_WIDTH;
+    int width = (p->width + columns - 1) / columns;
+
+    return (width + FILTER_LINE - 1) / FILTER_LINE * FILTER_LINE;
+}
+
 static uint32_t tile_columns(const struct filter_planes *p)
 {
-    return (uint32_t)((p->width + FILTER_TILE_WIDTH - 1) / FILTER_TILE_WIDTH);
+    return (uint32_t)((p->width + tile_width(p) - 1) / tile_width(p));
 }
 
 static uint32_t tile_count(const struct filter_planes *p)
@@ -327,10 +336,11 @@ static int smaller(int a, int b)
 
 static struct filter_tile tile_at(const struct filter_planes *p, uint32_t i)
 {
-    int x = (int)(i % tile_columns(p)) * FILTER_TILE_WIDTH;
+    int width = tile_width(p);
+    int x = (int)(i % tile_columns(p)) * width;
     int y = (int)(i / tile_columns(p)) * FILTER_TILE_HEIGHT;
 
-    return (struct filter_tile){x, y, smaller(FILTER_TILE_WIDTH, p->width - x),
+    return (struct filter_tile){x, y, smaller(width, p->width - x),
                                 smaller(FILTER_TILE_HEIGHT, p->height - y)};
 }
 
@@ -360,6 +370,21 @@ static void run_average(void *context, uint32_t item, int worker)
     (void)worker;
     f->loops->average(&f->planes, tile_at(&f->planes, item), j->from, j->step,
                       j->is_last);
+}
+
+/* Runs a level in this thread, row of tiles after row of tiles, while weights
+ * are in a near cache. Averages need no weights of the rows below. */
+static void run_level(struct job *j)
+{
+    const struct filter_planes *p = &j->filter->planes;
+    uint32_t columns = tile_columns(p);
+
+    for (uint32_t first = 0; first < tile_count(p); first += columns) {
+        for (uint32_t i = 0; i < columns; i++)
+            run_weights(j, first + i, 0);
+        for (uint32_t i = 0; i < columns; i++)
+            run_average(j, first + i, 0);
+    }
 }
 
 /* Adds a row of the filtered component to the picture. */
@@ -405,6 +430,10 @@ static void run_component(struct job *j, int levels, struct pool *pool)
     for (int l = 0; l < levels; l++, j->from = 1 - j->from) {
         j->step = 1 << l;
         j->is_last = l == levels - 1;
+        if (pool == NULL) {
+            run_level(j);
+            continue;
+        }
         pool_each(pool, tile_count(p), run_weights, j);
         pool_each(pool, tile_count(p), run_average, j);
     }

@@ -35,9 +35,9 @@
 /* Albedo, normal and depth. */
 #define FILTER_FEATURES 7
 
-/* Size of a tile. Larger ones have fewer distances in common with others;
- * smaller ones fit into nearer caches. */
-#define FILTER_TILE_WIDTH  128
+/* Size of a tile. Wide ones have long loops and few distances in common with
+ * others; low ones fit into nearer caches. */
+#define FILTER_TILE_WIDTH  416
 #define FILTER_TILE_HEIGHT 16
 
 /* Both halves: light and the variance of its noise. */

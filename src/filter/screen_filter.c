@@ -32,6 +32,7 @@
 struct films {
     struct screen_filter *filter;
     struct film *film, *draft, *surfaces;
+    bool is_empty; /* the film has no samples */
     float far;
 };
 
@@ -118,7 +119,7 @@ static void give_features(void *context, int y, const struct filter_row *to)
     const struct screen_halves *halves = &f->halves;
     size_t first = row_index(f, y);
 
-    screen_halves_row(&f->halves, s->film, s->surfaces, y);
+    screen_halves_row(&f->halves, s->is_empty ? NULL : s->film, s->surfaces, y);
     memcpy(f->raw + 3 * first, halves->raw,
            3 * (size_t)f->width * sizeof *f->raw);
     for (int h = 0; h < 2; h++)
@@ -235,7 +236,6 @@ static int scaled(int i, int size, int frame_size)
 struct target {
     const struct films *films;
     struct develop how;
-    bool is_empty; /* the film has no samples */
     struct frame *frame;
 };
 
@@ -248,7 +248,7 @@ static void put_raw(const struct target *t, int x, int y, int count)
     uint8_t *to =
         t->frame->rgb + 3 * ((size_t)y * (size_t)t->frame->width + (size_t)x);
 
-    if (!t->is_empty) {
+    if (!t->films->is_empty) {
         film_preview_part(t->films->film, t->films->draft, t->how, x, y, count,
                           t->frame);
         return;
@@ -299,7 +299,7 @@ static void put_row(const struct target *t, int y)
     const float *share = row_shares(f, from);
 
     develop_row(t->how, f->width, f->rgb + at, f->bytes);
-    if (t->is_empty)
+    if (t->films->is_empty)
         develop_row(t->how, f->width, f->raw + at, f->bytes + 3 * width);
     for (int x = 0; x < t->frame->width; x += CHUNK) {
         int left = t->frame->width - x;
@@ -323,11 +323,11 @@ bool screen_filter_show(struct screen_filter *f, struct film *film,
                         struct film *draft, struct film *surfaces,
                         struct develop how, int levels, struct frame *frame)
 {
-    struct films context = {f, film, draft, surfaces, 0.0f};
+    struct films context = {
+        f, film, draft, surfaces, atomic_load(&film->samples) == 0, 0.0f};
     const struct filter_source source = {&context, 1, give_features,
                                          give_light};
-    struct target target = {&context, how, atomic_load(&film->samples) == 0,
-                            frame};
+    struct target target = {&context, how, frame};
 
     if (!fits(film, surfaces, frame) ||
         !resize(f, surfaces->width, surfaces->height))

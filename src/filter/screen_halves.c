@@ -215,16 +215,18 @@ void screen_halves_begin(struct screen_halves *s)
 void screen_halves_row(struct screen_halves *s, struct film *film,
                        struct film *draft, int y)
 {
+    static const struct half_cell empty;
     static const struct pixel_means none;
     float unit = 1.0f / ((float)s->width * (float)s->height);
     struct run r;
 
     r.end = 0;
-    add_film(s, film, y);
+    if (film != NULL)
+        add_film(s, film, y);
     if (draft != NULL)
         film_lock_row(draft, y);
     for (int x = 0; x < s->width; x++) {
-        struct half_cell *cell = s->cells + x;
+        struct half_cell cell = film != NULL ? s->cells[x] : empty;
         struct pixel_means p = none;
         int even = (x + y) & 1;
 
@@ -235,9 +237,9 @@ void screen_halves_row(struct screen_halves *s, struct film *film,
                 &r, x,
                 draft->counts[(size_t)y * (size_t)draft->width + (size_t)x]);
         }
-        add_draft(cell, even, unit, p.even, p.even_count);
-        add_draft(cell, 1 - even, unit, p.odd, p.odd_count);
-        put_cell(s, x, cell);
+        add_draft(&cell, even, unit, p.even, p.even_count);
+        add_draft(&cell, 1 - even, unit, p.odd, p.odd_count);
+        put_cell(s, x, &cell);
     }
     if (draft != NULL)
         film_unlock_row(draft, y);

@@ -40,7 +40,7 @@ void screen_halves_free(struct screen_halves *s);
 void screen_halves_begin(struct screen_halves *s);
 
 /* Computes row y of the picture, which follows row y - 1. The film is at least
- * as large as the screen; the draft, which may be NULL, has its size. A pixel
+ * as large as the screen; the draft has its size. Either may be NULL. A pixel
  * needs a sample in one of them. */
 void screen_halves_row(struct screen_halves *s, struct film *film,
                        struct film *draft, int y);
