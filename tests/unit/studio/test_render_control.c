@@ -13,6 +13,7 @@
 #include "base/clock.h"
 #include "formats/view_file.h"
 #include "studio/save_commands.h"
+#include "kernels/rng.h"
 
 static const char *const names[] = {"s.obj",      "s.view", "s.png",  "s-2.png",
                                     "s-kept.png", "s.ans",  "s-2.ans"};
@@ -154,7 +155,7 @@ static void drafts_are_live(void **state)
     render_control_set_live(w, true);
     while (w->progress.samples == 0)
         render_control_update(w);
-    assert_true(w->progress.draft_samples == 5 * 20 * 12);
+    assert_int_equal(w->progress.draft_samples, DRAFT_HALVES_SPP * 20 * 12);
     render_control_set_live(w, false);
     render_control_start_or_halt(w);
     assert_null(render_draft(render));
