@@ -129,22 +129,27 @@ measure_frames() {
             }' | save frames 'scene,size,bounces,samples per pixel,error %'
 }
 
-# Renders a scene with three seeds and sets squares, rays and cpu to the sum of
-# the squared errors, that of the rays and the least processor time.
-render_seeds() { # OPTION SCENE
-    local seed
+# Renders a scene with eight seeds, uniform and adaptive in turns, and prints the
+# ratios of the sums of squared errors and rays, and of the least times.
+compare_adaptive() { # SCENE
+    local seed option
 
-    for seed in 1 2 3; do
-        timed "$build/glim" -b -t 1 "$1" -s 128 -w 160 -h 120 --seed $seed \
-            --stats "$work/stats" -o "$work/out.pfm" "$2"
-        echo "$(value error "$work/stats") $(value rays "$work/stats") $cpu_s"
-    done | awk '{ squares += $1 * $1; rays += $2
-            if (NR == 1 || $3 < cpu) cpu = $3 }
-        END { print squares, rays, cpu }' >"$work/seeds"
-    read -r squares rays cpu <"$work/seeds"
+    for seed in 1 2 3 4 5 6 7 8; do
+        for option in --no-adaptive --adaptive; do
+            timed "$build/glim" -b -t 1 $option -s 128 -w 160 -h 120 \
+                --seed $seed --stats "$work/stats" -o "$work/out.pfm" "$1"
+            echo "$option $(value error "$work/stats") $(value rays \
+                "$work/stats") $cpu_s"
+        done
+    done | awk '{ squares[$1] += $2 * $2; rays[$1] += $3
+            if (!($1 in cpu) || $4 < cpu[$1]) cpu[$1] = $4 }
+        END { u = "--no-adaptive"; a = "--adaptive"
+            e = squares[u] / squares[a]; r = rays[a] / rays[u]
+            t = cpu[a] / cpu[u]
+            printf "%.2f,%.2f,%.2f,%.2f,%.2f\n", e, r, t, e / r, e / t }'
 }
 
-# Adaptive against uniform sampling: ratios of squared error, rays and time.
+# Adaptive against uniform sampling.
 measure_adaptive() {
     local name scene all=''
 
@@ -152,19 +157,14 @@ measure_adaptive() {
         all="$all scenes/$name.obj"
     done
     for name in scenes-bench/sky scenes-bench/many_lights scenes-real/bunny \
-        scenes-real/spot; do
+        scenes-real/spot scenes-real/teapot scenes-real/CornellBox-Glossy; do
         scene=$shared/$name/${name#*/}.obj
         [ ! -e "$scene" ] || all="$all $scene"
     done
     for scene in $all; do
-        render_seeds --no-adaptive "$scene"
-        set -- "$squares" "$rays" "$cpu"
-        render_seeds --adaptive "$scene"
         name=${scene##*/}
-        echo "${name%.obj} $* $squares $rays $cpu"
-    done | awk '{ e = $2 / $5; r = $6 / $3; t = $7 / $4
-            printf "%s,%.2f,%.2f,%.2f,%.2f,%.2f\n", $1, e, r, t, e / r, e / t
-        }' | save adaptive 'scene,squared error lower by,rays more by,processor time more by,gain by rays,gain by time'
+        echo "${name%.obj},$(compare_adaptive "$scene")"
+    done | save adaptive 'scene,squared error lower by,rays more by,processor time more by,gain by rays,gain by time'
 }
 
 measure_triangles() {
