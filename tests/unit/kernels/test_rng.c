@@ -437,6 +437,27 @@ static void draft_keys_differ(void **state)
     assert_in_range(equal, 0, 4);
 }
 
+/* Samples of a draft with halves have other keys than each other and than those
+ * of the picture. */
+static void draft_halves_have_keys_of_their_own(void **state)
+{
+    uint32_t keys[2 * DRAFT_HALVES_SPP];
+    const int n = 2 * DRAFT_HALVES_SPP;
+
+    (void)state;
+    for (uint32_t pixel = 0; pixel < 100; pixel++) {
+        for (uint32_t i = 0; i < DRAFT_HALVES_SPP; i++) {
+            uint32_t x = 7 * pixel, y = 3 * pixel + 1;
+
+            keys[2 * i] = ray_key(sampler_start_draft_half(x, y, i, 3), 1);
+            keys[2 * i + 1] = ray_key(sampler_start_half(x, y, i, 3), 1);
+        }
+        qsort(keys, (size_t)n, sizeof *keys, compare_keys);
+        for (int i = 1; i < n; i++)
+            assert_int_not_equal(keys[i], keys[i - 1]);
+    }
+}
+
 /* Radius of the blur by the eye, in pixels. */
 #define BLUR_RADIUS 6
 #define BLUR_SIGMA  1.5
@@ -528,6 +549,7 @@ int main(void)
         cmocka_unit_test(squares_of_a_draft_are_nets),
         cmocka_unit_test(draft_points_are_uniform),
         cmocka_unit_test(draft_keys_differ),
+        cmocka_unit_test(draft_halves_have_keys_of_their_own),
         cmocka_unit_test(errors_of_a_draft_are_blue),
     };
 
