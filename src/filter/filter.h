@@ -37,7 +37,8 @@ struct filter_row {
     float *count[2]; /* samples of each half */
 };
 
-/* Functions that fill row y of the picture. */
+/* Functions that fill row y of the picture. After the features of a row, the
+ * same worker asks for the light of its component 0. */
 struct filter_source {
     void *context;
     int component_count;

@@ -11,7 +11,8 @@
  *
  * Lamps and the sky are shown without the filter, as the draft's pixels see
  * them. Pixels that the filter hardly changes, with their neighbours, are shown
- * as film_preview() shows them; so the filter ends as noise vanishes.
+ * as film_preview() shows them; so the filter ends as noise vanishes. Without a
+ * film they show the draft.
  *
  * Ownership: screen_filter_free() frees; a zeroed struct is empty
  * Threads:   one at a time; the films' rows are locked one by one
@@ -43,11 +44,11 @@ struct screen_filter {
 #define SCREEN_FILTER_LEVELS_FAST 4
 
 /* Fills a frame as film_preview() does from film and draft, but filtered.
- * `surfaces` is the draft with surfaces, each pixel of which has a sample;
- * `draft` is that or NULL, as for film_preview(). Returns false and leaves the
- * frame as it is without memory, or if it has not the draft's size; but it may
- * enlarge a draft of the film's size.
- * Blocks. */
+ * `surfaces` is the draft with surfaces, each pixel of which has a sample; its
+ * light counts in the filtered picture. `draft` is that or NULL, as for
+ * film_preview(). Returns false and leaves the frame as it is without memory,
+ * or if `surfaces` has not the frame's size; but the frame may enlarge a draft
+ * of the film's size. Blocks. */
 bool screen_filter_show(struct screen_filter *f, struct film *film,
                         struct film *draft, struct film *surfaces,
                         struct develop how, int levels, struct frame *frame);
