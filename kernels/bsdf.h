@@ -14,15 +14,13 @@
 #ifndef KERNELS_BSDF_H
 #define KERNELS_BSDF_H
 
-#include "kernels/glass.h"
-#include "kernels/metal.h"
-#include "kernels/plastic.h"
+#include "kernels/principled.h"
 
 /* True if the BSDF is Lambert's. Builds without other kinds need no test. */
 static inline bool bsdf_is_lambert(const struct bsdf *m)
 {
     return !HAS(FEATURE_ROUGH_DIFFUSE | FEATURE_METAL | FEATURE_GLASS |
-                FEATURE_PLASTIC) ||
+                FEATURE_PLASTIC | FEATURE_PRINCIPLED) ||
            m->kind == MATERIAL_DIFFUSE;
 }
 
@@ -33,9 +31,24 @@ static inline bool bsdf_is_black(const struct bsdf *m)
            (bsdf_is_lambert(m) || m->kind == MATERIAL_ROUGH_DIFFUSE);
 }
 
+static inline bool bsdf_is_principled(const struct bsdf *m)
+{
+    return HAS(FEATURE_PRINCIPLED) && m->kind == MATERIAL_PRINCIPLED;
+}
+
+/* True if rays refract into a solid. */
+static inline bool bsdf_is_solid(const struct bsdf *m)
+{
+    if (bsdf_is_principled(m))
+        return m->transmission > 0.0f;
+    return HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS;
+}
+
 /* True if all lobes are deltas: f is zero for any light sample. */
 static inline bool bsdf_is_delta(const struct bsdf *m)
 {
+    if (bsdf_is_principled(m))
+        return principled_is_delta(m);
     if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
         return is_smooth(m);
     if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS)
@@ -45,16 +58,18 @@ static inline bool bsdf_is_delta(const struct bsdf *m)
     return HAS(FEATURE_GLASS) && m->kind == MATERIAL_THIN_GLASS;
 }
 
-/* True for solid and thin glass. */
+/* True if light goes through the surface. */
 static inline bool bsdf_is_glass(const struct bsdf *m)
 {
-    return HAS(FEATURE_GLASS) &&
-           (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS);
+    return bsdf_is_solid(m) ||
+           (HAS(FEATURE_GLASS) && m->kind == MATERIAL_THIN_GLASS);
 }
 
 /* True if f is not zero for directions below the surface. */
 static inline bool bsdf_transmits(const struct bsdf *m)
 {
+    if (bsdf_is_principled(m))
+        return m->transmission > 0.0f && !principled_has_glass_delta(m);
     return HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS && !bsdf_is_delta(m);
 }
 
@@ -66,6 +81,8 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
     *pdf = 0.0f;
     if (!(wo.z > COSINE_MIN && fabsf(wi.z) > COSINE_MIN) || bsdf_is_delta(m))
         return v3(0.0f, 0.0f, 0.0f);
+    if (bsdf_is_principled(m))
+        return principled_terms(m, wo, wi, pdf);
     if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS)
         return glass_terms(m, wo, wi, pdf);
     if (wi.z < 0.0f)
@@ -83,9 +100,7 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
  * (Veach 1997, 5.2). */
 static inline float bsdf_eta_scale(const struct bsdf *m, struct vec3 wi)
 {
-    return HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS
-               ? glass_eta_scale(m, wi)
-               : 1.0f;
+    return bsdf_is_solid(m) ? glass_eta_scale(m, wi) : 1.0f;
 }
 
 /* Samples a direction. Returns false if the light is absorbed. `choice` is the
@@ -98,6 +113,8 @@ static inline bool bsdf_sample(const struct bsdf *m, struct vec3 wo,
         return false;
     if (bsdf_is_lambert(m))
         return lambert_sample(m, u, s);
+    if (bsdf_is_principled(m))
+        return principled_sample(m, wo, u, choice, s);
     if (HAS(FEATURE_ROUGH_DIFFUSE) && m->kind == MATERIAL_ROUGH_DIFFUSE)
         return eon_sample(m, wo, u, s);
     if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)

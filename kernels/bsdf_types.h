@@ -21,6 +21,7 @@ struct bsdf {
     float alpha;   /* GGX roughness; EON roughness for rough diffuse */
     float eta;     /* refractive index of the far side over that of wo's side */
     uint32_t kind; /* enum material_kind */
+    float metalness, transmission, coat, coat_alpha; /* principled.h */
 };
 
 struct bsdf_sample {

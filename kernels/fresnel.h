@@ -24,10 +24,12 @@ static inline struct vec3 fresnel_schlick(struct vec3 f0, float cosine)
     return v3_lerp(f0, v3(1.0f, 1.0f, 1.0f), schlick_weight(cosine));
 }
 
-/* Hemispherical mean 2 int F(mu) mu dmu. */
+/* Hemispherical mean of schlick_weight(), 2 int (1 - mu)^5 mu dmu. */
+#define SCHLICK_MEAN (1.0f / 21.0f)
+
 static inline struct vec3 fresnel_schlick_mean(struct vec3 f0)
 {
-    return v3_lerp(f0, v3(1.0f, 1.0f, 1.0f), 1.0f / 21.0f);
+    return v3_lerp(f0, v3(1.0f, 1.0f, 1.0f), SCHLICK_MEAN);
 }
 
 /* Reflectance of a dielectric face for unpolarised light, from the cosines on

@@ -17,29 +17,45 @@
 #include "kernels/fresnel.h"
 #include "kernels/ggx.h"
 
-/* Albedo of a surface with Schlick's Fresnel, from the two parts of it: F0 (E -
- * S)
- * + S. */
+/* Reflectance at grazing incidence, F90. It falls with that at normal incidence
+ * below 0.02, as no dielectric reflects less (Lagarde and de Rousiers 2014,
+ * "Moving Frostbite to physically based rendering", 3.1). */
+static inline float specular_grazing(struct vec3 f0)
+{
+    return f_min(50.0f * f_max(f0.x, f_max(f0.y, f0.z)), 1.0f);
+}
+
+/* Fresnel of the surface, F0 + (F90 - F0) weight, where `weight` is
+ * schlick_weight() or its mean. */
+static inline struct vec3 specular_fresnel(struct vec3 f0, float weight)
+{
+    float f90 = specular_grazing(f0);
+
+    return v3_lerp(f0, v3(f90, f90, f90), weight);
+}
+
+/* Albedo of the surface, from the two parts of it: F0 (E - S) + F90 S. */
 static inline struct vec3 specular_albedo_of(struct vec3 f0,
                                              struct ggx_albedo e)
 {
     float part = 1.0f - e.loss - e.schlick;
+    float grazing = specular_grazing(f0) * e.schlick;
 
-    return v3(f0.x * part + e.schlick, f0.y * part + e.schlick,
-              f0.z * part + e.schlick);
+    return v3(f0.x * part + grazing, f0.y * part + grazing,
+              f0.z * part + grazing);
 }
 
 static inline struct vec3 specular_albedo(const struct bsdf *m, float mu)
 {
     if (is_smooth(m))
-        return fresnel_schlick(m->specular, mu);
+        return specular_fresnel(m->specular, schlick_weight(mu));
     return specular_albedo_of(m->specular, ggx_albedo(mu, m->alpha));
 }
 
 static inline struct vec3 specular_albedo_mean(const struct bsdf *m)
 {
     if (is_smooth(m))
-        return fresnel_schlick_mean(m->specular);
+        return specular_fresnel(m->specular, SCHLICK_MEAN);
     return specular_albedo_of(m->specular, ggx_albedo_mean(m->alpha));
 }
 
@@ -82,7 +98,8 @@ static inline struct vec3 plastic_terms(const struct bsdf *m, struct vec3 wo,
         return f;
     h = half_vector(wo, wi);
     *pdf += chance * ggx_reflection_pdf(wo, h, m->alpha);
-    return v3_add(f, v3_scale(fresnel_schlick(m->specular, v3_dot(wo, h)),
+    return v3_add(f, v3_scale(specular_fresnel(m->specular,
+                                               schlick_weight(v3_dot(wo, h))),
                               ggx_reflection(wo, wi, h, m->alpha)));
 }
 

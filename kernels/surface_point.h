@@ -101,11 +101,16 @@ static inline struct bsdf bsdf_at(const struct world *w,
         b.alpha *= roughness * roughness;
     }
     b.kind = m->kind;
-    if (HAS(FEATURE_METAL) && has_maps && m->metal_texture != NO_INDEX &&
-        m->metalness * texture_at(w, m->metal_texture, v->uv).alpha >= 0.5f)
-        b.kind = MATERIAL_METAL;
     b.eta = m->ior;
-    if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS && !v->is_outside)
+    if (HAS(FEATURE_PRINCIPLED) && m->kind == MATERIAL_PRINCIPLED) {
+        b.metalness = m->metalness;
+        if (has_maps && m->metal_texture != NO_INDEX)
+            b.metalness *= texture_at(w, m->metal_texture, v->uv).alpha;
+        b.transmission = m->transmission;
+        b.coat = m->coat;
+        b.coat_alpha = m->coat_alpha;
+    }
+    if (bsdf_is_solid(&b) && !v->is_outside)
         b.eta = 1.0f / m->ior;
     return b;
 }

@@ -40,7 +40,8 @@ enum material_kind {
     MATERIAL_METAL,         /* color: reflectance at normal incidence; alpha */
     MATERIAL_PLASTIC,       /* color: albedo of the base; specular; alpha */
     MATERIAL_GLASS,         /* color: tint of each crossing; ior, alpha */
-    MATERIAL_THIN_GLASS     /* color: tint of each crossing; ior */
+    MATERIAL_THIN_GLASS,    /* color: tint of each crossing; ior */
+    MATERIAL_PRINCIPLED /* mixture of metal, plastic and glass: principled.h */
 };
 
 struct material {
@@ -55,13 +56,15 @@ struct material {
     struct vec3 specular;      /* reflectance of the face at normal incidence */
     uint32_t specular_texture; /* multiplies specular; NO_INDEX: none */
     uint32_t alpha_texture;    /* its square multiplies alpha; NO_INDEX: none */
-    uint32_t metal_texture;    /* metal where it times metalness is >= 1/2 */
+    uint32_t metal_texture;    /* multiplies metalness; NO_INDEX: none */
     uint32_t opacity_texture;  /* a hole where its alpha is below 1/2 */
-    float metalness;           /* used with metal_texture only */
-    uint32_t normal_texture;   /* shading normals in tangent space */
-    uint32_t bump_texture;     /* heights in alpha */
-    float bump_scale;          /* height of an alpha of 1, in texels */
-    uint32_t pad;
+    float metalness;           /* these four of MATERIAL_PRINCIPLED */
+    float transmission;
+    float coat; /* weight of the clear coat */
+    float coat_alpha;
+    uint32_t normal_texture; /* shading normals in tangent space */
+    uint32_t bump_texture;   /* heights in alpha */
+    float bump_scale;        /* height of an alpha of 1, in texels */
 };
 
 /* Roughness below which a microfacet lobe is a delta lobe. */

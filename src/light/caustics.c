@@ -61,7 +61,9 @@ static bool casts(const struct material *m)
 {
     return m->alpha < GUIDE_ALPHA_MAX &&
            (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS ||
-            m->kind == MATERIAL_METAL);
+            m->kind == MATERIAL_METAL ||
+            (m->kind == MATERIAL_PRINCIPLED &&
+             m->metalness + m->transmission >= 0.5f));
 }
 
 struct material caustics_material(struct material m)

@@ -135,7 +135,6 @@ struct material material_default(void)
         .opacity_texture = NO_INDEX,
         .normal_texture = NO_INDEX,
         .bump_texture = NO_INDEX,
-        .metalness = 1,
         .bump_scale = 1,
         .opacity = 1,
     };
@@ -286,6 +285,15 @@ static void make_plastic(struct material *m, const struct vec3 *ks,
     roughen(m, s, at);
 }
 
+static void make_principled(struct material *m, double metalness,
+                            const struct vec3 *ks, const struct mtl_source *s,
+                            const struct diagnostics *at)
+{
+    make_plastic(m, ks, s, at);
+    m->kind = MATERIAL_PRINCIPLED;
+    m->metalness = (float)metalness;
+}
+
 static void make_diffuse(struct material *m, const struct mtl_source *s,
                          const struct diagnostics *at)
 {
@@ -321,20 +329,18 @@ static void make_opaque(struct material *m, int illum,
     m->color =
         reflecting(&s->kd, "Kd", map_kd != NO_INDEX ? 0 : MATERIAL_GREY, at);
     m->color_texture = map_kd;
-    m->metal_texture = mtl_source_map(s, MTL_MAP_PM);
-    m->metalness = is_mixed && s->pm.line != 0 ? (float)pm : 1;
-    if (pm >= 0.5 && !is_mixed) {
+    if (is_mixed || (pm > 0 && pm < 1)) {
+        make_principled(m, is_mixed && s->pm.line == 0 ? 1 : pm, &ks, s, at);
+    } else if (pm > 0) {
         m->kind = MATERIAL_METAL;
         roughen(m, s, at);
-    } else if (has_ks && !is_mixed && (illum == 3 || illum == 5)) {
+    } else if (has_ks && (illum == 3 || illum == 5)) {
         m->kind = MATERIAL_METAL;
         m->color = ks;
         m->color_texture = map_ks;
         roughen(m, s, at);
     } else if (has_ks) {
         make_plastic(m, &ks, s, at);
-    } else if (is_mixed) {
-        roughen(m, s, at);
     } else {
         make_diffuse(m, s, at);
     }
@@ -438,7 +444,6 @@ static bool has_holes(const struct texture *textures, uint32_t texture)
 uint32_t material_features(const struct material *m,
                            const struct texture *textures)
 {
-    bool is_metal = m->kind == MATERIAL_METAL || m->metal_texture != NO_INDEX;
     uint32_t features = 0;
 
     if (material_shines(m))
@@ -450,16 +455,18 @@ uint32_t material_features(const struct material *m,
     if (m->opacity < 1 || has_holes(textures, m->color_texture) ||
         has_holes(textures, m->opacity_texture))
         features |= FEATURE_COVERAGE;
-    if (is_metal)
+    if (m->kind == MATERIAL_METAL)
         features |= FEATURE_METAL;
+    if (m->kind == MATERIAL_PRINCIPLED)
+        features |= FEATURE_PRINCIPLED;
     if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
         features |= FEATURE_GLASS;
     if (m->kind == MATERIAL_PLASTIC)
         features |= FEATURE_PLASTIC;
     if (m->kind == MATERIAL_ROUGH_DIFFUSE)
         features |= FEATURE_ROUGH_DIFFUSE;
-    else if ((is_metal || m->kind != MATERIAL_DIFFUSE) &&
-             m->alpha >= ALPHA_SMOOTH)
+    else if (m->kind != MATERIAL_DIFFUSE &&
+             (m->alpha >= ALPHA_SMOOTH || m->coat_alpha >= ALPHA_SMOOTH))
         features |= FEATURE_ROUGH;
     return features;
 }

@@ -269,11 +269,15 @@ static void resolve_map(const struct host_world *host, uint32_t *texture,
         *texture = NO_INDEX;
 }
 
-/* Removes a map of numbers whose image is missing. */
-static void resolve_data_map(const struct host_world *host, uint32_t *texture)
+/* Removes a map of numbers whose image is missing. Returns true if it was. */
+static bool resolve_data_map(const struct host_world *host, uint32_t *texture)
 {
-    if (*texture != NO_INDEX && host->textures[*texture].width == 0)
+    bool is_missing =
+        *texture != NO_INDEX && host->textures[*texture].width == 0;
+
+    if (is_missing)
         *texture = NO_INDEX;
+    return is_missing;
 }
 
 #define MAPS 8
@@ -326,7 +330,8 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
     resolve_map(host, &m->emission_texture, &m->emission, 1, 0);
     resolve_map(host, &m->specular_texture, &m->specular, MATERIAL_SPECULAR, 0);
     resolve_data_map(host, &m->alpha_texture);
-    resolve_data_map(host, &m->metal_texture);
+    if (resolve_data_map(host, &m->metal_texture))
+        m->metalness = 0;
     resolve_data_map(host, &m->opacity_texture);
     resolve_data_map(host, &m->normal_texture);
     resolve_data_map(host, &m->bump_texture);

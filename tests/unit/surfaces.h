@@ -92,6 +92,41 @@ static inline void at_all_glasses(visit f)
         }
 }
 
+/* Returns a mixture with random parameters. Each of its lobes is absent, or
+ * there is nothing else, once in four mixtures. */
+static inline struct bsdf random_mixture(uint64_t *seed)
+{
+    float x[8];
+    struct bsdf m = {.color = brick,
+                     .specular = {0.04f, 0.04f, 0.04f},
+                     .kind = MATERIAL_PRINCIPLED};
+
+    for (int i = 0; i < 8; i++)
+        x[i] = (float)check_random(seed);
+    for (int i = 0; i < 3; i++) /* the weights */
+        x[i] = x[i] < 0.25f ? 0 : x[i] > 0.75f ? 1 : 2 * x[i] - 0.5f;
+    m.metalness = x[0];
+    m.transmission = x[1];
+    m.coat = x[2];
+    m.alpha = x[3] < 0.2f ? 0 : 0.005f + x[3] * x[3];
+    m.coat_alpha = x[4] < 0.5f ? 0 : 0.005f + (x[4] - 0.5f) * x[4];
+    m.eta = x[5] < 0.5f ? 1.2f + x[6] : 1 / (1.2f + x[6]);
+    m.specular = v3_scale(m.specular, 4 * x[7]);
+    return m;
+}
+
+static inline void at_mixtures(visit f)
+{
+    uint64_t seed = 11;
+
+    for (int i = 0; i < 40; i++) {
+        struct bsdf m = random_mixture(&seed);
+
+        f(&m, cosines[i % (int)COUNT(cosines)]);
+        f(&m, 0.6f);
+    }
+}
+
 static inline struct vec3 direction(float cosine)
 {
     return v3(sqrtf(1.0f - cosine * cosine), 0.0f, cosine);

@@ -97,7 +97,7 @@ static double chart_point(const struct chart *c, const struct bsdf *m,
                  (float)(2 * o_dot_h * h[1] - (double)wo.y), (float)z);
         return z > 0 ? area * 4 * o_dot_h : 0;
     }
-    if (m->kind != MATERIAL_GLASS || (1 - o_dot_h * o_dot_h) >= eta * eta)
+    if (!bsdf_is_solid(m) || (1 - o_dot_h * o_dot_h) >= eta * eta)
         return 0;
     ct = sqrt(1 - (1 - o_dot_h * o_dot_h) / (eta * eta));
     z = (o_dot_h / eta - ct) * h[2] - (double)wo.z / eta;
@@ -194,11 +194,18 @@ static void samples_of_glass_follow_their_density(void **state)
     at_all_glasses(check_density);
 }
 
+static void samples_of_mixtures_follow_their_density(void **state)
+{
+    (void)state;
+    at_mixtures(check_density);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_of_reflections_follow_their_density),
         cmocka_unit_test(samples_of_glass_follow_their_density),
+        cmocka_unit_test(samples_of_mixtures_follow_their_density),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

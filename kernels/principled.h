@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+/*
+ * principled.h - mixtures of metal, plastic and glass under a clear coat
+ *
+ * The base is metal by its metalness; the rest is glass by its transmission,
+ * and plastic otherwise. A coat of refractive index 1.5 lies over it. What the
+ * coat reflects, E(wo), the layers below lose: they are scaled by 1 - E(wo), as
+ * in the surfaces of other renderers (Georgiev et al. 2019, "Autodesk Standard
+ * Surface"). That conserves energy; under a coat the mixture is not reciprocal.
+ *
+ * Units:     local frame of bsdf_types.h; f comes times |cosine|
+ */
+#ifndef KERNELS_PRINCIPLED_H
+#define KERNELS_PRINCIPLED_H
+
+#include "kernels/glass.h"
+#include "kernels/metal.h"
+#include "kernels/plastic.h"
+
+/* Reflectance of the coat at normal incidence. */
+#define COAT_F0 0.04f
+
+enum lobe { LOBE_COAT, LOBE_METAL, LOBE_PLASTIC, LOBE_GLASS, LOBES };
+
+/* The lobes of a mixture, as seen from wo. */
+struct lobes {
+    float weight[LOBES]; /* factors of their f */
+    float chance[LOBES]; /* probabilities to sample them; all are 0 if black */
+};
+
+/* Returns the coat as a BSDF of its own. */
+static inline struct bsdf principled_coat(const struct bsdf *m)
+{
+    struct bsdf coat = *m;
+
+    coat.specular = v3(COAT_F0, COAT_F0, COAT_F0);
+    coat.alpha = m->coat_alpha;
+    return coat;
+}
+
+static inline float mean_channel(struct vec3 c)
+{
+    return (c.x + c.y + c.z) * (1.0f / 3.0f);
+}
+
+/* Returns an estimate of the plastic's albedo. */
+static inline float principled_plastic_albedo(const struct bsdf *m, float mu)
+{
+    struct vec3 e = specular_albedo(m, mu);
+
+    return mean_channel(
+        v3_add(e, v3_mul(m->color, v3(1.0f - e.x, 1.0f - e.y, 1.0f - e.z))));
+}
+
+static inline struct lobes principled_lobes(const struct bsdf *m,
+                                            struct vec3 wo)
+{
+    struct lobes l;
+    float below = 1.0f, sum = 0.0f;
+
+    l.weight[LOBE_COAT] = m->coat;
+    l.chance[LOBE_COAT] = 0.0f;
+    if (m->coat > 0.0f) {
+        struct bsdf coat = principled_coat(m);
+
+        l.chance[LOBE_COAT] = m->coat * specular_albedo(&coat, wo.z).x;
+        below -= l.chance[LOBE_COAT];
+    }
+    l.weight[LOBE_METAL] = below * m->metalness;
+    below -= l.weight[LOBE_METAL];
+    l.weight[LOBE_GLASS] = below * m->transmission;
+    l.weight[LOBE_PLASTIC] = below - l.weight[LOBE_GLASS];
+    l.chance[LOBE_METAL] =
+        l.weight[LOBE_METAL] * mean_channel(fresnel_schlick(m->color, wo.z));
+    l.chance[LOBE_GLASS] = l.weight[LOBE_GLASS];
+    l.chance[LOBE_PLASTIC] = 0.0f;
+    if (l.weight[LOBE_PLASTIC] > 0.0f)
+        l.chance[LOBE_PLASTIC] =
+            l.weight[LOBE_PLASTIC] * principled_plastic_albedo(m, wo.z);
+    for (int i = 0; i < LOBES; i++)
+        sum += l.chance[i];
+    for (int i = 0; i < LOBES; i++)
+        l.chance[i] = sum > 0.0f ? l.chance[i] / sum : 0.0f;
+    return l;
+}
+
+static inline bool principled_has_glass_delta(const struct bsdf *m)
+{
+    return is_smooth(m) || glass_is_index_matched(m);
+}
+
+/* True if all lobes are deltas. */
+static inline bool principled_is_delta(const struct bsdf *m)
+{
+    struct bsdf coat = principled_coat(m);
+    float dielectric = 1.0f - m->metalness;
+
+    if (m->coat > 0.0f && !is_smooth(&coat))
+        return false;
+    if (!is_smooth(m) && (m->metalness > 0.0f || m->transmission < 1.0f ||
+                          !glass_is_index_matched(m)))
+        return false;
+    return !(dielectric * (1.0f - m->transmission) > 0.0f) ||
+           v3_is_zero(m->color);
+}
+
+/* Adds weight * f of a lobe to *sum, and its share of the density to *pdf. */
+static inline void principled_add(const struct lobes *l, uint32_t lobe,
+                                  struct vec3 f, float lobe_pdf,
+                                  struct vec3 *sum, float *pdf)
+{
+    *sum = v3_add(*sum, v3_scale(f, l->weight[lobe]));
+    *pdf += l->chance[lobe] * lobe_pdf;
+}
+
+static inline void principled_add_coat(const struct bsdf *m,
+                                       const struct lobes *l, struct vec3 wo,
+                                       struct vec3 wi, struct vec3 *sum,
+                                       float *pdf)
+{
+    struct bsdf coat = principled_coat(m);
+    struct vec3 h, f;
+
+    if (is_smooth(&coat))
+        return;
+    h = half_vector(wo, wi);
+    f = v3_scale(specular_fresnel(coat.specular, schlick_weight(v3_dot(wo, h))),
+                 ggx_reflection(wo, wi, h, coat.alpha));
+    principled_add(l, LOBE_COAT, f, ggx_reflection_pdf(wo, h, coat.alpha), sum,
+                   pdf);
+}
+
+/* f |cosine| and density of all lobes that are not deltas. */
+static inline struct vec3 principled_terms_of(const struct bsdf *m,
+                                              const struct lobes *l,
+                                              struct vec3 wo, struct vec3 wi,
+                                              float *pdf)
+{
+    struct vec3 sum = v3(0.0f, 0.0f, 0.0f), f;
+    float lobe_pdf;
+
+    *pdf = 0.0f;
+    if (l->weight[LOBE_GLASS] > 0.0f && !principled_has_glass_delta(m)) {
+        f = glass_terms(m, wo, wi, &lobe_pdf);
+        principled_add(l, LOBE_GLASS, f, lobe_pdf, &sum, pdf);
+    }
+    if (wi.z < 0.0f)
+        return sum;
+    if (l->weight[LOBE_COAT] > 0.0f)
+        principled_add_coat(m, l, wo, wi, &sum, pdf);
+    if (l->weight[LOBE_METAL] > 0.0f && !is_smooth(m)) {
+        f = metal_terms(m, wo, wi, ggx_albedo(wo.z, m->alpha).loss, &lobe_pdf);
+        principled_add(l, LOBE_METAL, f, lobe_pdf, &sum, pdf);
+    }
+    if (l->weight[LOBE_PLASTIC] > 0.0f) {
+        f = plastic_terms(m, wo, wi, specular_albedo(m, wo.z), &lobe_pdf);
+        principled_add(l, LOBE_PLASTIC, f, lobe_pdf, &sum, pdf);
+    }
+    return sum;
+}
+
+static inline struct vec3 principled_terms(const struct bsdf *m, struct vec3 wo,
+                                           struct vec3 wi, float *pdf)
+{
+    struct lobes l = principled_lobes(m, wo);
+
+    return principled_terms_of(m, &l, wo, wi, pdf);
+}
+
+/* Chooses a lobe, LOBES if all are black. *choice becomes a random number for
+ * the lobe. */
+static inline uint32_t principled_choose(const struct lobes *l, float *choice)
+{
+    uint32_t lobe = LOBES;
+
+    for (uint32_t i = 0; i < LOBES; i++) {
+        if (!(l->chance[i] > 0.0f))
+            continue;
+        lobe = i;
+        if (*choice < l->chance[i]) {
+            *choice /= l->chance[i];
+            break;
+        }
+        *choice -= l->chance[i]; /* of the last lobe by rounding only */
+    }
+    return lobe;
+}
+
+static inline bool principled_sample_lobe(const struct bsdf *m, uint32_t lobe,
+                                          struct vec3 wo, struct vec2 u,
+                                          float choice, struct bsdf_sample *s)
+{
+    struct bsdf coat;
+
+    if (lobe == LOBE_METAL)
+        return metal_sample(m, wo, u, choice, s);
+    if (lobe == LOBE_PLASTIC)
+        return plastic_sample(m, wo, u, choice, s);
+    if (lobe == LOBE_GLASS)
+        return glass_sample(m, wo, u, choice, s);
+    coat = principled_coat(m);
+    coat.color = v3(0.0f, 0.0f, 0.0f); /* plastic without a base */
+    return plastic_sample(&coat, wo, u, choice, s);
+}
+
+static inline bool principled_sample(const struct bsdf *m, struct vec3 wo,
+                                     struct vec2 u, float choice,
+                                     struct bsdf_sample *s)
+{
+    struct lobes l = principled_lobes(m, wo);
+    uint32_t lobe = principled_choose(&l, &choice);
+    float eta_scale;
+    struct vec3 f;
+    float pdf;
+
+    if (lobe == LOBES || !principled_sample_lobe(m, lobe, wo, u, choice, s))
+        return false;
+    if (s->is_delta) {
+        s->weight = v3_scale(s->weight, l.weight[lobe] / l.chance[lobe]);
+        return true;
+    }
+    eta_scale = s->eta_scale;
+    f = principled_terms_of(m, &l, wo, s->wi, &pdf);
+    if (!sample_density(s, s->wi, f, pdf))
+        return false;
+    s->eta_scale = eta_scale;
+    return true;
+}
+
+#endif

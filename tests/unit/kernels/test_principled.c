@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_principled.c - mixtures of surfaces against their parts and against
+ * closed forms
+ */
+#include "tests/unit/check.h"
+
+#include <math.h>
+
+#include "tests/unit/facets.h"
+#include "tests/unit/surfaces.h"
+
+#define MIXTURES 60
+
+static struct vec3 any_direction(uint64_t *state, float least)
+{
+    float z = least + (1 - least) * (float)check_random(state);
+    double phi = 2 * M_PI * check_random(state);
+    float r = sqrtf(1 - z * z);
+
+    return v3(r * (float)cos(phi), r * (float)sin(phi), z);
+}
+
+static void check_same(struct bsdf a, struct bsdf b)
+{
+    uint64_t seed = 5;
+
+    for (int i = 0; i < 500; i++) {
+        struct vec3 wo = any_direction(&seed, 0);
+        struct vec3 wi = any_direction(&seed, 0);
+        float pdf_a, pdf_b;
+        struct vec3 fa, fb;
+
+        wi.z = i % 2 == 0 ? wi.z : -wi.z;
+        fa = bsdf_terms(&a, wo, wi, &pdf_a);
+        fb = bsdf_terms(&b, wo, wi, &pdf_b);
+        check_close((double)fa.x, (double)fb.x, 1e-5 * (double)fb.x);
+        check_close((double)fa.z, (double)fb.z, 1e-5 * (double)fb.z);
+        check_close((double)pdf_a, (double)pdf_b, 1e-5 * (double)pdf_b);
+    }
+}
+
+/* At the ends of its parameters the mixture is one of its parts. */
+static void ends_are_metal_plastic_and_glass(void **state)
+{
+    const uint32_t kinds[] = {MATERIAL_METAL, MATERIAL_PLASTIC, MATERIAL_GLASS};
+
+    (void)state;
+    for (size_t a = 0; a < COUNT(alphas); a++)
+        for (size_t k = 0; k < COUNT(kinds); k++) {
+            struct bsdf part = {.color = brick,
+                                .specular = strong,
+                                .alpha = alphas[a],
+                                .eta = 1.5f,
+                                .kind = kinds[k]};
+            struct bsdf m = part;
+
+            m.kind = MATERIAL_PRINCIPLED;
+            m.metalness = kinds[k] == MATERIAL_METAL ? 1 : 0;
+            m.transmission = kinds[k] == MATERIAL_GLASS ? 1 : 0;
+            check_same(m, part);
+            assert_int_equal(bsdf_is_delta(&m), bsdf_is_delta(&part));
+            assert_int_equal(bsdf_transmits(&m), bsdf_transmits(&part));
+        }
+}
+
+/* Returns the mean weight over midpoints of the square. Multiples of the golden
+ * ratio choose the lobe. */
+static struct vec3 albedo(const struct bsdf *m, float mu)
+{
+    const int side = 400;
+    double sum[3] = {0};
+
+    for (int i = 0; i < side * side; i++) {
+        struct vec2 u = v2((float)((i % side + 0.5) / side),
+                           (float)((i / side + 0.5) / side));
+        float choice = (float)fmod(i * 0.618033988749895, 1);
+        struct bsdf_sample s;
+
+        if (!bsdf_sample(m, direction(mu), u, choice, &s))
+            continue;
+        sum[0] += (double)s.weight.x;
+        sum[1] += (double)s.weight.y;
+        sum[2] += (double)s.weight.z;
+    }
+    return v3((float)(sum[0] / side / side), (float)(sum[1] / side / side),
+              (float)(sum[2] / side / side));
+}
+
+static void white_mixtures_lose_nothing(void **state)
+{
+    uint64_t seed = 1;
+
+    (void)state;
+    for (int i = 0; i < MIXTURES; i++) {
+        struct bsdf m = random_mixture(&seed);
+
+        m.color = white;
+        check_close((double)albedo(&m, cosines[i % (int)COUNT(cosines)]).z, 1,
+                    5e-3);
+    }
+}
+
+static void coloured_mixtures_add_no_light(void **state)
+{
+    uint64_t seed = 2;
+
+    (void)state;
+    for (int i = 0; i < MIXTURES; i++) {
+        struct bsdf m = random_mixture(&seed);
+        struct vec3 e = albedo(&m, cosines[i % (int)COUNT(cosines)]);
+
+        check_at_most((double)e.x, 1);
+        check_at_most((double)e.y, (double)e.x + 5e-3);
+        check_at_most((double)e.z, (double)e.y + 5e-3);
+    }
+}
+
+/* Without transmission f(wo, wi) = f(wi, wo) below the coat, by which layers
+ * lose what it reflects from wo. */
+static void layers_are_reciprocal_but_for_the_coat(void **state)
+{
+    uint64_t seed = 3;
+
+    (void)state;
+    for (int i = 0; i < MIXTURES; i++) {
+        struct bsdf m = random_mixture(&seed);
+        struct bsdf coat = {.color = v3(0, 0, 0),
+                            .specular = v3(COAT_F0, COAT_F0, COAT_F0),
+                            .kind = MATERIAL_PLASTIC};
+
+        m.transmission = 0;
+        coat.alpha = m.coat_alpha;
+        for (int k = 0; k < 50; k++) {
+            struct vec3 w[2] = {any_direction(&seed, 0.01f),
+                                any_direction(&seed, 0.01f)};
+            double f[2];
+
+            for (int j = 0; j < 2; j++) {
+                struct vec3 wo = w[j], wi = w[1 - j];
+                double e = (double)(m.coat * specular_albedo(&coat, wo.z).x);
+                double top = (double)(m.coat * surface_f(&coat, wo, wi).y);
+
+                f[j] = ((double)surface_f(&m, wo, wi).y - top) / (1 - e) /
+                       (double)wi.z;
+            }
+            check_close(f[0], f[1], 2e-3 * f[0] + 1e-5);
+        }
+    }
+}
+
+/* A coat of full weight over a black base reflects its albedo, found by
+ * quadrature; over a base of albedo a it adds (1 - that) a. */
+static void coats_reflect_their_albedo(void **state)
+{
+    (void)state;
+    for (size_t a = 2; a < COUNT(alphas); a++)
+        for (size_t c = 0; c < COUNT(cosines) - 1; c++) {
+            struct bsdf m = {.coat = 0.8f,
+                             .coat_alpha = alphas[a],
+                             .eta = 1,
+                             .kind = MATERIAL_PRINCIPLED};
+            double alpha = (double)alphas[a], mu = (double)cosines[c];
+            double e = albedo_by_quadrature(FACETS_WHITE, alpha, mu, 0);
+            double s = albedo_by_quadrature(FACETS_SCHLICK, alpha, mu, 0);
+            double coat = 0.8 * (0.04 * (e - s) + s);
+
+            check_close((double)albedo(&m, cosines[c]).x, coat, 4e-3);
+            m.color = v3(0.6f, 0.6f, 0.6f);
+            check_close((double)albedo(&m, cosines[c]).x,
+                        coat + (1 - coat) * 0.6, 4e-3);
+        }
+}
+
+static void mixtures_of_mirrors_have_no_density(void **state)
+{
+    struct bsdf m = {.color = gold,
+                     .metalness = 0.5f,
+                     .transmission = 1,
+                     .coat = 1,
+                     .eta = 1.5f,
+                     .kind = MATERIAL_PRINCIPLED};
+    struct bsdf_sample s;
+
+    (void)state;
+    assert_true(bsdf_is_delta(&m));
+    assert_true(surface_pdf(&m, direction(0.7f), direction(0.7f)) == 0);
+    for (int i = 0; i < 100; i++) {
+        assert_true(bsdf_sample(&m, direction(0.7f), v2(0.3f, 0.6f),
+                                (float)i / 100, &s));
+        assert_true(s.is_delta && s.pdf == 0);
+    }
+    m.coat_alpha = 0.1f;
+    assert_false(bsdf_is_delta(&m));
+    m.coat = 0;
+    assert_true(bsdf_is_delta(&m));
+    m.transmission = 0.5f;
+    assert_false(bsdf_is_delta(&m));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ends_are_metal_plastic_and_glass),
+        cmocka_unit_test(white_mixtures_lose_nothing),
+        cmocka_unit_test(coloured_mixtures_add_no_light),
+        cmocka_unit_test(layers_are_reciprocal_but_for_the_coat),
+        cmocka_unit_test(coats_reflect_their_albedo),
+        cmocka_unit_test(mixtures_of_mirrors_have_no_density),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
