@@ -3,10 +3,12 @@
  * principled.h - mixtures of metal, plastic and glass under a clear coat
  *
  * The base is metal by its metalness; the rest is glass by its transmission,
- * and plastic otherwise. A coat of refractive index 1.5 lies over it. What the
- * coat reflects, E(wo), the layers below lose: they are scaled by 1 - E(wo), as
- * in the surfaces of other renderers (Georgiev et al. 2019, "Autodesk Standard
- * Surface"). That conserves energy; under a coat the mixture is not reciprocal.
+ * and plastic otherwise. Glass is tinted by the root of the colour at each
+ * crossing, so that a pane has the colour. A coat of refractive index 1.5 lies
+ * over it. What the coat reflects, E(wo), the layers below lose: they are
+ * scaled by 1 - E(wo), as in the surfaces of other renderers (Georgiev et al.
+ * 2019, "Autodesk Standard Surface"). That conserves energy; under a coat the
+ * mixture is not reciprocal.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
  */
@@ -36,6 +38,14 @@ static inline struct bsdf principled_coat(const struct bsdf *m)
     coat.specular = v3(COAT_F0, COAT_F0, COAT_F0);
     coat.alpha = m->coat_alpha;
     return coat;
+}
+
+static inline struct bsdf principled_glass(const struct bsdf *m)
+{
+    struct bsdf glass = *m;
+
+    glass.color = v3(sqrtf(m->color.x), sqrtf(m->color.y), sqrtf(m->color.z));
+    return glass;
 }
 
 static inline float mean_channel(struct vec3 c)
@@ -141,7 +151,9 @@ static inline struct vec3 principled_terms_of(const struct bsdf *m,
 
     *pdf = 0.0f;
     if (l->weight[LOBE_GLASS] > 0.0f && !principled_has_glass_delta(m)) {
-        f = glass_terms(m, wo, wi, &lobe_pdf);
+        struct bsdf glass = principled_glass(m);
+
+        f = glass_terms(&glass, wo, wi, &lobe_pdf);
         principled_add(l, LOBE_GLASS, f, lobe_pdf, &sum, pdf);
     }
     if (wi.z < 0.0f)
@@ -190,17 +202,19 @@ static inline bool principled_sample_lobe(const struct bsdf *m, uint32_t lobe,
                                           struct vec3 wo, struct vec2 u,
                                           float choice, struct bsdf_sample *s)
 {
-    struct bsdf coat;
+    struct bsdf part;
 
     if (lobe == LOBE_METAL)
         return metal_sample(m, wo, u, choice, s);
     if (lobe == LOBE_PLASTIC)
         return plastic_sample(m, wo, u, choice, s);
-    if (lobe == LOBE_GLASS)
-        return glass_sample(m, wo, u, choice, s);
-    coat = principled_coat(m);
-    coat.color = v3(0.0f, 0.0f, 0.0f); /* plastic without a base */
-    return plastic_sample(&coat, wo, u, choice, s);
+    if (lobe == LOBE_GLASS) {
+        part = principled_glass(m);
+        return glass_sample(&part, wo, u, choice, s);
+    }
+    part = principled_coat(m);
+    part.color = v3(0.0f, 0.0f, 0.0f); /* plastic without a base */
+    return plastic_sample(&part, wo, u, choice, s);
 }
 
 static inline bool principled_sample(const struct bsdf *m, struct vec3 wo,

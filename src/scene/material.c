@@ -32,6 +32,8 @@ const struct mtl_property mtl_properties[MTL_PROPERTIES] = {
     {"Tr", MEMBER(tr), false},
     {"Pr", MEMBER(pr), false},
     {"Pm", MEMBER(pm), false},
+    {"Pc", MEMBER(pc), false},
+    {"Pcr", MEMBER(pcr), false},
     {"Kd_roughness", MEMBER(kd_roughness), false},
 };
 
@@ -247,6 +249,11 @@ static int illumination(const struct mtl_source *s,
     return (int)illum;
 }
 
+static float index_of(const struct mtl_source *s, const struct diagnostics *at)
+{
+    return (float)within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX, IOR_DEFAULT, at);
+}
+
 static void make_glass(struct material *m, uint32_t kind,
                        const struct mtl_source *s, const struct diagnostics *at)
 {
@@ -255,7 +262,7 @@ static void make_glass(struct material *m, uint32_t kind,
     m->color_texture = mtl_source_map(s, MTL_MAP_KD);
     if (kind == MATERIAL_GLASS)
         roughen(m, s, at);
-    m->ior = (float)within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX, IOR_DEFAULT, at);
+    m->ior = index_of(s, at);
 }
 
 /* Recognises opaque materials that Maya writes as illum 4, with Ni 1 and Tf 1 1
@@ -285,15 +292,6 @@ static void make_plastic(struct material *m, const struct vec3 *ks,
     roughen(m, s, at);
 }
 
-static void make_principled(struct material *m, double metalness,
-                            const struct vec3 *ks, const struct mtl_source *s,
-                            const struct diagnostics *at)
-{
-    make_plastic(m, ks, s, at);
-    m->kind = MATERIAL_PRINCIPLED;
-    m->metalness = (float)metalness;
-}
-
 static void make_diffuse(struct material *m, const struct mtl_source *s,
                          const struct diagnostics *at)
 {
@@ -306,16 +304,60 @@ static void make_diffuse(struct material *m, const struct mtl_source *s,
     m->alpha = (float)r;
 }
 
+/* Returns a number from 0 to 1; others are clamped, with a warning. */
+static double unit(const struct mtl_number *n, const char *key,
+                   const struct diagnostics *at)
+{
+    return within(n, key, 0, 1, unit_clamped(n->value), at);
+}
+
+/* Returns the weight of transmission, which Blender writes as a grey Tf. */
+static double transmission(const struct mtl_source *s, int illum,
+                           const struct diagnostics *at)
+{
+    struct vec3 tf;
+
+    if (s->pr.line == 0 || s->tf.line == 0 || (illum != 2 && illum != 3))
+        return 0;
+    tf = reflecting(&s->tf, "Tf", 0, at);
+    return (double)(tf.x + tf.y + tf.z) / 3;
+}
+
+/* Sets the weights of a mixture. Returns false, and leaves the material, if it
+ * is not one. */
+static bool make_principled(struct material *m, int illum,
+                            const struct mtl_source *s,
+                            const struct diagnostics *at)
+{
+    double pm = unit(&s->pm, "Pm", at), pcr = unit(&s->pcr, "Pcr", at);
+
+    m->metal_texture = mtl_source_map(s, MTL_MAP_PM);
+    m->metalness = (float)pm;
+    if (m->metal_texture != NO_INDEX && s->pm.line == 0)
+        m->metalness = 1;
+    m->transmission = (float)transmission(s, illum, at);
+    m->coat = (float)unit(&s->pc, "Pc", at);
+    if (m->coat > 0)
+        m->coat_alpha = (float)(pcr * pcr);
+    return m->metal_texture != NO_INDEX || m->transmission > 0 || m->coat > 0 ||
+           (pm > 0 && pm < 1);
+}
+
+bool mtl_source_is_mirror(const struct mtl_source *s)
+{
+    return (s->illum.value == 3 || s->illum.value == 5) && s->pm.line == 0 &&
+           mtl_source_map(s, MTL_MAP_PM) == NO_INDEX;
+}
+
 static void make_opaque(struct material *m, int illum,
                         const struct mtl_source *s,
                         const struct diagnostics *at)
 {
     uint32_t map_kd = mtl_source_map(s, MTL_MAP_KD);
     uint32_t map_ks = mtl_source_map(s, MTL_MAP_KS);
-    bool is_mixed = mtl_source_map(s, MTL_MAP_PM) != NO_INDEX;
-    double pm = within(&s->pm, "Pm", 0, 1, unit_clamped(s->pm.value), at);
     struct vec3 ks = reflecting(&s->ks, "Ks", 0, at);
     bool has_ks = !is_black(&ks) || map_ks != NO_INDEX;
+    bool is_principled = make_principled(m, illum, s, at);
 
     m->opacity = (float)opacity(s, at);
     if (m->opacity <= 0)
@@ -329,20 +371,23 @@ static void make_opaque(struct material *m, int illum,
     m->color =
         reflecting(&s->kd, "Kd", map_kd != NO_INDEX ? 0 : MATERIAL_GREY, at);
     m->color_texture = map_kd;
-    if (is_mixed || (pm > 0 && pm < 1)) {
-        make_principled(m, is_mixed && s->pm.line == 0 ? 1 : pm, &ks, s, at);
-    } else if (pm > 0) {
+    if (m->metalness == 1 && !is_principled) {
         m->kind = MATERIAL_METAL;
         roughen(m, s, at);
-    } else if (has_ks && (illum == 3 || illum == 5)) {
+    } else if (has_ks && mtl_source_is_mirror(s)) {
         m->kind = MATERIAL_METAL;
+        m->metalness = 1;
         m->color = ks;
         m->color_texture = map_ks;
         roughen(m, s, at);
-    } else if (has_ks) {
+    } else if (has_ks || is_principled) {
         make_plastic(m, &ks, s, at);
     } else {
         make_diffuse(m, s, at);
+    }
+    if (is_principled) {
+        m->kind = MATERIAL_PRINCIPLED;
+        m->ior = index_of(s, at);
     }
 }
 

@@ -6,7 +6,11 @@
  * The kind of a material is the first of these that applies:
  *   glass        illum 6 or 7; colour Tf times map_Kd
  *   thin glass   illum 4 or 9; colour Tf times map_Kd
- *   metal        Pm of at least one half; colour Kd
+ *   principled   Pm between 0 and 1, map_Pm, Pc above 0, or Tf that is not
+ *                black beside Pr: a mixture of metal of colour Kd (weight Pm
+ *                times map_Pm), glass (mean of Tf) and plastic, under a coat
+ *                (weight Pc, roughness Pcr)
+ *   metal        Pm 1; colour Kd
  *   metal        illum 3 or 5 with map_Ks or with Ks that is not black;
  *                colour Ks
  *   plastic      map_Ks, or Ks that is not black: diffuse of colour Kd under a
@@ -14,8 +18,7 @@
  *   diffuse      all others; colour Kd, roughness Kd_roughness (default 0)
  * A map multiplies its colour. Roughness alpha is Pr squared; without Pr it is
  * sqrt(2 / (Ns + 2)), or 0 if Ns is absent, 0, or at least 1000. Pr defaults
- * to 1 if there is map_Pr. A material with map_Pm is plastic or diffuse, but
- * metal of colour Kd where map_Pm times Pm (default 1) is at least one half.
+ * to 1 if there is map_Pr, and Pm to 1 if there is map_Pm.
  *
  * Threads:   any
  * Errors:    impossible values are replaced, with a warning
@@ -68,7 +71,7 @@ struct mtl_source {
     struct mtl_color kd, ks, ke, tf;
     /* the two numbers of Ke_blackbody, which replaces Ke */
     struct mtl_number kelvin, luminance;
-    struct mtl_number illum, ns, ni, d, tr, pr, pm, kd_roughness;
+    struct mtl_number illum, ns, ni, d, tr, pr, pm, pc, pcr, kd_roughness;
     uint32_t maps[MTL_MAPS]; /* numbers of textures, or NO_INDEX */
     uint32_t maps_off; /* bit set of 1 << enum mtl_map: maps to be ignored */
     double bump_scale; /* factor for the heights of MTL_MAP_BUMP */
@@ -83,7 +86,7 @@ struct mtl_property {
     bool is_color;
 };
 
-#define MTL_PROPERTIES 11
+#define MTL_PROPERTIES 13
 
 /* All statements of one colour or number, colours first. */
 extern const struct mtl_property mtl_properties[MTL_PROPERTIES];
@@ -98,6 +101,9 @@ bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b);
 
 /* Returns the texture of a map, or NO_INDEX if it is absent or switched off. */
 uint32_t mtl_source_map(const struct mtl_source *source, enum mtl_map map);
+
+/* True if the statements ask for a mirror whose colour is Ks. */
+bool mtl_source_is_mirror(const struct mtl_source *source);
 
 /* Returns the emitted radiance given by Ke_blackbody, else by Ke; its line is 0
  * if there is neither. */

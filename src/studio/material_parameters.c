@@ -8,7 +8,10 @@
 #include "base/file.h"
 
 /* Ks that a material gets when it becomes plastic; see MATERIAL_SPECULAR. */
-#define COAT_DEFAULT 0.5
+#define KS_DEFAULT 0.5
+
+/* Pm of a material that becomes a mixture, if it was none. */
+#define PM_DEFAULT 0.5
 
 /* ---- statements ---- */
 
@@ -59,14 +62,16 @@ static void set_statement(struct owner *o, const struct value *v)
 #define METAL   (1u << MATERIAL_METAL)
 #define GLASS   (1u << MATERIAL_GLASS)
 #define THIN    (1u << MATERIAL_THIN_GLASS)
-#define OPAQUE  (DIFFUSE | PLASTIC | METAL)
+#define MIXED   (1u << MATERIAL_PRINCIPLED)
+#define OPAQUE  (DIFFUSE | PLASTIC | METAL | MIXED)
 #define CLEAR   (GLASS | THIN)
 
-static const char *const kind_names[] = {"diffuse", "plastic", "metal", "glass",
-                                         "thin glass"};
+static const char *const kind_names[] = {"diffuse", "plastic",    "metal",
+                                         "glass",   "thin glass", "principled"};
 
 /* Bits of each choice of kind. Rough diffuse differs in roughness only. */
-static const uint32_t kind_bits[] = {DIFFUSE, PLASTIC, METAL, GLASS, THIN};
+static const uint32_t kind_bits[] = {DIFFUSE, PLASTIC, METAL,
+                                     GLASS,   THIN,    MIXED};
 
 void material_parameters_open(struct owner *o, const struct mtl_source *source)
 {
@@ -96,7 +101,8 @@ static size_t color_member(const struct owner *o)
 {
     if (!is_kind(o, OPAQUE))
         return offsetof(struct mtl_source, tf);
-    return is_kind(o, METAL) && !(o->source.pm.value >= 0.5)
+    return is_kind(o, METAL | MIXED) && mtl_source_is_mirror(&o->source) &&
+                   o->material.metalness == 1
                ? offsetof(struct mtl_source, ks)
                : offsetof(struct mtl_source, kd);
 }
@@ -124,11 +130,15 @@ static void set_opaque(struct mtl_source *s, uint32_t bits, const double rgb[3])
 {
     put_number(&s->illum, bits == METAL ? 3 : 2);
     put_color(&s->kd, rgb);
-    if (bits == METAL || s->pm.line != 0)
-        put_number(&s->pm, bits == METAL ? 1 : 0);
+    if (bits == METAL || bits == MIXED || s->pm.line != 0)
+        put_number(&s->pm, bits == METAL ? 1 : bits == MIXED ? PM_DEFAULT : 0);
+    if (s->pc.line != 0)
+        put_number(&s->pc, 0);
+    if (s->tf.line != 0)
+        put_grey(&s->tf, 0);
     if (bits == PLASTIC && s->ks.rgb[0] == 0 && s->ks.rgb[1] == 0 &&
         s->ks.rgb[2] == 0)
-        put_grey(&s->ks, COAT_DEFAULT);
+        put_grey(&s->ks, KS_DEFAULT);
     if (bits == DIFFUSE && s->ks.line != 0)
         put_grey(&s->ks, 0);
 }
@@ -174,6 +184,24 @@ static void set_roughness(struct owner *o, const struct value *v)
                v->number);
 }
 
+/* Reads the weight of transmission, a grey Tf. It counts beside Pr only. */
+static bool get_transmission(const struct owner *o, struct value *v)
+{
+    v->number = (double)o->material.transmission;
+    return true;
+}
+
+static void set_transmission(struct owner *o, const struct value *v)
+{
+    struct mtl_source *s = &o->source;
+
+    if (s->pr.line == 0)
+        put_number(&s->pr, sqrt((double)o->material.alpha));
+    if (s->illum.line != 0 && s->illum.value != 3)
+        put_number(&s->illum, 2);
+    put_grey(&s->tf, v->number);
+}
+
 static bool get_specular(const struct owner *o, struct value *v)
 {
     v->number = largest(o->source.ks.rgb);
@@ -183,6 +211,17 @@ static bool get_specular(const struct owner *o, struct value *v)
 static void set_specular(struct owner *o, const struct value *v)
 {
     put_grey(&o->source.ks, v->number);
+}
+
+static bool get_coat_roughness(const struct owner *o, struct value *v)
+{
+    v->number = o->source.pcr.value;
+    return true;
+}
+
+static void set_coat_roughness(struct owner *o, const struct value *v)
+{
+    put_number(&o->source.pcr, v->number);
 }
 
 static bool get_map(const struct owner *o, struct value *v)
@@ -290,7 +329,16 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
      .get = get_roughness, .set = set_roughness},
     {"specular", PLASTIC, VALUE_NUMBER, &scale_specular, .get = get_specular,
      .set = set_specular},
-    {"index", CLEAR, VALUE_NUMBER, &scale_ior, STATEMENT(ni, ior)},
+    {"specular", MIXED, VALUE_NUMBER, &scale_unit, .get = get_specular,
+     .set = set_specular},
+    {"metal", MIXED, VALUE_NUMBER, &scale_unit, STATEMENT(pm, metalness)},
+    {"transmission", MIXED, VALUE_NUMBER, &scale_unit, .get = get_transmission,
+     .set = set_transmission},
+    {"index", CLEAR | MIXED, VALUE_NUMBER, &scale_ior, STATEMENT(ni, ior)},
+    {"coat", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
+     STATEMENT(pc, coat)},
+    {"coat rough", MIXED, VALUE_NUMBER, &scale_unit, .get = get_coat_roughness,
+     .set = set_coat_roughness},
     {"cover", OPAQUE, VALUE_NUMBER, &scale_unit, STATEMENT(d, opacity)},
     {"light", ALL, VALUE_NUMBER, &scale_emission, .get = get_emission,
      .set = set_emission},

@@ -90,8 +90,14 @@ static void statements_choose_the_kind(void **state)
         {"Kd 0\nKs .9\nNs 6\nillum 5", MATERIAL_METAL, .9, .5, 1.5},
         {"Kd .3\nKs 0\nillum 5", MATERIAL_DIFFUSE, .3, 0, 1.5},
         {"Kd .7\nKs .2\nPm 1\nPr .4\nillum 3", MATERIAL_METAL, .7, .16, 1.5},
-        {"Kd .7\nPm .5\nPr 1\nNs 1000", MATERIAL_METAL, .7, 1, 1.5},
-        {"Kd .7\nPm .4\nPr 1", MATERIAL_DIFFUSE, .7, 0, 1.5},
+        {"Kd .7\nPm .5\nPr 1\nNs 1000", MATERIAL_PRINCIPLED, .7, 1, 1.5},
+        {"Kd .7\nPm .4\nPr .5\nNi 1.3", MATERIAL_PRINCIPLED, .7, .25, 1.3},
+        {"Kd .7\nPm 0\nPr 1", MATERIAL_DIFFUSE, .7, 0, 1.5},
+        {"Kd .7\nPc .1\nPcr .5", MATERIAL_PRINCIPLED, .7, 0, 1.5},
+        {"Kd .7\nPc 0\nPcr .5", MATERIAL_DIFFUSE, .7, 0, 1.5},
+        {"Kd .7\nPr .5\nTf .2\nillum 2", MATERIAL_PRINCIPLED, .7, .25, 1.5},
+        {"Kd .7\nPr .5\nTf 0 0 0\nillum 2", MATERIAL_DIFFUSE, .7, 0, 1.5},
+        {"Kd .7\nKs .5\nNs 6\nTf .2", MATERIAL_PLASTIC, .7, .5, 1.5},
         {"Ks .9\nPr 0\nNs 6\nillum 3", MATERIAL_METAL, .9, 0, 1.5},
         {"Kd 0\nKs 1\nNi 1.3\nillum 7", MATERIAL_GLASS, 1, 0, 1.3},
         {"Kd 0\nTf .1 .1 .1\nNs 200\nNi 2.5\nillum 7", MATERIAL_GLASS, .1,
@@ -393,6 +399,27 @@ static void equal_maps_are_shared(void **state)
     unload(&l);
 }
 
+static void statements_weigh_the_lobes(void **state)
+{
+    struct material m =
+        only_material("Kd .7\nKs .5\nPr .5\nPm .25\nTf .2 .3 .4\n"
+                      "Pc .7\nPcr .5\nNi 1.4",
+                      0);
+
+    (void)state;
+    check_close((double)m.metalness, .25, 0);
+    check_close((double)m.transmission, .3, 1e-7);
+    check_close((double)m.coat, .7, 1e-7);
+    check_close((double)m.coat_alpha, .25, 0);
+    check_color(m.specular, .04, .04, .04);
+    m = only_material("Ks .9\nillum 3\nPc 1", 0); /* a coated mirror */
+    assert_int_equal(m.kind, MATERIAL_PRINCIPLED);
+    check_close((double)m.metalness, 1, 0);
+    check_color(m.color, .9, .9, .9);
+    m = only_material("Pm 7\nPc -1", 1);
+    assert_int_equal(m.kind, MATERIAL_METAL);
+}
+
 static void maps_of_numbers_are_data(void **state)
 {
     struct loaded l =
@@ -414,11 +441,10 @@ static void maps_of_numbers_are_data(void **state)
     check_close((double)m[1].alpha, 1, 0);
     assert_int_equal(m[2].alpha_texture, 2);
     check_close((double)m[2].alpha, .25, 0);
-    assert_int_equal(m[3].kind, MATERIAL_DIFFUSE);
+    assert_int_equal(m[3].kind, MATERIAL_PRINCIPLED);
     assert_int_equal(m[3].metal_texture, 3);
     check_close((double)m[3].metalness, 1, 0);
     check_close((double)m[3].alpha, .25, 0);
-    assert_int_equal(m[4].kind, MATERIAL_PLASTIC);
     check_close((double)m[4].metalness, .75, 0);
     assert_int_equal(m[1].bump_texture, NO_INDEX);
     /* A diffuse material has no roughness, glass no coverage. */
@@ -492,6 +518,7 @@ int main(void)
         cmocka_unit_test(map_options_are_not_part_of_the_name),
         cmocka_unit_test(equal_maps_are_shared),
         cmocka_unit_test(maps_of_other_scales_are_not_shared),
+        cmocka_unit_test(statements_weigh_the_lobes),
         cmocka_unit_test(maps_of_numbers_are_data),
         cmocka_unit_test(bump_maps_have_their_scale),
         cmocka_unit_test_setup_teardown(paths_of_other_machines_find_the_file,

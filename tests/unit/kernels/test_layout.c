@@ -26,11 +26,13 @@
     S(material) M(material, color) M(material, alpha)                         \
       M(material, emission) M(material, ior) M(material, kind)                \
       M(material, color_texture) M(material, emission_texture)                \
-      M(material, opacity) M(material, specular) M(material, specular_texture)        \
+      M(material, opacity) M(material, specular)                              \
+      M(material, specular_texture)                                           \
       M(material, alpha_texture) M(material, metal_texture)                   \
       M(material, opacity_texture) M(material, metalness)                     \
       M(material, normal_texture) M(material, bump_texture)                   \
-      M(material, bump_scale) M(material, pad)                                \
+      M(material, bump_scale) M(material, transmission) M(material, coat)     \
+      M(material, coat_alpha)                                                 \
     S(texture) M(texture, first) M(texture, width) M(texture, height)         \
       M(texture, has_holes) M(texture, scale) M(texture, offset)              \
       M(texture, is_clamped) M(texture, is_data)                              \

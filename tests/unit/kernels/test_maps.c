@@ -272,20 +272,20 @@ static void roughness_is_multiplied(void **state)
     unload(&l);
 }
 
-static void metal_is_chosen_by_its_map(void **state)
+static void metal_is_mixed_by_its_map(void **state)
 {
     struct loaded l;
 
     (void)state;
     write_image("two.tga", 2, 1, 3, two);
     load(&l, "Kd .3\nKs .5\nPr .5\nmap_Pm two.tga");
-    assert_int_equal(surface(&l, 0.25f, 0.5f).kind, MATERIAL_PLASTIC);
-    assert_int_equal(surface(&l, 0.75f, 0.5f).kind, MATERIAL_METAL);
+    check_close((double)surface(&l, 0.25f, 0.5f).metalness, 0.2, 1e-6);
+    check_close((double)surface(&l, 0.75f, 0.5f).metalness, 0.8, 1e-6);
     check_close((double)surface(&l, 0.75f, 0.5f).color.x, 0.3, 1e-7);
     check_close((double)surface(&l, 0.75f, 0.5f).alpha, 0.25, 1e-7);
     unload(&l);
-    load(&l, "Kd .3\nPm .6\nmap_Pm two.tga"); /* .6 * .8 < 1/2 */
-    assert_int_equal(surface(&l, 0.75f, 0.5f).kind, MATERIAL_DIFFUSE);
+    load(&l, "Kd .3\nPm .6\nmap_Pm two.tga");
+    check_close((double)surface(&l, 0.75f, 0.5f).metalness, 0.48, 1e-6);
     unload(&l);
 }
 
@@ -412,7 +412,7 @@ int main(void)
         cmocka_unit_test(an_image_is_read_once),
         cmocka_unit_test(many_images_are_read),
         cmocka_unit_test(roughness_is_multiplied),
-        cmocka_unit_test(metal_is_chosen_by_its_map),
+        cmocka_unit_test(metal_is_mixed_by_its_map),
         cmocka_unit_test(holes_are_cut_by_their_map),
         cmocka_unit_test(normal_maps_turn_the_normal),
         cmocka_unit_test(bump_maps_tilt_by_their_slope),

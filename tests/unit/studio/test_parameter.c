@@ -48,6 +48,8 @@ static struct mtl_source any_source(void)
     s.tr = maybe(check_random(&seed));
     s.pr = maybe(check_random(&seed));
     s.pm = maybe(check_random(&seed));
+    s.pc = maybe(check_random(&seed));
+    s.pcr = maybe(check_random(&seed));
     s.kd_roughness = maybe(check_random(&seed));
     s.kelvin = maybe(1000 + 8000 * check_random(&seed));
     if (s.kelvin.line != 0) {
@@ -124,8 +126,8 @@ static struct material material_of(const struct mtl_source *source)
 /* Each kind can be chosen and keeps the colour. */
 static void kinds_keep_the_color(void **state)
 {
-    static const char *const names[] = {"diffuse", "plastic", "metal", "glass",
-                                        "thin glass"};
+    static const char *const names[] = {"diffuse", "plastic",    "metal",
+                                        "glass",   "thin glass", "principled"};
 
     (void)state;
     for (int round = 0; round < 2000; round++) {
@@ -138,13 +140,13 @@ static void kinds_keep_the_color(void **state)
         first = (int)kind.number;
         assert_string_equal(material_parameters_summary(&s, swatch),
                             names[first]);
-        for (int i = 1; i <= 10; i++) {
+        for (int i = 1; i <= 12; i++) {
             struct value after;
 
-            kind.number = (first + i) % 5;
+            kind.number = (first + i) % 6;
             set(&s, "type", &kind);
             assert_string_equal(material_parameters_summary(&s, swatch),
-                                names[(first + i) % 5]);
+                                names[(first + i) % 6]);
             after = get_color(&s);
             for (int k = 0; k < 3; k++)
                 check_close(after.rgb[k], before.rgb[k], 1e-6);
@@ -176,8 +178,18 @@ static void set_values_reach_the_material(void **state)
         if (m.kind == MATERIAL_ROUGH_DIFFUSE)
             check_close((double)m.alpha, x, 1e-6);
         else if (m.kind == MATERIAL_METAL || m.kind == MATERIAL_PLASTIC ||
-                 m.kind == MATERIAL_GLASS)
+                 m.kind == MATERIAL_GLASS || m.kind == MATERIAL_PRINCIPLED)
             check_close((double)m.alpha, x * x, 1e-6);
+        set(&s, "coat rough", &roughness);
+        set(&s, "coat", &(struct value){.number = .5});
+        set(&s, "transmission", &(struct value){.number = .25});
+        set(&s, "metal", &(struct value){.number = .75});
+        m = material_of(&s);
+        if (m.kind == MATERIAL_PRINCIPLED) {
+            check_close((double)m.coat, .5, 0);
+            check_close((double)m.transmission, .25, 1e-7);
+            check_close((double)m.metalness, .75, 0);
+        }
         set(&s, "of colour", &color);
         set(&s, "light", &(struct value){.number = 8});
         assert_true(get(&s, "of colour", &found));
@@ -297,7 +309,7 @@ static void choices_are_cyclic(void **state)
         enum parameter_page page;
         const char *label;
         int count;
-    } choices[] = {{PARAMETER_MATERIAL, "type", 5},
+    } choices[] = {{PARAMETER_MATERIAL, "type", 6},
                    {PARAMETER_MATERIAL, "map_Kd", 2},
                    {PARAMETER_OBJECT, "material", 3},
                    {PARAMETER_LIGHT, "tone", 3}};
