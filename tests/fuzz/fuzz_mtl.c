@@ -33,6 +33,10 @@ static void check_material(const struct scene *scene, const struct material *m)
     require(m->opacity >= 0 && m->opacity <= 1, "opacity");
     require(m->ior > 0 && isfinite(m->ior), "index of refraction");
     require(isfinite(m->bump_scale), "height of bumps");
+    require(m->metalness >= 0 && m->metalness <= 1, "metalness");
+    require(m->transmission >= 0 && m->transmission <= 1, "transmission");
+    require(m->coat >= 0 && m->coat <= 1, "coat");
+    require(m->coat_alpha >= 0 && m->coat_alpha <= 1, "roughness of the coat");
     require(is_texture(scene, m->color_texture) &&
                 is_texture(scene, m->emission_texture) &&
                 is_texture(scene, m->specular_texture) &&

@@ -273,21 +273,26 @@ static const float ends[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-23f, 1 - 0x1p-24f};
 /* C9: BSDFs at the ends of random numbers, at grazing and normal incidence. */
 static void check_extremes(void)
 {
-    static const uint32_t kinds[] = {MATERIAL_DIFFUSE, MATERIAL_ROUGH_DIFFUSE,
-                                     MATERIAL_METAL,   MATERIAL_PLASTIC,
-                                     MATERIAL_GLASS,   MATERIAL_THIN_GLASS};
+    static const uint32_t kinds[] = {MATERIAL_DIFFUSE,   MATERIAL_ROUGH_DIFFUSE,
+                                     MATERIAL_METAL,     MATERIAL_PLASTIC,
+                                     MATERIAL_GLASS,     MATERIAL_THIN_GLASS,
+                                     MATERIAL_PRINCIPLED};
     static const float heights[] = {1e-6f, 1e-3f, 0.5f, 1};
     static const float alphas[] = {0, ALPHA_SMOOTH, 0.1f, 1};
     int bad = 0, drawn = 0;
 
-    for (int i = 0; i < 6 * 4 * 4 * 125; i++) {
+    for (int i = 0; i < 7 * 4 * 4 * 125; i++) {
         float z = heights[i / 125 % 4];
         struct vec3 wo = v3(sqrtf(1 - z * z), 0, z);
         struct bsdf b = {.color = {1, 1, 1},
                          .specular = {0.04f, 0.04f, 0.04f},
                          .alpha = alphas[i / 500 % 4],
                          .kind = kinds[i / 2000],
-                         .eta = 1.5f};
+                         .eta = 1.5f,
+                         .metalness = 0.3f,
+                         .transmission = 0.4f,
+                         .coat = 0.5f,
+                         .coat_alpha = alphas[(i / 500 + 1) % 4]};
         struct bsdf_sample s;
 
         if (!bsdf_sample(&b, wo, v2(ends[i % 5], ends[i / 5 % 5]),

@@ -120,7 +120,7 @@ static void check_scene(const struct scene *s)
         check_close((double)m->alpha, 0.5, 0.5);
         check_close((double)m->color.x, 0.5, 0.5);
         assert_true(m->ior > 0 && isfinite(m->ior));
-        assert_true(m->kind <= MATERIAL_THIN_GLASS);
+        assert_true(m->kind <= MATERIAL_PRINCIPLED);
         assert_true(m->color_texture == NO_INDEX ||
                     m->color_texture < s->texture_count);
         assert_true(m->emission_texture == NO_INDEX ||

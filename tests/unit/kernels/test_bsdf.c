@@ -340,14 +340,18 @@ static void nothing_is_ever_nan_or_negative(void **state)
     const float indices[] = {1e-6f, 0.5f, 0.9985f, 1, 1.0015f, 3, 1e6f};
 
     (void)state;
-    for (uint32_t i = 0; i < 6 * 7 * 5 * 7 * 64; i++) {
+    for (uint32_t i = 0; i < 7 * 7 * 5 * 7 * 64; i++) {
         uint32_t k = i / 64;
         struct bsdf m = {.color = k & 1 ? white : v3(0, 1, 0.5f),
                          .specular = k & 2 ? strong : v3(0, 0, 0),
-                         .kind = k % 6,
-                         .alpha = widths[k / 42 % 5],
-                         .eta = indices[k / 210]};
-        struct vec3 wo = direction(mus[k / 6 % 7]);
+                         .kind = k % 7,
+                         .alpha = widths[k / 49 % 5],
+                         .eta = indices[k / 245],
+                         .metalness = (float)(k % 3) / 2,
+                         .transmission = (float)(k / 3 % 3) / 2,
+                         .coat = (float)(k / 9 % 2),
+                         .coat_alpha = widths[(k / 49 + k / 18) % 5]};
+        struct vec3 wo = direction(mus[k / 7 % 7]);
         struct vec2 u = v2(edges[i % 4], edges[i / 4 % 4]);
         struct bsdf_sample s;
 

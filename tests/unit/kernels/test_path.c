@@ -96,15 +96,20 @@ static void white_rough_things_vanish(void **state)
     } things[] = {{MATERIAL_METAL, 1},
                   {MATERIAL_PLASTIC, 1},
                   {MATERIAL_ROUGH_DIFFUSE, 1},
-                  {MATERIAL_GLASS, 4}};
+                  {MATERIAL_GLASS, 4},
+                  {MATERIAL_PRINCIPLED, 4}};
 
     (void)state;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 5; i++) {
         struct mesh m = {0};
 
         m.materials[0] = mesh_material(things[i].kind, 1.0f);
         m.materials[0].alpha = 0.4f;
         m.materials[0].specular = v3(0.04f, 0.04f, 0.04f);
+        m.materials[0].metalness = 0.3f;
+        m.materials[0].transmission = 0.5f;
+        m.materials[0].coat = 0.5f;
+        m.materials[0].coat_alpha = 0.2f;
         m.world.settings.sky.color = v3(1, 1, 1);
         mesh_add_sphere(&m, v3(0, 0, 0), 0.5f, 24, 40, 0);
         mesh_finish(&m);
