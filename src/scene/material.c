@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "picture/blackbody.h"
 #include "kernels/light.h"
 
 /* Least Ns that gives a perfect mirror: exporters write 1000 for mirrors. */
@@ -19,109 +18,10 @@
 #define IOR_DEFAULT 1.5
 #define IOR_MAX     1e6
 
-#define MEMBER(name) offsetof(struct mtl_source, name)
-
-const struct mtl_property mtl_properties[MTL_PROPERTIES] = {
-    {"Kd", MEMBER(kd), true},
-    {"Ks", MEMBER(ks), true},
-    {"Tf", MEMBER(tf), true},
-    {"illum", MEMBER(illum), false},
-    {"Ns", MEMBER(ns), false},
-    {"Ni", MEMBER(ni), false},
-    {"d", MEMBER(d), false},
-    {"Tr", MEMBER(tr), false},
-    {"Pr", MEMBER(pr), false},
-    {"Pm", MEMBER(pm), false},
-    {"Pc", MEMBER(pc), false},
-    {"Pcr", MEMBER(pcr), false},
-    {"Kd_roughness", MEMBER(kd_roughness), false},
-};
-
-const char *const mtl_map_keys[MTL_MAPS] = {
-    [MTL_MAP_KD] = "map_Kd", [MTL_MAP_KS] = "map_Ks",
-    [MTL_MAP_KE] = "map_Ke", [MTL_MAP_PR] = "map_Pr",
-    [MTL_MAP_PM] = "map_Pm", [MTL_MAP_D] = "map_d",
-    [MTL_MAP_NORM] = "norm", [MTL_MAP_BUMP] = "map_Bump",
-};
-
 struct diagnostics {
     const char *path;
     struct warnings *report;
 };
-
-struct mtl_source mtl_source_empty(void)
-{
-    struct mtl_source s = {.bump_scale = 1};
-
-    for (int i = 0; i < MTL_MAPS; i++)
-        s.maps[i] = NO_INDEX;
-    return s;
-}
-
-/* Compares two numbers. NaN equals NaN. */
-static bool values_equal(double a, double b)
-{
-    return a == b || (isnan(a) && isnan(b));
-}
-
-bool mtl_number_equal(const struct mtl_number *a, const struct mtl_number *b)
-{
-    return (a->line == 0) == (b->line == 0) &&
-           (a->line == 0 || values_equal(a->value, b->value));
-}
-
-bool mtl_color_equal(const struct mtl_color *a, const struct mtl_color *b)
-{
-    return (a->line == 0) == (b->line == 0) &&
-           (a->line == 0 || (values_equal(a->rgb[0], b->rgb[0]) &&
-                             values_equal(a->rgb[1], b->rgb[1]) &&
-                             values_equal(a->rgb[2], b->rgb[2])));
-}
-
-static bool property_equal(const struct mtl_property *p,
-                           const struct mtl_source *a,
-                           const struct mtl_source *b)
-{
-    const void *in_a = (const char *)a + p->member;
-    const void *in_b = (const char *)b + p->member;
-
-    return p->is_color ? mtl_color_equal(in_a, in_b)
-                       : mtl_number_equal(in_a, in_b);
-}
-
-bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b)
-{
-    for (int i = 0; i < MTL_MAPS; i++)
-        if (a->maps[i] != b->maps[i])
-            return false;
-    for (int i = 0; i < MTL_PROPERTIES; i++)
-        if (!property_equal(&mtl_properties[i], a, b))
-            return false;
-    return a->maps_off == b->maps_off && a->bump_scale == b->bump_scale &&
-           mtl_color_equal(&a->ke, &b->ke) &&
-           mtl_number_equal(&a->kelvin, &b->kelvin) &&
-           mtl_number_equal(&a->luminance, &b->luminance);
-}
-
-uint32_t mtl_source_map(const struct mtl_source *s, enum mtl_map map)
-{
-    return (s->maps_off >> map & 1) != 0 ? NO_INDEX : s->maps[map];
-}
-
-struct mtl_color mtl_source_light(const struct mtl_source *s)
-{
-    struct mtl_color light = {.line = s->kelvin.line};
-    double kelvin = s->kelvin.value;
-
-    if (s->kelvin.line == 0)
-        return s->ke;
-    if (!(kelvin >= BLACKBODY_LEAST && kelvin <= BLACKBODY_GREATEST))
-        return light;
-    blackbody_rgb(kelvin, light.rgb);
-    for (int i = 0; i < 3; i++)
-        light.rgb[i] *= s->luminance.value;
-    return light;
-}
 
 struct material material_default(void)
 {
@@ -341,12 +241,6 @@ static bool make_principled(struct material *m, int illum,
         m->coat_alpha = (float)(pcr * pcr);
     return m->metal_texture != NO_INDEX || m->transmission > 0 || m->coat > 0 ||
            (pm > 0 && pm < 1);
-}
-
-bool mtl_source_is_mirror(const struct mtl_source *s)
-{
-    return (s->illum.value == 3 || s->illum.value == 5) && s->pm.line == 0 &&
-           mtl_source_map(s, MTL_MAP_PM) == NO_INDEX;
 }
 
 static void make_opaque(struct material *m, int illum,
