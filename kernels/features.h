@@ -10,7 +10,7 @@
 #define KERNELS_FEATURES_H
 
 enum feature {
-    FEATURE_COVERAGE = 1, /* opacity below 1 or holes in textures */
+    FEATURE_COVERAGE = 1, /* opacity or alpha of textures below 1 */
     FEATURE_TEXTURES = 2, /* images that materials refer to */
     FEATURE_METAL = 4,    /* MATERIAL_METAL */
     FEATURE_GLASS = 8,    /* MATERIAL_GLASS and MATERIAL_THIN_GLASS */

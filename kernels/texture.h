@@ -107,11 +107,13 @@ static inline struct vec2 uv_at(const struct world *w, struct tri t,
               h.b0 * a.y + h.b1 * b.y + h.b2 * c.y);
 }
 
-static inline bool is_hole(const struct world *w, uint32_t texture,
-                           struct vec2 uv)
+/* Returns the alpha of a texture, 1 if there is none. */
+static inline float alpha_at(const struct world *w, uint32_t texture,
+                             struct vec2 uv)
 {
-    return texture != NO_INDEX && w->textures[texture].has_holes != 0 &&
-           texture_at(w, texture, uv).alpha < 0.5f;
+    return texture != NO_INDEX && w->textures[texture].has_alpha != 0
+               ? texture_at(w, texture, uv).alpha
+               : 1.0f;
 }
 
 /* True if any surface of the scene has coverage below 1. */
@@ -121,8 +123,8 @@ static inline bool has_coverage(const struct world *w)
            (w->settings.features & FEATURE_COVERAGE) != 0;
 }
 
-/* The probability with which a hit stops a ray: 0 in holes of the alpha of the
- * colour texture and of the opacity texture, elsewhere the opacity. */
+/* The probability with which a hit stops a ray: the opacity times the alphas of
+ * the colour texture and of the opacity texture. */
 static inline float coverage_at(const struct world *w, struct hit h)
 {
     struct tri t = w->tris[h.tri];
@@ -132,9 +134,8 @@ static inline float coverage_at(const struct world *w, struct hit h)
         (m.color_texture != NO_INDEX || m.opacity_texture != NO_INDEX)) {
         struct vec2 uv = uv_at(w, t, h);
 
-        if (is_hole(w, m.color_texture, uv) ||
-            is_hole(w, m.opacity_texture, uv))
-            return 0.0f;
+        return m.opacity * alpha_at(w, m.color_texture, uv) *
+               alpha_at(w, m.opacity_texture, uv);
     }
     return m.opacity;
 }

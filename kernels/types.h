@@ -57,7 +57,7 @@ struct material {
     uint32_t specular_texture; /* multiplies specular; NO_INDEX: none */
     uint32_t alpha_texture;    /* its square multiplies alpha; NO_INDEX: none */
     uint32_t metal_texture;    /* multiplies metalness; NO_INDEX: none */
-    uint32_t opacity_texture;  /* a hole where its alpha is below 1/2 */
+    uint32_t opacity_texture;  /* its alpha multiplies opacity */
     float metalness;           /* these four of MATERIAL_PRINCIPLED */
     float transmission;
     float coat; /* weight of the clear coat */
@@ -77,7 +77,7 @@ struct texture {
     uint32_t first;
     uint32_t width;
     uint32_t height;
-    uint32_t has_holes; /* 1 if any alpha is below one half */
+    uint32_t has_alpha; /* 1 if any alpha is below 1 */
     struct vec2 scale;
     struct vec2 offset;
     uint32_t is_clamped; /* 1: clamped to the border; 0: repeated */

@@ -375,9 +375,9 @@ static bool has_texture(const struct material *m)
     return false;
 }
 
-static bool has_holes(const struct texture *textures, uint32_t texture)
+static bool is_translucent(const struct texture *textures, uint32_t texture)
 {
-    return texture != NO_INDEX && textures[texture].has_holes != 0;
+    return texture != NO_INDEX && textures[texture].has_alpha != 0;
 }
 
 uint32_t material_features(const struct material *m,
@@ -391,8 +391,8 @@ uint32_t material_features(const struct material *m,
         features |= FEATURE_TEXTURES;
     if (m->bump_texture != NO_INDEX || m->normal_texture != NO_INDEX)
         features |= FEATURE_BUMPS;
-    if (m->opacity < 1 || has_holes(textures, m->color_texture) ||
-        has_holes(textures, m->opacity_texture))
+    if (m->opacity < 1 || is_translucent(textures, m->color_texture) ||
+        is_translucent(textures, m->opacity_texture))
         features |= FEATURE_COVERAGE;
     if (m->kind == MATERIAL_METAL)
         features |= FEATURE_METAL;

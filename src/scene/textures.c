@@ -59,7 +59,7 @@ static bool append(struct host_world *host, const struct image *image,
 
         texels[i] = (uint32_t)p[0] | (uint32_t)p[1] << 8 |
                     (uint32_t)p[2] << 16 | alpha << 24;
-        texture->has_holes |= alpha < 128;
+        texture->has_alpha |= alpha < 255;
     }
     host->texel_count = total;
     world_renew(host, WORLD_TEXELS);
@@ -82,7 +82,7 @@ static bool shares_texels(struct host_world *host, const struct scene *scene,
         t->first = other->first;
         t->width = other->width;
         t->height = other->height;
-        t->has_holes = other->has_holes;
+        t->has_alpha = other->has_alpha;
         return true;
     }
     return false;

@@ -87,8 +87,9 @@ static void watch_files(struct render_control *control)
 /* Returns the limits of the mode; live mode has none. */
 static struct render_limits limits_of(const struct render_control *control)
 {
-    return control->is_live ? (struct render_limits){0}
-                            : options_limits(control->session->options);
+    const struct render_limits none = {0};
+
+    return control->is_live ? none : options_limits(control->session->options);
 }
 
 static void begin(struct render_control *control, bool is_step)

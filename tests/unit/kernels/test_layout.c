@@ -34,7 +34,7 @@
       M(material, bump_scale) M(material, transmission) M(material, coat)     \
       M(material, coat_alpha)                                                 \
     S(texture) M(texture, first) M(texture, width) M(texture, height)         \
-      M(texture, has_holes) M(texture, scale) M(texture, offset)              \
+      M(texture, has_alpha) M(texture, scale) M(texture, offset)              \
       M(texture, is_clamped) M(texture, is_data)                              \
     S(sky) M(sky, color) M(sky, width) M(sky, height) M(sky, rotation_sin)    \
       M(sky, rotation_cos) M(sky, pad)                                        \

@@ -119,7 +119,7 @@ static void holes_do_not_shine(void **state)
     for (int i = 0; i < TEXTURE_SIDE * TEXTURE_SIDE; i++)
         texels[i] = i % TEXTURE_SIDE < TEXTURE_SIDE / 2 ? 0 : 0xff000000u;
     add_picture(&m, uvs, texels, &texture, linear, 1);
-    texture.has_holes = 1;
+    texture.has_alpha = 1;
     m.materials[LAMP].emission_texture = NO_INDEX;
     m.materials[LAMP].color_texture = 0;
     m.materials[LAMP].opacity = 0.25f;

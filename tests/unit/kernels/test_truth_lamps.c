@@ -164,19 +164,24 @@ static void add_uvs(struct mesh *m)
            sizeof m->tris->vt);
 }
 
+/* Texels of the map in a row. Between two of them it is interpolated. */
+#define CUT_WIDTH 512
+
 /* A map keeps only the right half of a sheet: of the screen or of the lamp. */
 static void cut_outs_hide_and_shine_by_half(void **state)
 {
-    static const uint32_t texels[2] = {0, 0xff000000u};
+    static uint32_t texels[CUT_WIDTH];
     static const float linear[256] = {0};
-    const struct texture half = {.width = 2,
+    const struct texture half = {.width = CUT_WIDTH,
                                  .height = 1,
-                                 .has_holes = 1,
+                                 .has_alpha = 1,
                                  .scale = {1, 1},
                                  .is_clamped = 1};
     const struct receiver r = {{0.1f, 0, 0}, {0, 1, 0}, false};
 
     (void)state;
+    for (int i = CUT_WIDTH / 2; i < CUT_WIDTH; i++)
+        texels[i] = 0xff000000u;
     for (uint32_t cut = LAMP; cut <= SCREEN; cut++) {
         struct sheet lamp = ceiling, shade = screen;
         struct sheet *sheet = cut == LAMP ? &lamp : &shade;

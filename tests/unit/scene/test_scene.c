@@ -274,7 +274,7 @@ static void textures_are_read_with_their_options(void **state)
     assert_int_equal(l.world.textures[0].width, 2);
     assert_int_equal(l.world.textures[0].height, 1);
     assert_int_equal(l.world.textures[0].first, 0);
-    assert_int_equal(l.world.textures[0].has_holes, 1);
+    assert_int_equal(l.world.textures[0].has_alpha, 1);
     assert_int_equal(l.world.texel_count, 2);
     assert_int_equal(l.world.texels[0], 0xff0080ffu);
     assert_int_equal(l.world.texels[1] & 0xff000000u, 0);
