@@ -13,6 +13,7 @@
 #include "picture/blackbody.h"
 #include "scene/material.h"
 #include "formats/asset_path.h"
+#include "formats/mtl_dialect.h"
 #include "formats/mtl_map.h"
 
 struct parser {
@@ -28,6 +29,7 @@ struct parser {
     char *name; /* of the material that is being read; NULL before the first */
     uint64_t name_line;
     uint32_t file; /* number of this file in scene->mtl_paths */
+    enum mtl_dialect dialect;
     struct mtl_source source;
 };
 
@@ -199,6 +201,7 @@ static bool read_newmtl(struct parser *p)
     p->name_line = p->lex.line;
     p->name = lexer_rest(&p->lex);
     p->source = mtl_source_empty();
+    p->source.dialect = p->dialect;
     return p->name != NULL || out_of_memory(p);
 }
 
@@ -346,6 +349,18 @@ static void skip_statement(struct parser *p, struct word key)
                        p->path, p->lex.line, name);
 }
 
+/* Returns the table's row of a statement of one colour or number, or NULL. */
+static const struct mtl_property *find_property(const struct parser *p,
+                                                struct word key)
+{
+    if (p->dialect == MTL_CLASSIC && word_is(key, "Ka"))
+        return NULL;
+    for (int i = 0; i < MTL_PROPERTIES; i++)
+        if (word_is(key, mtl_properties[i].key))
+            return &mtl_properties[i];
+    return NULL;
+}
+
 static bool read_property(struct parser *p, struct word key)
 {
     struct mtl_source *s = &p->source;
@@ -353,27 +368,37 @@ static bool read_property(struct parser *p, struct word key)
         const char *key;
         enum mtl_map map;
         bool is_data;
+        bool is_of_blender; /* has this meaning in its files only */
     } maps[] = {
-        {"map_Kd", MTL_MAP_KD, false},    {"map_Ks", MTL_MAP_KS, false},
-        {"map_Ke", MTL_MAP_KE, false},    {"map_Pr", MTL_MAP_PR, true},
-        {"map_Pm", MTL_MAP_PM, true},     {"map_d", MTL_MAP_D, true},
-        {"norm", MTL_MAP_NORM, true},     {"bump", MTL_MAP_BUMP, true},
-        {"map_bump", MTL_MAP_BUMP, true}, {"map_Bump", MTL_MAP_BUMP, true},
+        {"map_Kd", MTL_MAP_KD, false, false},
+        {"map_Ks", MTL_MAP_KS, false, false},
+        {"map_Ke", MTL_MAP_KE, false, false},
+        {"map_Pr", MTL_MAP_PR, true, false},
+        {"map_Ns", MTL_MAP_PR, true, true},
+        {"map_Pm", MTL_MAP_PM, true, false},
+        {"map_refl", MTL_MAP_PM, true, true},
+        {"map_d", MTL_MAP_D, true, false},
+        {"norm", MTL_MAP_NORM, true, false},
+        {"map_Kn", MTL_MAP_NORM, true, false},
+        {"bump", MTL_MAP_BUMP, true, false},
+        {"map_bump", MTL_MAP_BUMP, true, false},
+        {"map_Bump", MTL_MAP_BUMP, true, false},
     };
+    const struct mtl_property *property = find_property(p, key);
 
     if (word_is(key, "Ke"))
         return read_light(p, key);
     if (word_is(key, "Ke_blackbody"))
         return read_blackbody(p, key);
-    for (int i = 0; i < MTL_PROPERTIES; i++) {
-        void *member = (char *)s + mtl_properties[i].member;
+    if (property != NULL) {
+        void *member = (char *)s + property->member;
 
-        if (word_is(key, mtl_properties[i].key))
-            return mtl_properties[i].is_color ? read_color(p, key, member)
-                                              : read_number(p, key, member);
+        return property->is_color ? read_color(p, key, member)
+                                  : read_number(p, key, member);
     }
     for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++) {
-        if (word_is(key, maps[i].key))
+        if (word_is(key, maps[i].key) &&
+            (p->dialect != MTL_CLASSIC || !maps[i].is_of_blender))
             return read_map(p, key, maps[i].is_data, &s->maps[maps[i].map],
                             maps[i].map == MTL_MAP_BUMP ? &s->bump_scale
                                                         : NULL);
@@ -441,6 +466,22 @@ static bool add_file(struct parser *p)
     return true;
 }
 
+/* Finds the dialect of the file and says it. The default material gets that of
+ * the first file, because copies of it are saved there. */
+static void find_dialect(struct parser *p, const char *text, size_t size_bytes)
+{
+    struct mtl_dialect_found found = mtl_dialect_find(text, size_bytes);
+
+    p->dialect = found.dialect;
+    if (p->file == 0)
+        p->scene->material_origins[0].source.dialect = found.dialect;
+    if (found.dialect == MTL_CLASSIC)
+        return;
+    warnings_add_named(p->report, "files of Blender", p->path,
+                       "%s: read as Blender %s%swrites it", p->path,
+                       found.version, *found.version != '\0' ? " " : "");
+}
+
 bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
                const char *path, struct warnings *report, struct error *err)
 {
@@ -455,6 +496,8 @@ bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
         p.material_capacity = scene->material_count;
         p.texture_capacity = scene->texture_count;
         ok = add_file(&p) && register_existing(&p);
+        if (ok)
+            find_dialect(&p, text, size_bytes);
         ok = ok ? parse_lines(&p) : out_of_memory(&p);
     }
     free(p.name);

@@ -6,16 +6,32 @@
 #include <string.h>
 
 #include "base/decimal.h"
+#include "base/memory.h"
 #include "formats/asset_path.h"
+#include "formats/mtl_dialect.h"
 #include "formats/mtl_document.h"
 #include "formats/mtl_map.h"
 
 static mtl_aliases light_keys = {"Ke", "Ke_blackbody"};
 static mtl_aliases blackbody_keys = {"Ke_blackbody", "Ke"};
-static mtl_aliases map_keys[MTL_MAPS] = {
-    {"map_Kd"}, {"map_Ks"}, {"map_Ke"}, {"map_Pr"},
-    {"map_Pm"}, {"map_d"},  {"norm"},   {"map_Bump", "map_bump", "bump"},
+static mtl_aliases classic_map_keys[MTL_MAPS] = {
+    {"map_Kd"},         {"map_Ks"},
+    {"map_Ke"},         {"map_Pr"},
+    {"map_Pm"},         {"map_d"},
+    {"norm", "map_Kn"}, {"map_Bump", "map_bump", "bump"},
 };
+static mtl_aliases roughness_of_blender = {"map_Pr", "map_Ns"};
+static mtl_aliases metal_of_blender = {"map_Pm", "map_refl"};
+
+/* Returns the keys that mean this map in a file of the material's dialect. */
+static const char *const *map_keys(const struct mtl_source *s, enum mtl_map map)
+{
+    if (s->dialect != MTL_CLASSIC && map == MTL_MAP_PR)
+        return roughness_of_blender;
+    if (s->dialect != MTL_CLASSIC && map == MTL_MAP_PM)
+        return metal_of_blender;
+    return classic_map_keys[map];
+}
 
 struct writer {
     const struct scene *scene;
@@ -171,6 +187,7 @@ static bool write_map(struct writer *w, const struct mtl_change *c,
 {
     bool was_on = mtl_source_map(c->before, map) != NO_INDEX;
     bool is_on = mtl_source_map(c->after, map) != NO_INDEX;
+    const char *const *keys = map_keys(c->after, map);
     struct mtl_block b;
     size_t hash;
     char *value;
@@ -179,14 +196,13 @@ static bool write_map(struct writer *w, const struct mtl_change *c,
     if (was_on == is_on)
         return true;
     if (!is_on)
-        return mtl_document_comment(&w->text, c->name, map_keys[map]);
+        return mtl_document_comment(&w->text, c->name, keys);
     if (!mtl_document_find_block(&w->text, c->name, &b))
         return false;
-    if (find_commented_map(w, &b, map_keys[map], c->after->maps[map], &hash))
+    if (find_commented_map(w, &b, keys, c->after->maps[map], &hash))
         return mtl_document_splice(&w->text, hash, 1, "");
     value = map_value(w, c->after, map);
-    ok = value != NULL &&
-         mtl_document_insert(&w->text, &b, map_keys[map][0], value);
+    ok = value != NULL && mtl_document_insert(&w->text, &b, keys[0], value);
     free(value);
     return ok;
 }
@@ -230,6 +246,23 @@ static bool write_change(struct writer *w, const struct mtl_change *c)
     return ok;
 }
 
+/* Names the dialect in the first line if the changed statements do not show it
+ * any more. */
+static bool keep_dialect(struct mtl_document *t, enum mtl_dialect dialect)
+{
+    struct lexer lex = mtl_document_lex(t, 0);
+    char *line;
+    bool ok;
+
+    if (mtl_dialect_find(t->bytes, t->size).dialect == dialect)
+        return true;
+    line = format_text("%s%s", mtl_dialect_line(dialect), t->line_end);
+    ok = line != NULL &&
+         mtl_document_splice(t, (size_t)(lex.p - t->bytes), 0, line);
+    free(line);
+    return ok;
+}
+
 bool mtl_rewrite(const struct scene *scene, const char *path, const char *text,
                  size_t size_bytes, const struct mtl_change *changes,
                  size_t change_count, char **new_text, size_t *new_size_bytes,
@@ -244,6 +277,8 @@ bool mtl_rewrite(const struct scene *scene, const char *path, const char *text,
         ok = changes[i].copied_from == NULL || write_change(&w, &changes[i]);
     for (size_t i = 0; ok && i < change_count; i++)
         ok = changes[i].copied_from != NULL || write_change(&w, &changes[i]);
+    ok =
+        ok && keep_dialect(&w.text, mtl_dialect_find(text, size_bytes).dialect);
     if (!ok) {
         free(w.text.bytes);
         return fail(err, "%s: out of memory for the changed materials", path);

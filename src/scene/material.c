@@ -8,7 +8,8 @@
 
 #include "kernels/light.h"
 
-/* Least Ns that gives a perfect mirror: exporters write 1000 for mirrors. */
+/* Least Ns that gives a perfect mirror: exporters write 1000 for mirrors.
+ * Blender writes 1000 times the square of 1 - roughness. */
 #define NS_SMOOTH 1000
 
 /* Roughness below which a surface cannot be distinguished from a Lambertian
@@ -111,6 +112,11 @@ static double within(const struct mtl_number *n, const char *key, double lo,
     return missing;
 }
 
+static bool is_of_blender(const struct mtl_source *s)
+{
+    return s->dialect != MTL_CLASSIC;
+}
+
 static double alpha(const struct mtl_source *s, const struct diagnostics *at)
 {
     double ns = within(&s->ns, "Ns", 0, DBL_MAX, 0, at);
@@ -122,6 +128,11 @@ static double alpha(const struct mtl_source *s, const struct diagnostics *at)
     }
     if (mtl_source_map(s, MTL_MAP_PR) != NO_INDEX)
         return 1;
+    if (is_of_blender(s) && s->ns.line != 0) {
+        double roughness = 1 - sqrt(fmin(ns, NS_SMOOTH) / NS_SMOOTH);
+
+        return roughness * roughness;
+    }
     return ns == 0 || ns >= NS_SMOOTH ? 0 : sqrt(2 / (ns + 2));
 }
 
@@ -165,14 +176,44 @@ static void make_glass(struct material *m, uint32_t kind,
     m->ior = index_of(s, at);
 }
 
-/* Recognises opaque materials that Maya writes as illum 4, with Ni 1 and Tf 1 1
- * 1. As thin glass, without refraction or tint, they would be invisible. */
-static bool is_no_sheet(const struct mtl_source *s)
+/* Returns true if the statements ask for partial opacity. */
+static bool is_partial(const struct mtl_source *s)
 {
-    const double *tf = s->tf.rgb;
+    double d = s->d.line != 0 ? s->d.value : 1 - s->tr.value;
 
-    return s->ni.line != 0 && s->ni.value == 1 && s->tf.line != 0 &&
-           tf[0] == 1 && tf[1] == 1 && tf[2] == 1;
+    /* other programs write d 0 beside illum 4 for clear glass */
+    return mtl_source_map(s, MTL_MAP_D) != NO_INDEX ||
+           (d < 1 && (d > 0 || is_of_blender(s)));
+}
+
+static bool is_white_or_absent(const struct mtl_color *c)
+{
+    return c->line == 0 || (c->rgb[0] == 1 && c->rgb[1] == 1 && c->rgb[2] == 1);
+}
+
+/* Returns true for illum 4 and 9 that mean a sheet of glass. With neither tint
+ * nor refraction it would be invisible: then they mean an opaque surface, as
+ * Maya writes it, or one of partial opacity. Blender writes illum 9 for all
+ * materials of partial opacity. */
+static bool is_sheet(const struct mtl_source *s, int illum)
+{
+    bool has_surface = s->tf.line != 0 || s->kd.line != 0 || s->ks.line != 0 ||
+                       mtl_source_map(s, MTL_MAP_KD) != NO_INDEX;
+
+    if (illum != 4 && illum != 9)
+        return false;
+    if (is_of_blender(s) && illum == 9)
+        return !is_partial(s);
+    return !is_white_or_absent(&s->tf) ||
+           !(is_partial(s) ||
+             (s->ni.line != 0 && s->ni.value == 1 && has_surface));
+}
+
+/* Returns true for illum 6 and 7 that mean solid glass. Blender writes 6 for
+ * metals of partial opacity. */
+static bool is_solid_glass(const struct mtl_source *s, int illum)
+{
+    return illum == 7 || (illum == 6 && !(is_of_blender(s) && is_partial(s)));
 }
 
 static bool is_black(const struct vec3 *c)
@@ -180,14 +221,29 @@ static bool is_black(const struct vec3 *c)
     return c->x == 0 && c->y == 0 && c->z == 0;
 }
 
+/* Returns the reflectance of plastic whose Ks is 1. From Blender 4.0 on, Ks 0.5
+ * is the Fresnel reflectance of Ni. */
+static float full_specular(const struct mtl_source *s,
+                           const struct diagnostics *at)
+{
+    float ni = index_of(s, at);
+    float r = (ni - 1) / (ni + 1);
+
+    return s->dialect == MTL_BLENDER_4 ? 2 * r * r : MATERIAL_SPECULAR;
+}
+
 static void make_plastic(struct material *m, const struct vec3 *ks,
                          const struct mtl_source *s,
                          const struct diagnostics *at)
 {
+    float full = full_specular(s, at);
+    bool is_map_alone = is_of_blender(s) && s->ks.line == 0;
+
     m->kind = MATERIAL_PLASTIC;
-    m->specular =
-        (struct vec3){ks->x * MATERIAL_SPECULAR, ks->y * MATERIAL_SPECULAR,
-                      ks->z * MATERIAL_SPECULAR};
+    m->specular = is_map_alone ? (struct vec3){full, full, full}
+                               : (struct vec3){fminf(ks->x * full, 1),
+                                               fminf(ks->y * full, 1),
+                                               fminf(ks->z * full, 1)};
     m->specular_texture = mtl_source_map(s, MTL_MAP_KS);
     roughen(m, s, at);
 }
@@ -217,10 +273,29 @@ static double transmission(const struct mtl_source *s, int illum,
 {
     struct vec3 tf;
 
-    if (s->pr.line == 0 || s->tf.line == 0 || (illum != 2 && illum != 3))
+    if (s->tf.line == 0)
+        return 0;
+    if (is_of_blender(s)
+            ? s->pr.line == 0 && mtl_source_map(s, MTL_MAP_PR) == NO_INDEX
+            : s->pr.line == 0 || (illum != 2 && illum != 3))
         return 0;
     tf = reflecting(&s->tf, "Tf", 0, at);
     return (double)(tf.x + tf.y + tf.z) / 3;
+}
+
+/* Returns the weight of metal. Without the extension, Blender writes it as Ka,
+ * which is 1 for other materials. */
+static double metalness(const struct mtl_source *s, int illum,
+                        const struct diagnostics *at)
+{
+    bool has_map = mtl_source_map(s, MTL_MAP_PM) != NO_INDEX;
+    double ka = s->ka.line != 0 ? unit_clamped(s->ka.rgb[0]) : 1;
+
+    if (s->pm.line != 0 || !is_of_blender(s))
+        return s->pm.line == 0 && has_map ? 1 : unit(&s->pm, "Pm", at);
+    if (has_map || illum == 3 || illum == 6)
+        return has_map ? 1 : ka;
+    return illum == 1 && ka < 1 ? ka : 0; /* Ks is 0 */
 }
 
 /* Sets the weights of a mixture. Returns false, and leaves the material, if it
@@ -229,18 +304,17 @@ static bool make_principled(struct material *m, int illum,
                             const struct mtl_source *s,
                             const struct diagnostics *at)
 {
-    double pm = unit(&s->pm, "Pm", at), pcr = unit(&s->pcr, "Pcr", at);
+    struct mtl_number pc = {s->pc.value / mtl_source_full_coat(s), s->pc.line};
+    double pcr = unit(&s->pcr, "Pcr", at);
 
     m->metal_texture = mtl_source_map(s, MTL_MAP_PM);
-    m->metalness = (float)pm;
-    if (m->metal_texture != NO_INDEX && s->pm.line == 0)
-        m->metalness = 1;
+    m->metalness = (float)metalness(s, illum, at);
     m->transmission = (float)transmission(s, illum, at);
-    m->coat = (float)unit(&s->pc, "Pc", at);
+    m->coat = (float)unit(&pc, "Pc", at);
     if (m->coat > 0)
         m->coat_alpha = (float)(pcr * pcr);
     return m->metal_texture != NO_INDEX || m->transmission > 0 || m->coat > 0 ||
-           (pm > 0 && pm < 1);
+           (m->metalness > 0 && m->metalness < 1);
 }
 
 static void make_opaque(struct material *m, int illum,
@@ -285,6 +359,16 @@ static void make_opaque(struct material *m, int illum,
     }
 }
 
+/* Reports a surface property that the kernels do not have. */
+static void check_absent(const struct mtl_number *n, const char *key,
+                         const char *name, const struct diagnostics *at)
+{
+    if (n->line != 0 && n->value > 0)
+        warnings_add_named(at->report, "properties that are not rendered", key,
+                           "%s:%" PRIu64 ": found %s %g: %s is not rendered",
+                           at->path, n->line, key, n->value, name);
+}
+
 /* Reports a map that this kind of material does not use. */
 static void check_map(const struct mtl_source *s, enum mtl_map which,
                       const struct material *m, const struct diagnostics *at)
@@ -309,14 +393,22 @@ struct material material_from_source(const struct mtl_source *s,
     struct mtl_color light = mtl_source_light(s);
     int illum = illumination(s, &at);
 
-    if (illum == 6 || illum == 7)
+    if (is_solid_glass(s, illum))
         make_glass(&m, MATERIAL_GLASS, s, &at);
-    else if ((illum == 4 || illum == 9) && !is_no_sheet(s))
+    else if (is_sheet(s, illum))
         make_glass(&m, MATERIAL_THIN_GLASS, s, &at);
     else
         make_opaque(&m, illum, s, &at);
     for (size_t i = 0; i < sizeof kind_maps / sizeof kind_maps[0]; i++)
         check_map(s, kind_maps[i], &m, &at);
+    check_absent(&s->ps, "Ps", "sheen", &at);
+    check_absent(&s->aniso, "aniso", "anisotropy", &at);
+    if (m.kind == MATERIAL_THIN_GLASS && m.ior == 1 &&
+        is_white_or_absent(&s->tf) && m.color_texture == NO_INDEX)
+        warnings_add(report, "invisible materials",
+                     "%s:%" PRIu64 ": found glass of Ni 1 without a tint: "
+                     "surfaces with this material are invisible",
+                     path, s->illum.line);
     m.normal_texture = mtl_source_map(s, MTL_MAP_NORM);
     m.bump_texture = mtl_source_map(s, MTL_MAP_BUMP);
     m.bump_scale = (float)s->bump_scale;

@@ -5,7 +5,8 @@
  *
  * The kind of a material is the first of these that applies:
  *   glass        illum 6 or 7; colour Tf times map_Kd
- *   thin glass   illum 4 or 9; colour Tf times map_Kd
+ *   thin glass   illum 4 or 9, unless Tf is white or absent and d is below 1 or
+ *                Ni is 1; colour Tf times map_Kd
  *   principled   Pm between 0 and 1, map_Pm, Pc above 0, or Tf that is not
  *                black beside Pr: a mixture of metal of colour Kd (weight Pm
  *                times map_Pm), glass (mean of Tf) and plastic, under a coat
@@ -19,6 +20,11 @@
  * A map multiplies its colour. Roughness alpha is Pr squared; without Pr it is
  * sqrt(2 / (Ns + 2)), or 0 if Ns is absent, 0, or at least 1000. Pr defaults
  * to 1 if there is map_Pr, and Pm to 1 if there is map_Pm.
+ *
+ * In files of Blender (enum mtl_dialect), Ks never is a colour of metal; Pm is
+ * Ka with illum 3 and 6 if there is no Pm; roughness is 1 - sqrt(Ns / 1000);
+ * illum 9, and 6 with d below 1, are no glass; and from 4.0 on Ks scales twice
+ * the Fresnel reflectance of Ni, and Pc is 4 times the weight of the coat.
  *
  * Threads:   any
  * Errors:    impossible values are replaced, with a warning

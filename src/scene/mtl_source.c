@@ -12,6 +12,7 @@ const struct mtl_property mtl_properties[MTL_PROPERTIES] = {
     {"Kd", MEMBER(kd), true},
     {"Ks", MEMBER(ks), true},
     {"Tf", MEMBER(tf), true},
+    {"Ka", MEMBER(ka), true},
     {"illum", MEMBER(illum), false},
     {"Ns", MEMBER(ns), false},
     {"Ni", MEMBER(ni), false},
@@ -22,6 +23,9 @@ const struct mtl_property mtl_properties[MTL_PROPERTIES] = {
     {"Pc", MEMBER(pc), false},
     {"Pcr", MEMBER(pcr), false},
     {"Kd_roughness", MEMBER(kd_roughness), false},
+    {"Ps", MEMBER(ps), false},
+    {"aniso", MEMBER(aniso), false},
+    {"anisor", MEMBER(anisor), false},
 };
 
 const char *const mtl_map_keys[MTL_MAPS] = {
@@ -79,8 +83,8 @@ bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b)
     for (int i = 0; i < MTL_PROPERTIES; i++)
         if (!property_equal(&mtl_properties[i], a, b))
             return false;
-    return a->maps_off == b->maps_off && a->bump_scale == b->bump_scale &&
-           mtl_color_equal(&a->ke, &b->ke) &&
+    return a->dialect == b->dialect && a->maps_off == b->maps_off &&
+           a->bump_scale == b->bump_scale && mtl_color_equal(&a->ke, &b->ke) &&
            mtl_number_equal(&a->kelvin, &b->kelvin) &&
            mtl_number_equal(&a->luminance, &b->luminance);
 }
@@ -105,8 +109,14 @@ struct mtl_color mtl_source_light(const struct mtl_source *s)
     return light;
 }
 
+double mtl_source_full_coat(const struct mtl_source *s)
+{
+    return s->dialect == MTL_BLENDER_4 ? 4 : 1;
+}
+
 bool mtl_source_is_mirror(const struct mtl_source *s)
 {
-    return (s->illum.value == 3 || s->illum.value == 5) && s->pm.line == 0 &&
+    return s->dialect == MTL_CLASSIC &&
+           (s->illum.value == 3 || s->illum.value == 5) && s->pm.line == 0 &&
            mtl_source_map(s, MTL_MAP_PM) == NO_INDEX;
 }

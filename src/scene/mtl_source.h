@@ -37,8 +37,7 @@ enum mtl_map {
     MTL_MAPS
 };
 
-/* Keys of the map statements. Height maps have three keys, of which this is
- * one. */
+/* Keys of the map statements. Some have other keys as well. */
 extern const char *const mtl_map_keys[MTL_MAPS];
 
 /* The program whose meaning the statements of a file have. */
@@ -51,9 +50,11 @@ enum mtl_dialect {
 struct mtl_source {
     uint32_t dialect; /* enum mtl_dialect, that of the whole file */
     struct mtl_color kd, ks, ke, tf;
+    struct mtl_color ka; /* read in files of Blender only */
     /* the two numbers of Ke_blackbody, which replaces Ke */
     struct mtl_number kelvin, luminance;
     struct mtl_number illum, ns, ni, d, tr, pr, pm, pc, pcr, kd_roughness;
+    struct mtl_number ps, aniso, anisor;
     uint32_t maps[MTL_MAPS]; /* numbers of textures, or NO_INDEX */
     uint32_t maps_off; /* bit set of 1 << enum mtl_map: maps to be ignored */
     double bump_scale; /* factor for the heights of MTL_MAP_BUMP */
@@ -68,7 +69,7 @@ struct mtl_property {
     bool is_color;
 };
 
-#define MTL_PROPERTIES 13
+#define MTL_PROPERTIES 17
 
 /* All statements of one colour or number, colours first. */
 extern const struct mtl_property mtl_properties[MTL_PROPERTIES];
@@ -83,6 +84,9 @@ bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b);
 
 /* Returns the texture of a map, or NO_INDEX if it is absent or switched off. */
 uint32_t mtl_source_map(const struct mtl_source *source, enum mtl_map map);
+
+/* Returns the Pc of a coat of weight 1. */
+double mtl_source_full_coat(const struct mtl_source *source);
 
 /* True if the statements ask for a mirror whose colour is Ks. */
 bool mtl_source_is_mirror(const struct mtl_source *source);

@@ -10,6 +10,9 @@
 /* Ks that a material gets when it becomes plastic; see MATERIAL_SPECULAR. */
 #define KS_DEFAULT 0.5
 
+/* Ni of a sheet of glass that would be invisible. */
+#define NI_DEFAULT 1.5
+
 /* Pm of a material that becomes a mixture, if it was none. */
 #define PM_DEFAULT 0.5
 
@@ -143,6 +146,19 @@ static void set_opaque(struct mtl_source *s, uint32_t bits, const double rgb[3])
         put_grey(&s->ks, 0);
 }
 
+/* Removes what would make an untinted sheet of glass an opaque surface. */
+static void keep_sheet(struct mtl_source *s)
+{
+    if (s->d.line != 0)
+        put_number(&s->d, 1);
+    if (s->tr.line != 0)
+        put_number(&s->tr, 0);
+    if (s->maps[MTL_MAP_D] != NO_INDEX)
+        s->maps_off |= 1u << MTL_MAP_D;
+    if (s->ni.line != 0 && s->ni.value == 1)
+        put_number(&s->ni, NI_DEFAULT);
+}
+
 /* Changes the kind of the material and keeps its colour. Maps that would make
  * it another kind are switched off. */
 static void set_kind(struct owner *o, const struct value *v)
@@ -162,6 +178,8 @@ static void set_kind(struct owner *o, const struct value *v)
     }
     put_number(&s->illum, bits == GLASS ? 7 : 4);
     put_color(&s->tf, color.rgb);
+    if (bits == THIN)
+        keep_sheet(s);
 }
 
 /* ---- surface of a material ---- */
@@ -197,7 +215,7 @@ static void set_transmission(struct owner *o, const struct value *v)
 
     if (s->pr.line == 0)
         put_number(&s->pr, sqrt((double)o->material.alpha));
-    if (s->illum.line != 0 && s->illum.value != 3)
+    if (s->dialect == MTL_CLASSIC && s->illum.line != 0 && s->illum.value != 3)
         put_number(&s->illum, 2);
     put_grey(&s->tf, v->number);
 }
@@ -211,6 +229,17 @@ static bool get_specular(const struct owner *o, struct value *v)
 static void set_specular(struct owner *o, const struct value *v)
 {
     put_grey(&o->source.ks, v->number);
+}
+
+static bool get_coat(const struct owner *o, struct value *v)
+{
+    v->number = (double)o->material.coat;
+    return true;
+}
+
+static void set_coat(struct owner *o, const struct value *v)
+{
+    put_number(&o->source.pc, v->number * mtl_source_full_coat(&o->source));
 }
 
 static bool get_coat_roughness(const struct owner *o, struct value *v)
@@ -336,7 +365,7 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
      .set = set_transmission},
     {"index", CLEAR | MIXED, VALUE_NUMBER, &scale_ior, STATEMENT(ni, ior)},
     {"coat", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
-     STATEMENT(pc, coat)},
+     .get = get_coat, .set = set_coat},
     {"coat rough", MIXED, VALUE_NUMBER, &scale_unit, .get = get_coat_roughness,
      .set = set_coat_roughness},
     {"cover", OPAQUE, VALUE_NUMBER, &scale_unit, STATEMENT(d, opacity)},

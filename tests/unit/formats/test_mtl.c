@@ -105,11 +105,14 @@ static void statements_choose_the_kind(void **state)
         {"Ni 1\nPr .5\nillum 6", MATERIAL_GLASS, 1, .25, 1},
         {"Tf .25\nNi .75\nillum 4", MATERIAL_THIN_GLASS, .25, 0, .75},
         {"Tf .25\nNi 1\nillum 4", MATERIAL_THIN_GLASS, .25, 0, 1},
-        {"Ni 1\nillum 4", MATERIAL_THIN_GLASS, 1, 0, 1},
         /* Maya writes this for an opaque material. */
         {"illum 4\nKd .25\nTf 1 1 1\nNi 1.00", MATERIAL_DIFFUSE, .25, 0, 1.5},
         {"illum 4\nKd .5\nTf 1 1 1\nNi 1\nKs .5\nNs 6", MATERIAL_PLASTIC, .5,
          .5, 1.5},
+        /* An untinted sheet of partial opacity, or of Ni 1, is a surface. */
+        {"illum 4\nKd .5\nKs .5\nNs 6\nNi 1", MATERIAL_PLASTIC, .5, .5, 1.5},
+        {"illum 9\nKd .5\nNi 1", MATERIAL_DIFFUSE, .5, 0, 1.5},
+        {"illum 4\nKd .5\nd 0\nNi 1.3", MATERIAL_THIN_GLASS, 1, 0, 1.3},
         {"Ni 1000000\nPr .5\nillum 9", MATERIAL_THIN_GLASS, 1, 0, 1e6},
     };
 
@@ -224,6 +227,14 @@ static void d_and_tr_are_the_opacity(void **state)
     check_close((double)only_material("d 7", 1).opacity, 1, 0);
     check_close((double)only_material("d nan", 1).opacity, 1, 0);
     check_close((double)only_material("d .25\nillum 7", 0).opacity, 1, 0);
+    /* an untinted sheet of partial opacity is a surface */
+    check_close((double)only_material("d .25\nillum 9", 0).opacity, .25, 0);
+    check_close((double)only_material("Tr .75\nillum 4", 0).opacity, .25, 0);
+    check_close((double)only_material("d .25\nTf .5\nillum 9", 0).opacity, 1,
+                0);
+    /* and one of Ni 1 without any colour is reported */
+    assert_int_equal(only_material("Ni 1\nillum 4", 1).kind,
+                     MATERIAL_THIN_GLASS);
 }
 
 static void check_refused(const char *text, const char *message)

@@ -238,7 +238,7 @@ static void check_written_whole(const struct loaded *l, const char *name,
 static void duplicates_come_last(void **state)
 {
     static const char text[] =
-        "newmtl m\nKd 0 0 0\naniso .3 # x\n\n# end\nnewmtl n\nKd 1 1 1";
+        "newmtl m\nKd 0 0 0\nsharpness 60 # x\n\n# end\nnewmtl n\nKd 1 1 1";
     struct mtl_source after;
     struct mtl_change change;
     struct loaded l;
@@ -253,9 +253,10 @@ static void duplicates_come_last(void **state)
                                  &l.scene.material_origins[1].source, &after};
     got =
         rewrite(&l.scene, "a.mtl", text, strlen(text), &change, 1, &size_bytes);
-    assert_string_equal(got, "newmtl m\nKd 0 0 0\naniso .3 # x\n\n# end\n"
-                             "newmtl n\nKd 1 1 1\n\n"
-                             "newmtl m copy\nKd 1 0.5 0.25\naniso .3 # x\n");
+    assert_string_equal(got,
+                        "newmtl m\nKd 0 0 0\nsharpness 60 # x\n\n# end\n"
+                        "newmtl n\nKd 1 1 1\n\n"
+                        "newmtl m copy\nKd 1 0.5 0.25\nsharpness 60 # x\n");
     free(got);
     /* Another program has removed the block. */
     check_written_whole(&l, "m", &after, "\nnewmtl m\nKd 1 0.5 0.25\n");

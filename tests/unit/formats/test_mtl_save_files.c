@@ -59,6 +59,8 @@ static struct mtl_source changed(const struct mtl_source *from)
     change_number(&s.tr, 1);
     change_number(&s.pr, 1);
     change_number(&s.pm, 1);
+    change_number(&s.pc, 1);
+    change_number(&s.pcr, 1);
     change_number(&s.kd_roughness, 1);
     change_number(&s.kelvin, 9000);
     s.luminance = s.kelvin.line != 0 ? number(random_unit() * 50)
