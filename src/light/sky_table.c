@@ -16,34 +16,56 @@
  * the least. */
 #define SHARE_BESIDE_LIGHTS 0.5f
 
+/* Image that is read row by row from the top. */
 struct image {
     const struct vec3 *texels;
     uint32_t width, height;
+    /* four rows of doubles: the bilinear means of the current row, then the row
+     * means of it and of its neighbours, row y at y % 3 */
+    double *lines;
 };
 
-static double radiance(const struct image *im, uint32_t x, uint32_t y)
+static double *row_means(const struct image *im, uint32_t y)
 {
-    return color_mean(im->texels[(size_t)y * im->width + x]);
+    return im->lines + (size_t)im->width * (1 + y % 3);
 }
 
-/* The mean of linear interpolation over a texel: 3/4 of its own value and 1/8
- * of either neighbour. */
-static double row_mean(const struct image *im, uint32_t x, uint32_t y)
+/* Sets the means of linear interpolation over the texels of a row: 3/4 of each
+ * value and 1/8 of either neighbour. */
+static void read_row(const struct image *im, uint32_t y)
 {
-    uint32_t left = x > 0 ? x - 1 : im->width - 1;
-    uint32_t right = x + 1 < im->width ? x + 1 : 0;
+    const struct vec3 *row = im->texels + (size_t)y * im->width;
+    double *means = row_means(im, y);
+    double first = color_mean(row[0]);
+    double left = color_mean(row[im->width - 1]);
+    double here = first;
 
-    return 0.75 * radiance(im, x, y) +
-           0.125 * (radiance(im, left, y) + radiance(im, right, y));
+    for (uint32_t x = 0; x < im->width; x++) {
+        double right = x + 1 < im->width ? color_mean(row[x + 1]) : first;
+
+        means[x] = 0.75 * here + 0.125 * (left + right);
+        left = here;
+        here = right;
+    }
 }
 
-static double bilinear_mean(const struct image *im, uint32_t x, uint32_t y)
+/* Returns the means of bilinear interpolation over the texels of a row. Rows
+ * come in their order. */
+static const double *bilinear_means(const struct image *im, uint32_t y)
 {
     uint32_t above = y > 0 ? y - 1 : 0;
     uint32_t below = y + 1 < im->height ? y + 1 : y;
+    const double *up = row_means(im, above);
+    const double *here = row_means(im, y);
+    const double *down = row_means(im, below);
 
-    return 0.75 * row_mean(im, x, y) +
-           0.125 * (row_mean(im, x, above) + row_mean(im, x, below));
+    if (y == 0)
+        read_row(im, 0);
+    if (below != y)
+        read_row(im, below);
+    for (uint32_t x = 0; x < im->width; x++)
+        im->lines[x] = 0.75 * here[x] + 0.125 * (up[x] + down[x]);
+    return im->lines;
 }
 
 /* Solid angle of a row of texels. All rows add up to 4 pi. */
@@ -59,10 +81,11 @@ static double mean_radiance(const struct image *im)
     double sum = 0;
 
     for (uint32_t y = 0; y < im->height; y++) {
+        const double *means = bilinear_means(im, y);
         double row = 0;
 
         for (uint32_t x = 0; x < im->width; x++)
-            row += bilinear_mean(im, x, y);
+            row += means[x];
         sum += row / im->width * row_angle(im, y);
     }
     return sum / (4 * M_PI);
@@ -73,13 +96,14 @@ static double mean_radiance(const struct image *im)
 static double fill_row(const struct image *im, uint32_t y, double floor,
                        float *sums)
 {
+    const double *means = bilinear_means(im, y);
     double total = 0, sum = 0;
 
     for (uint32_t x = 0; x < im->width; x++)
-        total += fmax(bilinear_mean(im, x, y) - floor, 0);
+        total += fmax(means[x] - floor, 0);
     for (uint32_t x = 0; x < im->width && total > 0; x++) {
         sums[x] = (float)(sum / total);
-        sum += fmax(bilinear_mean(im, x, y) - floor, 0);
+        sum += fmax(means[x] - floor, 0);
     }
     sums[im->width] = 1;
     return total / im->width;
@@ -104,43 +128,56 @@ static void free_sums(struct sky_table *table)
     table->sums = NULL;
 }
 
+/* Fills the table of an image whose mean is above zero. */
+static void fill_table(struct sky_table *table, const struct image *im,
+                       double floor, double *rows)
+{
+    struct sky sky = {.width = im->width, .height = im->height};
+    double total = 0;
+
+    for (uint32_t y = 0; y < im->height; y++) {
+        float *sums = table->sums + sky_row_cdf(sky, y);
+
+        rows[y] = fill_row(im, y, floor, sums) * row_angle(im, y);
+        total += rows[y];
+    }
+    if (total > ROUNDING * 4 * M_PI * table->mean)
+        fill_rows(rows, im->height, total, table->sums);
+    else
+        free_sums(table);
+}
+
 bool sky_table_build(struct sky_table *table, const struct vec3 *texels,
                      uint32_t width, uint32_t height, enum sky_use use,
                      struct error *err)
 {
-    struct image im = {texels, width, height};
-    struct sky sky = {.width = width, .height = height};
-    double mean = texels != NULL ? mean_radiance(&im) : 0;
-    double floor = use == SKY_WITH_MIS ? mean : 0;
-    double total = 0;
+    struct image im = {texels, width, height, NULL};
     double *rows;
+    bool ok;
 
     sky_table_free(table);
-    table->mean = mean;
-    if (!(mean > 0))
+    if (texels == NULL)
         return true;
     rows = alloc_array(height, sizeof *rows);
-    table->sums =
-        alloc_array((size_t)height + 1 + (size_t)height * ((size_t)width + 1),
-                    sizeof *table->sums);
-    if (rows == NULL || table->sums == NULL) {
-        free(rows);
-        sky_table_free(table);
-        return fail(err, "out of memory for the table of a sky of %ux%u", width,
-                    height);
+    im.lines = alloc_array((size_t)width * 4, sizeof *im.lines);
+    ok = rows != NULL && im.lines != NULL;
+    if (ok)
+        table->mean = mean_radiance(&im);
+    if (ok && table->mean > 0) {
+        table->sums = alloc_array((size_t)height + 1 +
+                                      (size_t)height * ((size_t)width + 1),
+                                  sizeof *table->sums);
+        ok = table->sums != NULL;
+        if (ok)
+            fill_table(table, &im, use == SKY_WITH_MIS ? table->mean : 0, rows);
     }
-    for (uint32_t y = 0; y < height; y++) {
-        float *sums = table->sums + sky_row_cdf(sky, y);
-
-        rows[y] = fill_row(&im, y, floor, sums) * row_angle(&im, y);
-        total += rows[y];
-    }
-    if (total > ROUNDING * 4 * M_PI * mean)
-        fill_rows(rows, height, total, table->sums);
-    else
-        free_sums(table);
+    free(im.lines);
     free(rows);
-    return true;
+    if (ok)
+        return true;
+    sky_table_free(table);
+    return fail(err, "out of memory for the table of a sky of %ux%u", width,
+                height);
 }
 
 /* The sky's share of light samples. */
