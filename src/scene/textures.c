@@ -2,6 +2,7 @@
 #include "scene/textures.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -280,6 +281,57 @@ static bool resolve_data_map(const struct host_world *host, uint32_t *texture)
     return is_missing;
 }
 
+/* Texels of an image that are looked at, evenly spread. */
+#define NORMAL_TEXELS 4096
+
+/* Returns true if the texels are unit vectors, most of them along blue. Black
+ * and white texels are paddings. Compressed images miss the unit by a tenth;
+ * heights are grey, so they have as much red as blue. */
+static bool is_normal_map(const struct host_world *host,
+                          const struct texture *t)
+{
+    uint64_t count = (uint64_t)t->width * t->height;
+    uint64_t step = count / NORMAL_TEXELS + 1;
+    double seen = 0, units = 0, blue = 0, red = 0;
+
+    for (uint64_t i = 0; i < count; i += step) {
+        uint32_t texel = host->texels[t->first + i] & 0xffffff;
+        double x = (texel & 255) / 127.5 - 1,
+               y = (texel >> 8 & 255) / 127.5 - 1;
+        double z = (texel >> 16) / 127.5 - 1;
+
+        if (texel == 0 || texel == 0xffffff)
+            continue;
+        seen++;
+        units += fabs(sqrt(x * x + y * y + z * z) - 1) < 0.1;
+        blue += z;
+        red += x;
+    }
+    return seen > 0 && units >= 0.8 * seen && blue >= 0.5 * seen &&
+           blue - red >= 0.25 * seen;
+}
+
+/* Uses a normal map that is named as a map of heights for what it is. Blender
+ * and others write normal maps as map_Bump. */
+static void resolve_bump_map(const struct host_world *host,
+                             const struct scene *scene, struct material *m,
+                             struct warnings *report)
+{
+    uint32_t map = m->bump_texture;
+
+    if (resolve_data_map(host, &m->bump_texture) || map == NO_INDEX ||
+        !is_normal_map(host, &host->textures[map]))
+        return;
+    m->bump_texture = NO_INDEX;
+    if (m->normal_texture == NO_INDEX)
+        m->normal_texture = map;
+    warnings_add(report, "normal maps in map_Bump",
+                 "%s:%" PRIu64 ": found a map of normals, expected heights: "
+                 "used as norm",
+                 scene->mtl_paths[scene->texture_origins[map].file],
+                 scene->texture_origins[map].line);
+}
+
 #define MAPS 8
 
 static void list_maps(const struct material *m, uint32_t maps[MAPS])
@@ -334,7 +386,7 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
         m->metalness = 0;
     resolve_data_map(host, &m->opacity_texture);
     resolve_data_map(host, &m->normal_texture);
-    resolve_data_map(host, &m->bump_texture);
+    resolve_bump_map(host, scene, m, report);
     if (m->kind == MATERIAL_PLASTIC && is_black(&m->specular))
         m->kind = MATERIAL_DIFFUSE;
     return true;
