@@ -92,7 +92,7 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
     if (HAS(FEATURE_ROUGH_DIFFUSE) && m->kind == MATERIAL_ROUGH_DIFFUSE)
         return eon_terms(m, wo, wi, pdf);
     if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
-        return metal_terms(m, wo, wi, ggx_albedo(wo.z, m->alpha).loss, pdf);
+        return metal_terms(m, wo, wi, metal_loss(m, wo), pdf);
     return plastic_terms(m, wo, wi, specular_albedo(m, wo.z), pdf);
 }
 

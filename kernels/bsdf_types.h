@@ -8,7 +8,7 @@
 #ifndef KERNELS_BSDF_TYPES_H
 #define KERNELS_BSDF_TYPES_H
 
-#include "kernels/vec.h"
+#include "kernels/ggx.h"
 
 /* Least cosine of a direction to the normal. Directions closer to the surface
  * do not scatter, so that no square or quotient of cosines underflows. */
@@ -22,7 +22,19 @@ struct bsdf {
     float eta;     /* refractive index of the far side over that of wo's side */
     uint32_t kind; /* enum material_kind */
     float metalness, transmission, coat, coat_alpha; /* principled.h */
+    float anisotropy; /* of metal and plastic, 0 to 1 along x */
 };
+
+/* Returns the microfacets of metal and plastic. The widths have the ratio of
+ * Burley 2012, "Physically based shading at Disney", B.1. */
+static inline struct ggx bsdf_facets(const struct bsdf *m)
+{
+    struct ggx g = {m->alpha, 1.0f};
+
+    if (HAS(FEATURE_ANISOTROPY) && m->anisotropy > 0.0f)
+        g.stretch = 1.0f / sqrtf(1.0f - 0.9f * m->anisotropy);
+    return g;
+}
 
 struct bsdf_sample {
     struct vec3 wi;
@@ -31,6 +43,21 @@ struct bsdf_sample {
     float eta_scale;    /* 1/eta^2 for a transmission into glass, else 1 */
     bool is_delta;      /* a delta lobe was sampled */
 };
+
+/* Returns the roughness by which the energy of the facets is found: the root of
+ * the mean square of both widths, up to 1. The albedo of stretched facets,
+ * which also depends on the azimuth, is missed by up to 7 % where the
+ * anisotropy is up to 0.75 and alpha up to 0.6, and by 23 % at the ends of
+ * both. */
+static inline float bsdf_mean_alpha(const struct bsdf *m)
+{
+    struct ggx g = bsdf_facets(m);
+    float s2 = g.stretch * g.stretch;
+
+    if (!HAS(FEATURE_ANISOTROPY) || s2 == 1.0f)
+        return m->alpha;
+    return f_min(m->alpha * sqrtf(0.5f * (s2 + 1.0f / s2)), 1.0f);
+}
 
 /* True if the surface is smooth, so that its specular lobes are deltas. */
 static inline bool is_smooth(const struct bsdf *m)

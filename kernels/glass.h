@@ -39,8 +39,9 @@ static inline struct vec3 glass_terms(const struct bsdf *m, struct vec3 wo,
     bool is_crossing = wi.z < 0.0f;
     struct vec3 h = half_vector(wo, is_crossing ? v3_scale(wi, m->eta) : wi);
     float mu_i = fabsf(wi.z);
-    float t_o = ggx_root(m->alpha, wo.z);
-    float t_i = ggx_root(m->alpha, mu_i);
+    struct ggx g = {m->alpha, 1.0f};
+    float t_o = ggx_root(wo, g);
+    float t_i = ggx_root(wi, g);
     float o_dot_h, i_dot_h, cos_t, part, jacobian, gain;
 
     *pdf = 0.0f;
@@ -59,8 +60,7 @@ static inline struct vec3 glass_terms(const struct bsdf *m, struct vec3 wo,
         part = fresnel_dielectric(o_dot_h, m->eta, &cos_t);
         jacobian = 0.25f / o_dot_h;
     }
-    *pdf = part * jacobian * 2.0f * o_dot_h * ggx_density(h, m->alpha) /
-           (wo.z + t_o);
+    *pdf = part * jacobian * 2.0f * o_dot_h * ggx_density(h, g) / (wo.z + t_o);
     /* G2 / G1, over a common denominator */
     gain = mu_i * (wo.z + t_o) / (wo.z * t_i + mu_i * t_o);
     gain /= f_max(glass_albedo(wo.z, m->alpha, m->eta), GLASS_ALBEDO_MIN);
@@ -105,12 +105,13 @@ static inline bool glass_sample(const struct bsdf *m, struct vec3 wo,
                                 struct vec2 u, float choice,
                                 struct bsdf_sample *s)
 {
+    struct ggx g = {m->alpha, 1.0f};
     struct vec3 h, wi, f;
     float pdf;
 
     if (is_smooth(m) || glass_is_index_matched(m))
         return glass_sample_smooth(m, wo, choice, s);
-    h = ggx_visible_normal(wo, m->alpha, 1.0f, u);
+    h = ggx_visible_normal(wo, g, 1.0f, u);
     if (!(v3_dot(wo, h) > 0.0f))
         return false;
     wi = glass_reflect_or_refract(m, wo, h, choice);

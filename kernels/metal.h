@@ -50,25 +50,32 @@ static inline float multiscatter_pdf(struct vec3 wi, float alpha)
     return b * (1.0f + b) / ((wi.z + b) * (wi.z + b)) * (0.5f / PI);
 }
 
-/* loss_o: ggx_albedo().loss at wo, which is also the probability to sample the
- * multiscatter lobe. */
+/* Returns the light that single scattering loses, which is also the probability
+ * to sample the multiscatter lobe. */
+static inline float metal_loss(const struct bsdf *m, struct vec3 wo)
+{
+    return ggx_albedo(wo.z, bsdf_mean_alpha(m)).loss;
+}
+
+/* loss_o: metal_loss() at wo. */
 static inline struct vec3 metal_terms(const struct bsdf *m, struct vec3 wo,
                                       struct vec3 wi, float loss_o, float *pdf)
 {
     struct vec3 h = half_vector(wo, wi);
-    float loss_i = ggx_albedo(wi.z, m->alpha).loss;
-    float loss_mean = ggx_albedo_mean(m->alpha).loss;
+    float alpha = bsdf_mean_alpha(m);
+    float loss_i = ggx_albedo(wi.z, alpha).loss;
+    float loss_mean = ggx_albedo_mean(alpha).loss;
     struct vec3 f = fresnel_schlick_mean(m->color);
     struct vec3 single = v3_scale(fresnel_schlick(m->color, v3_dot(wo, h)),
-                                  ggx_reflection(wo, wi, h, m->alpha));
+                                  ggx_reflection(wo, wi, h, bsdf_facets(m)));
     struct vec3 multiple =
         v3_scale(v3(multiscatter_color(f.x, loss_mean),
                     multiscatter_color(f.y, loss_mean),
                     multiscatter_color(f.z, loss_mean)),
                  loss_o * loss_i / loss_mean * wi.z * (1.0f / PI));
 
-    *pdf = (1.0f - loss_o) * ggx_reflection_pdf(wo, h, m->alpha) +
-           loss_o * multiscatter_pdf(wi, m->alpha);
+    *pdf = (1.0f - loss_o) * ggx_reflection_pdf(wo, h, bsdf_facets(m)) +
+           loss_o * multiscatter_pdf(wi, alpha);
     return v3_add(single, multiple);
 }
 
@@ -82,9 +89,9 @@ static inline bool metal_sample(const struct bsdf *m, struct vec3 wo,
     if (is_smooth(m))
         return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
                             fresnel_schlick(m->color, wo.z));
-    loss_o = ggx_albedo(wo.z, m->alpha).loss;
-    wi = choice < loss_o ? multiscatter_direction(m->alpha, u)
-                         : ggx_reflect(wo, m->alpha, u);
+    loss_o = metal_loss(m, wo);
+    wi = choice < loss_o ? multiscatter_direction(bsdf_mean_alpha(m), u)
+                         : ggx_reflect(wo, bsdf_facets(m), u);
     if (!(wi.z > COSINE_MIN))
         return false;
     f = metal_terms(m, wo, wi, loss_o, &pdf);

@@ -49,14 +49,14 @@ static inline struct vec3 specular_albedo(const struct bsdf *m, float mu)
 {
     if (is_smooth(m))
         return specular_fresnel(m->specular, schlick_weight(mu));
-    return specular_albedo_of(m->specular, ggx_albedo(mu, m->alpha));
+    return specular_albedo_of(m->specular, ggx_albedo(mu, bsdf_mean_alpha(m)));
 }
 
 static inline struct vec3 specular_albedo_mean(const struct bsdf *m)
 {
     if (is_smooth(m))
         return specular_fresnel(m->specular, SCHLICK_MEAN);
-    return specular_albedo_of(m->specular, ggx_albedo_mean(m->alpha));
+    return specular_albedo_of(m->specular, ggx_albedo_mean(bsdf_mean_alpha(m)));
 }
 
 /* (1 - o) (1 - i) / (1 - mean), or 0 under a surface that reflects all light.
@@ -97,10 +97,10 @@ static inline struct vec3 plastic_terms(const struct bsdf *m, struct vec3 wo,
     if (is_smooth(m))
         return f;
     h = half_vector(wo, wi);
-    *pdf += chance * ggx_reflection_pdf(wo, h, m->alpha);
+    *pdf += chance * ggx_reflection_pdf(wo, h, bsdf_facets(m));
     return v3_add(f, v3_scale(specular_fresnel(m->specular,
                                                schlick_weight(v3_dot(wo, h))),
-                              ggx_reflection(wo, wi, h, m->alpha)));
+                              ggx_reflection(wo, wi, h, bsdf_facets(m))));
 }
 
 static inline bool plastic_sample(const struct bsdf *m, struct vec3 wo,
@@ -118,7 +118,7 @@ static inline bool plastic_sample(const struct bsdf *m, struct vec3 wo,
         return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
                             v3_scale(specular_o, 1.0f / chance));
     else
-        wi = ggx_reflect(wo, m->alpha, u);
+        wi = ggx_reflect(wo, bsdf_facets(m), u);
     if (!(wi.z > COSINE_MIN))
         return false;
     f = plastic_terms(m, wo, wi, specular_o, &pdf);

@@ -37,6 +37,7 @@ static inline struct bsdf principled_coat(const struct bsdf *m)
 
     coat.specular = v3(COAT_F0, COAT_F0, COAT_F0);
     coat.alpha = m->coat_alpha;
+    coat.anisotropy = 0.0f;
     return coat;
 }
 
@@ -135,9 +136,9 @@ static inline void principled_add_coat(const struct bsdf *m,
         return;
     h = half_vector(wo, wi);
     f = v3_scale(specular_fresnel(coat.specular, schlick_weight(v3_dot(wo, h))),
-                 ggx_reflection(wo, wi, h, coat.alpha));
-    principled_add(l, LOBE_COAT, f, ggx_reflection_pdf(wo, h, coat.alpha), sum,
-                   pdf);
+                 ggx_reflection(wo, wi, h, bsdf_facets(&coat)));
+    principled_add(l, LOBE_COAT, f,
+                   ggx_reflection_pdf(wo, h, bsdf_facets(&coat)), sum, pdf);
 }
 
 /* f |cosine| and density of all lobes that are not deltas. */
@@ -161,7 +162,7 @@ static inline struct vec3 principled_terms_of(const struct bsdf *m,
     if (l->weight[LOBE_COAT] > 0.0f)
         principled_add_coat(m, l, wo, wi, &sum, pdf);
     if (l->weight[LOBE_METAL] > 0.0f && !is_smooth(m)) {
-        f = metal_terms(m, wo, wi, ggx_albedo(wo.z, m->alpha).loss, &lobe_pdf);
+        f = metal_terms(m, wo, wi, metal_loss(m, wo), &lobe_pdf);
         principled_add(l, LOBE_METAL, f, lobe_pdf, &sum, pdf);
     }
     if (l->weight[LOBE_PLASTIC] > 0.0f) {

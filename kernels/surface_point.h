@@ -47,6 +47,27 @@ static inline struct vec3 shading_normal(const struct world *w, struct tri t,
     return v3_dot(n, wo) > 0.0f ? n : ng;
 }
 
+/* Turns the frame of a surface with a grain: t along the grain, or along the
+ * horizontal where there are no texture coordinates. */
+static inline void surface_turn_frame(const struct world *w, struct vec2 grain,
+                                      struct tri t, struct surface_point *v)
+{
+    struct vec3 along_u, along_v, d;
+    float length;
+
+    if (!v->has_uv || !uv_tangents(w, t, &along_u, &along_v)) {
+        along_u = v3(v->n.z, 0.0f, -v->n.x);
+        along_v = v3_cross(v->n, along_u);
+    }
+    d = v3_add(v3_scale(along_u, grain.x), v3_scale(along_v, grain.y));
+    d = v3_sub(d, v3_scale(v->n, v3_dot(v->n, d)));
+    length = v3_length(d);
+    if (!(length > 1e-6f))
+        return;
+    v->t = v3_scale(d, 1.0f / length);
+    v->b = v3_cross(v->n, v->t);
+}
+
 /* Fills *v with the surface at hit h of ray r. m is the triangle's material.
  * Returns false for a triangle without a normal. No scene has one, but without
  * this branch compilers order what follows so that scenes of several materials
@@ -77,6 +98,8 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     if (HAS(FEATURE_BUMPS) && v->has_uv && has_bumps(m))
         v->n = bumped_normal(w, m, t, v->uv, v->n, v->ng, wo);
     frame_around(v->n, &v->t, &v->b);
+    if (HAS(FEATURE_ANISOTROPY) && m->anisotropy > 0.0f)
+        surface_turn_frame(w, m->grain, t, v);
     return true;
 }
 
@@ -109,6 +132,7 @@ static inline struct bsdf bsdf_at(const struct world *w,
         b.transmission = m->transmission;
         b.coat = m->coat;
         b.coat_alpha = m->coat_alpha;
+        b.anisotropy = m->anisotropy;
     }
     if (bsdf_is_solid(&b) && !v->is_outside)
         b.eta = 1.0f / m->ior;

@@ -62,6 +62,9 @@ struct material {
     float transmission;
     float coat; /* weight of the clear coat */
     float coat_alpha;
+    float anisotropy;  /* 0 to 1; of MATERIAL_PRINCIPLED too */
+    struct vec2 grain; /* direction of the wider axis, in units of the tangents
+                          along u and v */
     uint32_t normal_texture; /* shading normals in tangent space */
     uint32_t bump_texture;   /* heights in alpha */
     float bump_scale;        /* height of an alpha of 1, in texels */

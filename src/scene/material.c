@@ -40,6 +40,7 @@ struct material material_default(void)
         .bump_texture = NO_INDEX,
         .bump_scale = 1,
         .opacity = 1,
+        .grain = {1, 0},
     };
 
     return m;
@@ -490,6 +491,8 @@ uint32_t material_features(const struct material *m,
         features |= FEATURE_METAL;
     if (m->kind == MATERIAL_PRINCIPLED)
         features |= FEATURE_PRINCIPLED;
+    if (m->kind == MATERIAL_PRINCIPLED && m->anisotropy > 0)
+        features |= FEATURE_ANISOTROPY;
     if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
         features |= FEATURE_GLASS;
     if (m->kind == MATERIAL_PLASTIC)

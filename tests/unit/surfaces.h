@@ -112,6 +112,8 @@ static inline struct bsdf random_mixture(uint64_t *seed)
     m.coat_alpha = x[4] < 0.5f ? 0 : 0.005f + (x[4] - 0.5f) * x[4];
     m.eta = x[5] < 0.5f ? 1.2f + x[6] : 1 / (1.2f + x[6]);
     m.specular = v3_scale(m.specular, 4 * x[7]);
+    if (x[6] < 0.4f)
+        m.anisotropy = 2.5f * x[6];
     return m;
 }
 

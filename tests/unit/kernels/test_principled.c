@@ -99,6 +99,7 @@ static void white_mixtures_lose_nothing(void **state)
         struct bsdf m = random_mixture(&seed);
 
         m.color = white;
+        m.anisotropy = 0;
         check_close((double)albedo(&m, cosines[i % (int)COUNT(cosines)]).z, 1,
                     5e-3);
     }
@@ -111,7 +112,10 @@ static void coloured_mixtures_add_no_light(void **state)
     (void)state;
     for (int i = 0; i < MIXTURES; i++) {
         struct bsdf m = random_mixture(&seed);
-        struct vec3 e = albedo(&m, cosines[i % (int)COUNT(cosines)]);
+        struct vec3 e;
+
+        m.anisotropy = 0;
+        e = albedo(&m, cosines[i % (int)COUNT(cosines)]);
 
         check_at_most((double)e.x, 1);
         check_at_most((double)e.y, (double)e.x + 5e-3);
@@ -150,6 +154,60 @@ static void layers_are_reciprocal_but_for_the_coat(void **state)
             check_close(f[0], f[1], 2e-3 * f[0] + 1e-5);
         }
     }
+}
+
+/* The distribution and Smith's masking with two widths (Heitz 2014, eqs. 85 and
+ * 86). */
+static void facets_have_two_widths(void **state)
+{
+    uint64_t seed = 6;
+
+    (void)state;
+    for (int i = 0; i < 2000; i++) {
+        struct bsdf m = {.alpha = 0.05f + 0.95f * (float)check_random(&seed),
+                         .anisotropy = (float)check_random(&seed),
+                         .kind = MATERIAL_PRINCIPLED};
+        struct vec3 h = any_direction(&seed, 0.01f);
+        double aspect = sqrt(1 - 0.9 * (double)m.anisotropy);
+        double ax = (double)m.alpha / aspect, ay = (double)m.alpha * aspect;
+        double x = (double)h.x, y = (double)h.y, z = (double)h.z;
+        double d = x * x / (ax * ax) + y * y / (ay * ay) + z * z;
+        double lambda =
+            (sqrt(1 + (ax * ax * x * x + ay * ay * y * y) / (z * z)) - 1) / 2;
+
+        check_close((double)ggx_density(h, bsdf_facets(&m)) * M_PI * ax * ay *
+                        d * d,
+                    1, 1e-4);
+        check_close((double)ggx_root(h, bsdf_facets(&m)) /
+                        (z * (1 + 2 * lambda)),
+                    1, 1e-4);
+    }
+}
+
+/* The energy of stretched facets is compensated by their mean roughness, with
+ * the errors that bsdf_mean_alpha() states. */
+static void stretched_facets_keep_nearly_all_light(void **state)
+{
+    double usual = 0, worst = 0;
+
+    (void)state;
+    for (size_t a = 3; a < COUNT(alphas); a++)
+        for (size_t c = 0; c < COUNT(cosines); c++)
+            for (float grain = 0.25f; grain <= 1; grain += 0.25f) {
+                struct bsdf m = {.color = white,
+                                 .alpha = alphas[a],
+                                 .anisotropy = grain,
+                                 .metalness = 1,
+                                 .eta = 1,
+                                 .kind = MATERIAL_PRINCIPLED};
+                double e = fabs((double)albedo(&m, cosines[c]).x - 1);
+
+                worst = fmax(worst, e);
+                if (grain <= 0.75f && alphas[a] <= 0.6f)
+                    usual = fmax(usual, e);
+            }
+    check_at_most(usual, 0.07);
+    check_at_most(worst, 0.23);
 }
 
 /* A coat of full weight over a black base reflects its albedo, found by
@@ -208,6 +266,8 @@ int main(void)
         cmocka_unit_test(white_mixtures_lose_nothing),
         cmocka_unit_test(coloured_mixtures_add_no_light),
         cmocka_unit_test(layers_are_reciprocal_but_for_the_coat),
+        cmocka_unit_test(facets_have_two_widths),
+        cmocka_unit_test(stretched_facets_keep_nearly_all_light),
         cmocka_unit_test(coats_reflect_their_albedo),
         cmocka_unit_test(mixtures_of_mirrors_have_no_density),
     };
