@@ -31,6 +31,26 @@ void lexer_init(struct lexer *lex, const char *text, size_t size_bytes)
         lex->p += 3;
 }
 
+/* Pairs of bytes that show UTF-16 without a byte order mark. */
+#define UTF16_PAIRS 8
+
+bool lexer_is_utf16(const char *text, size_t size_bytes)
+{
+    int high = 0, low = 0;
+
+    if (size_bytes < 2)
+        return false;
+    if (memcmp(text, "\xff\xfe", 2) == 0 || memcmp(text, "\xfe\xff", 2) == 0)
+        return true;
+    if (size_bytes < (size_t)2 * UTF16_PAIRS)
+        return false;
+    for (int i = 0; i < 2 * UTF16_PAIRS; i += 2) {
+        high += text[i] == '\0' && text[i + 1] != '\0';
+        low += text[i] != '\0' && text[i + 1] == '\0';
+    }
+    return high == UTF16_PAIRS || low == UTF16_PAIRS;
+}
+
 /* Returns the size of the line end at p: 0, 1 or 2 bytes. */
 static size_t line_end_bytes(const char *p, const char *end)
 {

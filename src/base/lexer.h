@@ -37,6 +37,10 @@ bool lexer_is_blank(char c);
 /* Skips a UTF-8 byte order mark. */
 void lexer_init(struct lexer *lex, const char *text, size_t size_bytes);
 
+/* Returns true for text in UTF-16, with a byte order mark or with a NUL in
+ * every second byte, which the lexer cannot read. */
+bool lexer_is_utf16(const char *text, size_t size_bytes);
+
 /* Handles the line that begins at lex->p. The rest of the line is skipped. */
 typedef bool lexer_take_line(void *context, struct lexer *lex,
                              struct error *err);

@@ -121,11 +121,24 @@ static bool correct_letters(char *path)
     return ok;
 }
 
+/* Removes double quotes around the name. */
+static void remove_quotes(char *name)
+{
+    size_t length = strlen(name);
+
+    if (length < 2 || name[0] != '"' || name[length - 1] != '"')
+        return;
+    memmove(name, name + 1, length - 2);
+    name[length - 2] = '\0';
+}
+
 /* Tries the names that a missing file may have on this system. */
 static void try_others(struct search *s, char *name)
 {
     const char *last;
 
+    remove_quotes(name);
+    try_name(s, name, exists);
     remove_escapes(name);
     try_name(s, name, exists);
     for (char *p = name; *p != '\0'; p++) {

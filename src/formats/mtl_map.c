@@ -68,6 +68,32 @@ static void set_option(struct mtl_map_options *o, enum map_option option,
         o->unknown_count++;
 }
 
+/* Returns true for a word that looks like an option: a minus and a word without
+ * the dot of a file name. */
+static bool looks_like_option(struct word word)
+{
+    return word.length >= 2 && word.start[0] == '-' &&
+           ((word.start[1] | 32) >= 'a' && (word.start[1] | 32) <= 'z') &&
+           memchr(word.start, '.', word.length) == NULL;
+}
+
+/* Reads an option that no list has, as -colorspace of Autodesk's programs, with
+ * its one value. A name must be left: the last word is no option, and the word
+ * before it no value. */
+static bool read_unknown(struct lexer *lex, struct mtl_map_options *o)
+{
+    struct lexer next = *lex, behind;
+
+    if (!looks_like_option(lexer_word(&next)) || lexer_at_line_end(&next))
+        return false;
+    behind = next;
+    if (!looks_like_option(lexer_word(&behind)) && !lexer_at_line_end(&behind))
+        next = behind;
+    *lex = next;
+    o->unknown_count++;
+    return true;
+}
+
 /* Reads an option and its values. Returns false if the next word is none. */
 static bool read_option(struct lexer *lex, struct mtl_map_options *o)
 {
@@ -123,7 +149,7 @@ char *mtl_map_read(struct lexer *lex, struct mtl_map_options *o)
 
     *o =
         (struct mtl_map_options){.texture = {.scale = {1, 1}}, .bump_scale = 1};
-    while (read_option(lex, o))
+    while (read_option(lex, o) || read_unknown(lex, o))
         continue;
     name = lexer_rest(lex);
     if (name != NULL)

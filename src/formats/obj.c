@@ -16,8 +16,7 @@
 #include "formats/faces.h"
 #include "formats/mtl.h"
 
-/* Bytes searched for a NUL. Text has none; UTF-16 and most binary files have
- * one early. */
+/* Bytes searched for a NUL. Text has none; most binary files have one early. */
 #define BINARY_CHECK_BYTES 1024
 
 /* Largest coordinate that is kept: a larger float has too few digits to address
@@ -208,6 +207,14 @@ static bool load_library(struct parser *p, const char *name, char *path)
                            why.text);
         return true;
     }
+    if (lexer_is_utf16(text, size_bytes)) {
+        warnings_add_named(p->report, "material files in UTF-16", name,
+                           "%s: found text in UTF-16, expected UTF-8: its "
+                           "materials will be grey",
+                           path);
+        free(text);
+        return true;
+    }
     ok = mtl_parse(p->scene, text, size_bytes, path, p->report, p->err);
     free(text);
     return ok;
@@ -383,9 +390,7 @@ static bool looks_binary(const char *text, size_t size_bytes)
     size_t n =
         size_bytes < BINARY_CHECK_BYTES ? size_bytes : BINARY_CHECK_BYTES;
 
-    return memchr(text, '\0', n) != NULL ||
-           (n >= 2 && (memcmp(text, "\xff\xfe", 2) == 0 ||
-                       memcmp(text, "\xfe\xff", 2) == 0));
+    return memchr(text, '\0', n) != NULL;
 }
 
 static bool parse_lines(struct parser *p)
@@ -437,10 +442,11 @@ bool obj_parse(struct scene *scene, const char *text, size_t size_bytes,
     };
     bool ok;
 
+    if (lexer_is_utf16(text, size_bytes))
+        return fail(err, "%s: found text in UTF-16, expected UTF-8", path);
     if (looks_binary(text, size_bytes))
         return fail(err,
-                    "%s: not an OBJ file: found binary data or UTF-16, "
-                    "expected text",
+                    "%s: not an OBJ file: found binary data, expected text",
                     path);
     lexer_init(&p.lex, text, size_bytes);
     ok = begin(&p) && parse_lines(&p);

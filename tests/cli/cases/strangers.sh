@@ -33,3 +33,16 @@ printf 'newmtl a\nKe 9 9 9\nd 0\nnewmtl b\nKd .5 .5 .5\n' >lamp.mtl
 } >lamp.obj
 run_untimed -b -w 8 -h 4 -s 1 -o lamp.pfm lamp.obj
 floats lamp.pfm 8 4 | awk '{ n += $1 > 0 } END { print (n > 0 ? "lit" : "black") }'
+# text in UTF-16, which Windows programs write
+{
+    printf '\377\376'
+    sed 's/./&\x00/g' wood.mtl | tr -d '\n'
+} >wide.mtl
+printf "mtllib wide.mtl\nusemtl a\n$face" >wide.obj
+run_untimed $b wide.obj
+cp wide.mtl wide.obj
+run_untimed $b wide.obj
+# options of other programs, quotes
+printf 'newmtl a\nmap_Ke -colorspace sRGB "maps\\WALL.png"\n' >quotes.mtl
+printf "mtllib \"quotes.mtl\"\nusemtl a\n$face" >quotes.obj
+run_untimed $b quotes.obj

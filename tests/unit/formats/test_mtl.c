@@ -340,6 +340,16 @@ static void map_options_are_not_part_of_the_name(void **state)
          {-1, 0},
          1},
         {"map_Kd -clamp off a -b.png", "a -b.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd -colorspace sRGB a b.png", "a b.png", true, {1, 1}, {0, 0}, 0},
+        {"map_Kd -colorspace sRGB -s 2 2 1 -x y -flag -o 1 a.png -bm 2",
+         "a.png",
+         true,
+         {2, 2},
+         {1, 0},
+         0},
+        {"map_Kd -flag a.png", "a.png", true, {1, 1}, {0, 0}, 0},
+        {"map_Kd -name", "-name", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd -a.png b.png", "-a.png b.png", false, {1, 1}, {0, 0}, 0},
         {"map_Kd -.png", "-.png", false, {1, 1}, {0, 0}, 0},
         {"map_Kd t/a.png", "t/a.png", false, {1, 1}, {0, 0}, 0},
         {"map_Kd /t/a.png", "/t/a.png", false, {1, 1}, {0, 0}, 0},
@@ -493,10 +503,14 @@ static void bump_maps_have_their_scale(void **state)
 /* Every path of another machine that can mean a file here finds it. */
 static void paths_of_other_machines_find_the_file(void **state)
 {
-    static const char *const names[] = {"sub/wood a.png", "sub\\wood a.png",
+    static const char *const names[] = {"sub/wood a.png",
+                                        "sub\\wood a.png",
                                         "sub/wood\\ a.png",
                                         "C:\\models\\wood a.png",
-                                        "/home/x/wood a.png"};
+                                        "/home/x/wood a.png",
+                                        "\"sub/wood a.png\"",
+                                        "-s 2 2 \"wood a.png\" -bm 1",
+                                        "\"C:\\models\\Wood A.png\""};
     (void)state;
     assert_int_equal(mkdir("sub", 0700), 0);
     put("sub/wood a.png", "");

@@ -117,6 +117,8 @@ static void other_files_are_refused(void **state)
 {
     static const char utf16[] = "\xff\xfev\0 \0"
                                 "0\0";
+    static const char unmarked[] = "\0v\0 \0001\0 \0002\0 \0003\0\n";
+    static const char binary[] = "v 1 2 3\n\0\0 v 1 2 3\n";
     struct loaded l;
 
     (void)state;
@@ -127,8 +129,16 @@ static void other_files_are_refused(void **state)
                   "a.obj: not an OBJ file: found no OBJ statement");
     l = load_bytes(utf16, sizeof utf16 - 1);
     assert_false(l.ok);
-    assert_string_equal(l.err.text, "a.obj: not an OBJ file: found binary data "
-                                    "or UTF-16, expected text");
+    assert_string_equal(l.err.text,
+                        "a.obj: found text in UTF-16, expected UTF-8");
+    unload(&l);
+    l = load_bytes(unmarked, sizeof unmarked - 1);
+    assert_string_equal(l.err.text,
+                        "a.obj: found text in UTF-16, expected UTF-8");
+    unload(&l);
+    l = load_bytes(binary, sizeof binary - 1);
+    assert_string_equal(l.err.text, "a.obj: not an OBJ file: found binary "
+                                    "data, expected text");
     unload(&l);
     l = load_bytes("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
     assert_false(l.ok);
