@@ -148,7 +148,7 @@ static bool write_picture(struct session *s, struct film *film,
 static char *write_numbered(struct session *s, struct film *film,
                             const struct frame *frame, struct error *err)
 {
-    char *stem = xchecked(path_stem(s->options->scene_path));
+    char *stem = xchecked(path_stem_of_input(s->options->scene_path));
     const char *slash = strrchr(stem, '/');
     const char *last = slash ? slash + 1 : stem;
     struct image_metadata metadata = batch_filter_metadata(s, film);

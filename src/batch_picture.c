@@ -69,7 +69,7 @@ static const char *write_picture(struct glim *g, const struct options *o,
         else if (strcmp(path, "-") == 0)
             name = "standard output";
     } else {
-        stem = xchecked(path_stem(o->scene_path));
+        stem = xchecked(path_stem_of_input(o->scene_path));
         name = strrchr(stem, '/');
         name = glim_save_new(g, name ? name + 1 : stem, &why);
         free(stem);

@@ -70,6 +70,8 @@ function check_include(name, is_system,    kernel, other)
             fault("kernels include libc only in dialect.h: <" name ">")
         if (name ~ /curses|^term(info|cap)?\.h$/ && path !~ /^src\/terminal\/(tty|curses_windows)\.c$/)
             fault("only tty.c and curses_windows.c include <" name ">")
+        if (name == "zlib.h" && path != "src/formats/text_file.c")
+            fault("only text_file.c includes <" name ">")
         if (name ~ /^CL\// && folder != "src/opencl")
             fault("only src/opencl/ includes <" name ">")
         return

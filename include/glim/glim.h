@@ -118,7 +118,8 @@ struct glim_open_options {
                     images */
 };
 
-/* Opens the scene of an OBJ file with its materials and images, and its view
+/* Opens the scene of an OBJ file, which gzip may have packed ("-": standard
+ * input), with its materials and images, and its view
  * file with camera, size and sky. A scene without a camera is framed as a
  * whole; a scene without light gets a soft sky. `options` may be NULL. Returns
  * NULL on errors. */

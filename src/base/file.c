@@ -18,6 +18,9 @@
 /* Limit for a chain of symbolic links, as in the kernel. */
 #define LINKS_MAX 40
 
+/* Bytes of standard input that are read at once. */
+#define STDIN_STEP_BYTES (1 << 20)
+
 /* Limit for the numbers in file names that are tried. */
 #define NUMBER_MAX 100000
 
@@ -136,6 +139,38 @@ bool file_read(const char *path, char **text, size_t *size_bytes,
     bool ok = read_open_file(fd, path, text, size_bytes, err);
     close(fd);
     return ok;
+}
+
+bool file_read_stdin(char **text, size_t *size_bytes, struct error *err)
+{
+    static const char name[] = "standard input";
+    size_t size = 0, capacity = 0;
+    void *memory = NULL;
+    int64_t found;
+
+    do {
+        if (!expect_size(name, (int64_t)size, err))
+            break;
+        if (!grow_array(&memory, &capacity, size + STDIN_STEP_BYTES + 1, 1)) {
+            fail(err, "%s: out of memory for its %.1f MiB", name,
+                 (double)size / (1 << 20));
+            break;
+        }
+        found = read_all(STDIN_FILENO, (char *)memory + size, STDIN_STEP_BYTES);
+        if (found < 0) {
+            fail_errno(err, name);
+            break;
+        }
+        size += (size_t)found;
+        if (found < STDIN_STEP_BYTES) {
+            *text = memory;
+            (*text)[size] = '\0';
+            *size_bytes = size;
+            return true;
+        }
+    } while (true);
+    free(memory);
+    return false;
 }
 
 static struct file_identity identity_of(const struct stat *st)
@@ -493,4 +528,17 @@ char *path_stem(const char *path)
     size_t length = dot && dot != name ? (size_t)(dot - path) : strlen(path);
 
     return strndup(path, length);
+}
+
+char *path_stem_of_input(const char *path)
+{
+    char *stem = strcmp(path, "-") == 0 ? strdup("scene") : path_stem(path);
+    size_t length = strlen(path);
+    char *shorter;
+
+    if (stem == NULL || length < 3 || strcmp(path + length - 3, ".gz") != 0)
+        return stem;
+    shorter = path_stem(stem);
+    free(stem);
+    return shorter;
 }

@@ -27,6 +27,9 @@
 bool file_read(const char *path, char **text, size_t *size_bytes,
                struct error *err);
 
+/* Reads standard input to its end, of the same sizes. */
+bool file_read_stdin(char **text, size_t *size_bytes, struct error *err);
+
 /* Identifies a version of a file, to find out later if it has changed. */
 struct file_identity {
     bool exists;
@@ -93,5 +96,9 @@ const char *path_name(const char *path);
 
 /* Returns the path without the ending of its last part: a/b.obj gives a/b. */
 char *path_stem(const char *path);
+
+/* Does the same for a file that is read: a/b.obj.gz gives a/b, and "-", which
+ * stands for standard input, gives "scene". */
+char *path_stem_of_input(const char *path);
 
 #endif

@@ -15,6 +15,7 @@
 #include "formats/asset_path.h"
 #include "formats/faces.h"
 #include "formats/mtl.h"
+#include "formats/text_file.h"
 
 /* Bytes searched for a NUL. Text has none; most binary files have one early. */
 #define BINARY_CHECK_BYTES 1024
@@ -470,7 +471,7 @@ bool obj_read(struct scene *scene, const char *path, struct warnings *report,
     size_t size_bytes;
     bool ok;
 
-    if (!file_read(path, &text, &size_bytes, err))
+    if (!text_file_read(path, &text, &size_bytes, err))
         return false;
     ok = obj_parse(scene, text, size_bytes, path, report, err);
     free(text);

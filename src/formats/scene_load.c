@@ -75,7 +75,7 @@ static bool read_beside(struct view *view, const char *scene_path,
 /* Returns STEM.view for free(), or NULL when memory is out. */
 static char *path_of_view(const char *scene_path)
 {
-    char *stem = path_stem(scene_path);
+    char *stem = path_stem_of_input(scene_path);
     char *path = stem != NULL ? format_text("%s.view", stem) : NULL;
 
     free(stem);

@@ -23,7 +23,7 @@ const char options_help[] =
     "file. On the screen, ? shows the keys and q quits.\n"
     "\n"
     "scene and picture\n"
-    "  -f FILE          the scene; -f may be omitted\n"
+    "  -f FILE          the scene, or - with -b; -f may be omitted\n"
     "  -c FILE          the view file (default: SCENE.view beside the scene)\n"
     "  -w WIDTH         in pixels (default: from the view file, or 1024)\n"
     "  -h HEIGHT        in pixels (default: from the view file, or 576)\n"
@@ -196,6 +196,20 @@ static bool settle_backend(struct options *o, struct error *err)
         return fail(err,
                     "--kernels: found --backend cpu, expected opencl or auto");
     return true;
+}
+
+/* Refuses a scene from standard input where it is read more than once, or where
+ * keys come from there. */
+static bool check_scene(const struct options *o, struct error *err)
+{
+    if (o->scene_path == NULL || strcmp(o->scene_path, "-") != 0 ||
+        (o->batch && o->command == COMMAND_RENDER))
+        return true;
+    return o->command == COMMAND_RENDER
+               ? fail(err, "-: found no -b, expected batch mode for a scene "
+                           "from standard input")
+               : fail(err, "-: found standard input, expected a scene that can "
+                           "be read more than once");
 }
 
 static bool is_standard_output(const char *path)
@@ -434,7 +448,7 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
     }
     keymap_settle(&o->keys, o->phoe_keys);
     if (!settle_backend(o, err) || !check_together(o, err) ||
-        !take_environment(o, err))
+        !check_scene(o, err) || !take_environment(o, err))
         return false;
     if (o->command != COMMAND_RENDER)
         return sub_command_check(o, err);

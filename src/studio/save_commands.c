@@ -19,7 +19,7 @@
 /* Returns the scene's file name without folder and extension, for free(). */
 static char *scene_name(const struct render_control *control)
 {
-    char *stem = xchecked(path_stem(control->session->scene.path));
+    char *stem = xchecked(path_stem_of_input(control->session->scene.path));
     const char *slash = strrchr(stem, '/');
     char *name = xstrdup(slash ? slash + 1 : stem);
 

@@ -85,6 +85,7 @@ look()
             fi
             need_header stb/stb_image.h libstb-dev
             need_header curses.h libncurses-dev
+            need_header zlib.h zlib1g-dev
             need_header CL/cl.h opencl-c-headers
             ;;
         test)

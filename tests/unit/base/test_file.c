@@ -345,6 +345,10 @@ static void paths_are_joined_and_cut(void **state)
     path_is(path_stem("b.tar.gz"), "b.tar");
     path_is(path_stem("a/.hidden"), "a/.hidden");
     path_is(path_stem(""), "");
+    path_is(path_stem_of_input("a/b.obj"), "a/b");
+    path_is(path_stem_of_input("a/b.obj.gz"), "a/b");
+    path_is(path_stem_of_input(".gz"), ".gz");
+    path_is(path_stem_of_input("-"), "scene");
 }
 
 int main(void)
