@@ -22,6 +22,8 @@ struct bsdf {
     float eta;     /* refractive index of the far side over that of wo's side */
     uint32_t kind; /* enum material_kind */
     float metalness, transmission, coat, coat_alpha; /* principled.h */
+    struct vec3 sheen;
+    float sheen_alpha;
     float anisotropy; /* of metal and plastic, 0 to 1 along x */
 };
 

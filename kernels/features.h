@@ -17,17 +17,18 @@ enum feature {
     FEATURE_PLASTIC = 16, /* MATERIAL_PLASTIC */
     FEATURE_ROUGH = 32,   /* rough metal, glass or coats */
     FEATURE_ROUGH_DIFFUSE = 64,
-    FEATURE_SKY_IMAGE = 128,   /* the sky is an image */
-    FEATURE_EMITTERS = 256,    /* emissive surfaces */
-    FEATURE_BUMPS = 512,       /* bump and normal maps */
-    FEATURE_AOV = 1024,        /* AOVs in place of radiance: aov.h */
-    FEATURE_GUIDE = 2048,      /* path guide: guide.h */
-    FEATURE_FILTER = 4096,     /* features for the filter: first_surface.h */
-    FEATURE_PRINCIPLED = 8192, /* MATERIAL_PRINCIPLED */
-    FEATURE_ANISOTROPY = 16384 /* surfaces with a grain */
+    FEATURE_SKY_IMAGE = 128,    /* the sky is an image */
+    FEATURE_EMITTERS = 256,     /* emissive surfaces */
+    FEATURE_BUMPS = 512,        /* bump and normal maps */
+    FEATURE_AOV = 1024,         /* AOVs in place of radiance: aov.h */
+    FEATURE_GUIDE = 2048,       /* path guide: guide.h */
+    FEATURE_FILTER = 4096,      /* features for the filter: first_surface.h */
+    FEATURE_PRINCIPLED = 8192,  /* MATERIAL_PRINCIPLED */
+    FEATURE_ANISOTROPY = 16384, /* surfaces with a grain */
+    FEATURE_SHEEN = 32768
 };
 
-#define FEATURES_ALL 32767u
+#define FEATURES_ALL 65535u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

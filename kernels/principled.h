@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * principled.h - mixtures of metal, plastic and glass under a clear coat
+ * principled.h - mixtures of metal, plastic and glass under a coat and sheen
  *
  * The base is metal by its metalness; the rest is glass by its transmission,
  * and plastic otherwise. Glass is tinted by the root of the colour at each
  * crossing, so that a pane has the colour. A coat of refractive index 1.5 lies
- * over it. What the coat reflects, E(wo), the layers below lose: they are
- * scaled by 1 - E(wo), as in the surfaces of other renderers (Georgiev et al.
- * 2019, "Autodesk Standard Surface"). That conserves energy; under a coat the
- * mixture is not reciprocal.
+ * over the base, and sheen over both. What a layer reflects, E(wo), those below
+ * lose: they are scaled by 1 - E(wo), as in the surfaces of other renderers
+ * (Georgiev et al. 2019, "Autodesk Standard Surface"). That conserves energy;
+ * under a coat or sheen the mixture is not reciprocal.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
  */
@@ -18,17 +18,30 @@
 #include "kernels/glass.h"
 #include "kernels/metal.h"
 #include "kernels/plastic.h"
+#include "kernels/sheen.h"
 
 /* Reflectance of the coat at normal incidence. */
 #define COAT_F0 0.04f
 
-enum lobe { LOBE_COAT, LOBE_METAL, LOBE_PLASTIC, LOBE_GLASS, LOBES };
+enum lobe {
+    LOBE_SHEEN,
+    LOBE_COAT,
+    LOBE_METAL,
+    LOBE_PLASTIC,
+    LOBE_GLASS,
+    LOBES
+};
 
 /* The lobes of a mixture, as seen from wo. */
 struct lobes {
     float weight[LOBES]; /* factors of their f */
     float chance[LOBES]; /* probabilities to sample them; all are 0 if black */
 };
+
+static inline bool has_sheen(const struct bsdf *m)
+{
+    return HAS(FEATURE_SHEEN) && !v3_is_zero(m->sheen);
+}
 
 /* Returns the coat as a BSDF of its own. */
 static inline struct bsdf principled_coat(const struct bsdf *m)
@@ -69,12 +82,20 @@ static inline struct lobes principled_lobes(const struct bsdf *m,
     struct lobes l;
     float below = 1.0f, sum = 0.0f;
 
-    l.weight[LOBE_COAT] = m->coat;
+    l.weight[LOBE_SHEEN] = 1.0f; /* its colour is in the lobe */
+    l.chance[LOBE_SHEEN] = 0.0f;
+    if (has_sheen(m)) {
+        l.chance[LOBE_SHEEN] =
+            v3_max_component(m->sheen) * sheen_albedo(wo.z, m->sheen_alpha);
+        below -= l.chance[LOBE_SHEEN];
+    }
+    l.weight[LOBE_COAT] = below * m->coat;
     l.chance[LOBE_COAT] = 0.0f;
     if (m->coat > 0.0f) {
         struct bsdf coat = principled_coat(m);
 
-        l.chance[LOBE_COAT] = m->coat * specular_albedo(&coat, wo.z).x;
+        l.chance[LOBE_COAT] =
+            l.weight[LOBE_COAT] * specular_albedo(&coat, wo.z).x;
         below -= l.chance[LOBE_COAT];
     }
     l.weight[LOBE_METAL] = below * m->metalness;
@@ -106,7 +127,7 @@ static inline bool principled_is_delta(const struct bsdf *m)
     struct bsdf coat = principled_coat(m);
     float dielectric = 1.0f - m->metalness;
 
-    if (m->coat > 0.0f && !is_smooth(&coat))
+    if (has_sheen(m) || (m->coat > 0.0f && !is_smooth(&coat)))
         return false;
     if (!is_smooth(m) && (m->metalness > 0.0f || m->transmission < 1.0f ||
                           !glass_is_index_matched(m)))
@@ -159,6 +180,10 @@ static inline struct vec3 principled_terms_of(const struct bsdf *m,
     }
     if (wi.z < 0.0f)
         return sum;
+    if (has_sheen(m)) {
+        f = v3_scale(m->sheen, sheen_f(wo, wi, m->sheen_alpha));
+        principled_add(l, LOBE_SHEEN, f, SHEEN_PDF, &sum, pdf);
+    }
     if (l->weight[LOBE_COAT] > 0.0f)
         principled_add_coat(m, l, wo, wi, &sum, pdf);
     if (l->weight[LOBE_METAL] > 0.0f && !is_smooth(m)) {
@@ -205,6 +230,12 @@ static inline bool principled_sample_lobe(const struct bsdf *m, uint32_t lobe,
 {
     struct bsdf part;
 
+    if (lobe == LOBE_SHEEN) {
+        s->wi = sheen_direction(u);
+        s->is_delta = false;
+        s->eta_scale = 1.0f;
+        return s->wi.z > COSINE_MIN;
+    }
     if (lobe == LOBE_METAL)
         return metal_sample(m, wo, u, choice, s);
     if (lobe == LOBE_PLASTIC)

@@ -133,6 +133,8 @@ static inline struct bsdf bsdf_at(const struct world *w,
         b.coat = m->coat;
         b.coat_alpha = m->coat_alpha;
         b.anisotropy = m->anisotropy;
+        b.sheen = m->sheen;
+        b.sheen_alpha = m->sheen_alpha;
     }
     if (bsdf_is_solid(&b) && !v->is_outside)
         b.eta = 1.0f / m->ior;

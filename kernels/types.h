@@ -62,6 +62,8 @@ struct material {
     float transmission;
     float coat; /* weight of the clear coat */
     float coat_alpha;
+    struct vec3 sheen;
+    float sheen_alpha;
     float anisotropy;  /* 0 to 1; of MATERIAL_PRINCIPLED too */
     struct vec2 grain; /* direction of the wider axis, in units of the tangents
                           along u and v */

@@ -493,6 +493,9 @@ uint32_t material_features(const struct material *m,
         features |= FEATURE_PRINCIPLED;
     if (m->kind == MATERIAL_PRINCIPLED && m->anisotropy > 0)
         features |= FEATURE_ANISOTROPY;
+    if (m->kind == MATERIAL_PRINCIPLED &&
+        m->sheen.x + m->sheen.y + m->sheen.z > 0)
+        features |= FEATURE_SHEEN;
     if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
         features |= FEATURE_GLASS;
     if (m->kind == MATERIAL_PLASTIC)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * energy.c - prints kernels/energy_tables.h: albedos of GGX surfaces
+ * energy.c - prints kernels/energy_tables.h: albedos of GGX surfaces and sheen
  *
  * Each albedo is an integral over the square from which the kernels draw
  * visible normals: E is the mean of weights, by Gaussian quadrature in double
@@ -185,6 +185,54 @@ static double mu_at(double t, double alpha)
     return fmax(inverse(energy_axis_mu, (float)alpha, t), 1e-7);
 }
 
+/* The fit of Estevez and Kulla 2017, "Production friendly microfacet sheen
+ * BRDF", between its parameters for the roughness 0 and 1. */
+static double sheen_log_lambda(double cosine, double alpha)
+{
+    static const double at_0[] = {25.3245, 3.32435, 0.16801, -1.27393,
+                                  -4.85967};
+    static const double at_1[] = {21.5473, 3.82987, 0.19823, -1.97760,
+                                  -4.32054};
+    double s = (1 - alpha) * (1 - alpha), p[5];
+
+    for (int i = 0; i < 5; i++)
+        p[i] = at_1[i] + s * (at_0[i] - at_1[i]);
+    return p[0] / (1 + p[1] * pow(cosine, p[2])) + p[3] * cosine + p[4];
+}
+
+static double sheen_lambda(double cosine, double alpha)
+{
+    return exp(cosine < 0.5 ? sheen_log_lambda(cosine, alpha)
+                            : 2 * sheen_log_lambda(0.5, alpha) -
+                                  sheen_log_lambda(1 - cosine, alpha));
+}
+
+/* Integrates the sheen over directions: mu_i = x^2, because it is steep at 0,
+ * and half of the azimuth. */
+static double sheen(const struct gauss *g, double mu, double alpha)
+{
+    double e = 0, lambda_o = sheen_lambda(mu, alpha);
+    double sine_o = sqrt(1 - mu * mu);
+
+    for (int i = 0; i < POINTS; i++) {
+        double mu_i = g->x[i] * g->x[i];
+        double sine_i = sqrt(1 - mu_i * mu_i);
+        double lambda = 1 + lambda_o + sheen_lambda(mu_i, alpha);
+
+        for (int j = 0; j < POINTS; j++) {
+            double phi = M_PI * g->x[j];
+            double x = sine_o + sine_i * cos(phi), y = sine_i * sin(phi);
+            double z = mu + mu_i;
+            double sine2 = (x * x + y * y) / (x * x + y * y + z * z);
+            double d = (2 + 1 / alpha) * pow(sine2, 0.5 / alpha) / (2 * M_PI);
+
+            e += g->w[i] * 2 * g->x[i] * g->w[j] * 2 * M_PI * d /
+                 (4 * mu * lambda);
+        }
+    }
+    return e;
+}
+
 /* Inverts energy_axis_eta(), slightly inside its ends. */
 static double eta_at(double t)
 {
@@ -260,6 +308,23 @@ static void print_glass(const struct gauss *g)
     printf("\n};\n");
 }
 
+/* Grazing directions below a cosine of 1e-3 have the albedo there. */
+static void print_sheen(const struct gauss *g)
+{
+    for (int i = 0; i < SHEEN_ALPHA_NODES; i++)
+        for (int j = 0; j < SHEEN_MU_NODES; j++) {
+            double t = node(i, SHEEN_ALPHA_NODES);
+            double alpha =
+                (double)SHEEN_ALPHA_MIN + t * (1 - (double)SHEEN_ALPHA_MIN);
+            double root = node(j, SHEEN_MU_NODES);
+            double mu = fmax(root * root, 1e-3);
+
+            print_gap(i * SHEEN_MU_NODES + j, 6);
+            printf("%.7ff,", fmin(sheen(g, mu, alpha), 1));
+        }
+    printf("\n};\n");
+}
+
 int main(void)
 {
     static struct gauss g;
@@ -267,7 +332,7 @@ int main(void)
     gauss_init(&g);
     printf("// SPDX-License-Identifier: MIT\n"
            "/*\n"
-           " * energy_tables.h - albedos of GGX surfaces, for energy.h\n"
+           " * energy_tables.h - albedos of surfaces, for energy.h\n"
            " *\n"
            " * Written by `make tables` (tests/tools/energy.c says how); "
            "tests/unit/\n"
@@ -277,9 +342,6 @@ int main(void)
            " * Units:     nodes are uniform along the axes of energy.h, the "
            "last one (mu)\n"
            " *            running fastest\n"
-           " * Ownership: none\n"
-           " * Threads:   none\n"
-           " * Errors:    none\n"
            " */\n"
            "#ifndef KERNELS_ENERGY_TABLES_H\n"
            "#define KERNELS_ENERGY_TABLES_H\n\n"
@@ -287,9 +349,11 @@ int main(void)
            "// clang-format off\n");
     printf("#define GGX_ALPHA_NODES %d\n#define GGX_MU_NODES %d\n"
            "#define GGX_MEAN_NODES %d\n#define GLASS_ETA_NODES %d\n"
-           "#define GLASS_ALPHA_NODES %d\n#define GLASS_MU_NODES %d\n",
+           "#define GLASS_ALPHA_NODES %d\n#define GLASS_MU_NODES %d\n"
+           "#define SHEEN_ALPHA_NODES %d\n#define SHEEN_MU_NODES %d\n",
            GGX_ALPHA_NODES, GGX_MU_NODES, GGX_MEAN_NODES, GLASS_ETA_NODES,
-           GLASS_ALPHA_NODES, GLASS_MU_NODES);
+           GLASS_ALPHA_NODES, GLASS_MU_NODES, SHEEN_ALPHA_NODES,
+           SHEEN_MU_NODES);
     printf("\n/* 1 - E over ggx_loss_scale(). */");
     print_head("float", "ggx_losses", "GGX_ALPHA_NODES * GGX_MU_NODES");
     print_ggx(&g, false);
@@ -306,6 +370,9 @@ int main(void)
     print_head("uint16_t", "glass_albedos",
                "GLASS_ETA_NODES * GLASS_ALPHA_NODES * GLASS_MU_NODES");
     print_glass(&g);
+    printf("\n/* E of white sheen. */");
+    print_head("float", "sheen_albedos", "SHEEN_ALPHA_NODES * SHEEN_MU_NODES");
+    print_sheen(&g);
     printf("// clang-format on\n\n#endif\n");
     return 0;
 }

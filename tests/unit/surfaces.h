@@ -114,6 +114,11 @@ static inline struct bsdf random_mixture(uint64_t *seed)
     m.specular = v3_scale(m.specular, 4 * x[7]);
     if (x[6] < 0.4f)
         m.anisotropy = 2.5f * x[6];
+    if (x[7] < 0.4f) {
+        m.sheen = v3_scale(white, 2.5f * x[7]);
+        m.sheen_alpha =
+            SHEEN_ALPHA_MIN + (1 - SHEEN_ALPHA_MIN) * (1 - x[4] * x[4]);
+    }
     return m;
 }
 

@@ -123,9 +123,9 @@ static void coloured_mixtures_add_no_light(void **state)
     }
 }
 
-/* Without transmission f(wo, wi) = f(wi, wo) below the coat, by which layers
- * lose what it reflects from wo. */
-static void layers_are_reciprocal_but_for_the_coat(void **state)
+/* Without transmission f(wo, wi) = f(wi, wo) below coat and sheen, which take
+ * what they reflect from wo. */
+static void layers_are_reciprocal_but_for_those_above(void **state)
 {
     uint64_t seed = 3;
 
@@ -145,8 +145,15 @@ static void layers_are_reciprocal_but_for_the_coat(void **state)
 
             for (int j = 0; j < 2; j++) {
                 struct vec3 wo = w[j], wi = w[1 - j];
+                double sheen =
+                    (double)(m.sheen.x * sheen_albedo(wo.z, m.sheen_alpha));
                 double e = (double)(m.coat * specular_albedo(&coat, wo.z).x);
                 double top = (double)(m.coat * surface_f(&coat, wo, wi).y);
+
+                if (m.sheen.x > 0)
+                    top = (1 - sheen) * top +
+                          (double)(m.sheen.x * sheen_f(wo, wi, m.sheen_alpha));
+                e = 1 - (1 - sheen) * (1 - e);
 
                 f[j] = ((double)surface_f(&m, wo, wi).y - top) / (1 - e) /
                        (double)wi.z;
@@ -210,6 +217,76 @@ static void stretched_facets_keep_nearly_all_light(void **state)
     check_at_most(worst, 0.23);
 }
 
+static void sheen_is_reciprocal(void **state)
+{
+    uint64_t seed = 9;
+
+    (void)state;
+    for (int i = 0; i < 2000; i++) {
+        struct vec3 wo = any_direction(&seed, 0.01f);
+        struct vec3 wi = any_direction(&seed, 0.01f);
+        float alpha = SHEEN_ALPHA_MIN +
+                      (1 - SHEEN_ALPHA_MIN) * (float)check_random(&seed);
+        double there = (double)(sheen_f(wo, wi, alpha) / wi.z);
+
+        check_close((double)(sheen_f(wi, wo, alpha) / wo.z), there,
+                    1e-4 * there + 1e-12);
+    }
+}
+
+/* Integrates sheen over the hemisphere by midpoints in the root of the cosine
+ * and the azimuth. */
+static double sheen_by_midpoints(float mu, float alpha)
+{
+    const int side = 400;
+    double sum = 0;
+
+    for (int i = 0; i < side * side; i++) {
+        double t = (i % side + 0.5) / side;
+        double phi = M_PI * (i / side + 0.5) / side;
+        double r = sqrt(1 - pow(t, 4));
+        struct vec3 wi =
+            v3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)(t * t));
+
+        sum += (double)sheen_f(direction(mu), wi, alpha) * 4 * M_PI * t;
+    }
+    return sum / side / side;
+}
+
+/* The table has the albedo, also between its nodes, and no more light leaves
+ * than arrives. */
+static void sheen_has_the_albedo_of_its_table(void **state)
+{
+    (void)state;
+    for (float alpha = SHEEN_ALPHA_MIN; alpha <= 1; alpha += 0.0731f)
+        for (float mu = 0.0023f; mu <= 1; mu *= 1.31f) {
+            double e = sheen_by_midpoints(mu, alpha);
+
+            check_at_most(e, 1);
+            check_close((double)sheen_albedo(mu, alpha), e,
+                        mu < 0.02f ? 0.015 : 4e-3);
+        }
+}
+
+static void powers_are_those_of_libm(void **state)
+{
+    uint64_t seed = 4;
+
+    (void)state;
+    for (int i = 0; i < 100000; i++) {
+        float x = (float)exp2(20 * check_random(&seed) - 19);
+        float y = (float)(8 * check_random(&seed));
+        double want = pow((double)x, (double)y);
+
+        if (want > 1e-30)
+            check_close((double)f_pow(x, y) / want, 1, 1e-5);
+        y = (float)(160 * check_random(&seed) - 80);
+        check_close((double)f_exp(y) / exp((double)y), 1, 1e-5);
+    }
+    assert_true(f_pow(0, 2) == 0 && f_exp2(-1000) == 0);
+    assert_true(f_exp2(1000) == 0x1p126f);
+}
+
 /* A coat of full weight over a black base reflects its albedo, found by
  * quadrature; over a base of albedo a it adds (1 - that) a. */
 static void coats_reflect_their_albedo(void **state)
@@ -265,7 +342,10 @@ int main(void)
         cmocka_unit_test(ends_are_metal_plastic_and_glass),
         cmocka_unit_test(white_mixtures_lose_nothing),
         cmocka_unit_test(coloured_mixtures_add_no_light),
-        cmocka_unit_test(layers_are_reciprocal_but_for_the_coat),
+        cmocka_unit_test(layers_are_reciprocal_but_for_those_above),
+        cmocka_unit_test(powers_are_those_of_libm),
+        cmocka_unit_test(sheen_is_reciprocal),
+        cmocka_unit_test(sheen_has_the_albedo_of_its_table),
         cmocka_unit_test(facets_have_two_widths),
         cmocka_unit_test(stretched_facets_keep_nearly_all_light),
         cmocka_unit_test(coats_reflect_their_albedo),
