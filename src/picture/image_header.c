@@ -4,6 +4,8 @@
 #include <limits.h>
 #include <string.h>
 
+#include "picture/image_gif.h"
+#include "picture/image_pnm.h"
 #include "picture/stb.h"
 
 /* Memory of a decoder for tables and rounding, without its pixels. */
@@ -299,6 +301,13 @@ static bool tga_header(struct image_file *f, struct error *err)
     return expect_bytes(f, b.size, at + pixel_bytes * pixels_of(f), err);
 }
 
+/* Our own decoders take the result's memory only. */
+static bool own_decoder(struct image_file *f)
+{
+    f->decoder_bytes = 4 * (size_t)pixels_of(f);
+    return true;
+}
+
 bool image_header(struct image_file *f, struct error *err)
 {
     struct bytes b = bytes_of(f);
@@ -306,20 +315,24 @@ bool image_header(struct image_file *f, struct error *err)
     if (b.size > INT_MAX)
         return fail(err, "%s: found %.1f GiB, expected 2 GiB at most", f->path,
                     (double)b.size / (1 << 30));
-    f->kind = is_png(b)    ? IMAGE_PNG
-              : is_bmp(b)  ? IMAGE_BMP
-              : is_jpeg(b) ? IMAGE_JPEG
-              : is_tga(b)  ? IMAGE_TGA
-                           : IMAGE_UNKNOWN;
+    f->kind = is_png(b)         ? IMAGE_PNG
+              : image_pnm_is(f) ? IMAGE_PNM
+              : image_gif_is(f) ? IMAGE_GIF
+              : is_bmp(b)       ? IMAGE_BMP
+              : is_jpeg(b)      ? IMAGE_JPEG
+              : is_tga(b)       ? IMAGE_TGA
+                                : IMAGE_UNKNOWN;
     switch (f->kind) {
     case IMAGE_PNG: return png_header(f, err);
     case IMAGE_JPEG: return jpeg_header(f, err);
     case IMAGE_BMP: return bmp_header(f, err);
     case IMAGE_TGA: return tga_header(f, err);
+    case IMAGE_PNM: return image_pnm_header(f, err) && own_decoder(f);
+    case IMAGE_GIF: return image_gif_header(f, err) && own_decoder(f);
     default: break;
     }
     return fail(err,
                 "%s: found no image that can be read, expected PNG, JPEG, BMP, "
-                "TGA, Radiance HDR or PFM",
+                "TGA, PNM, GIF, Radiance HDR or PFM",
                 f->path);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * image_header.h - headers of the image files that stb_image decodes
+ * image_header.h - headers of the image files of 8 bits a channel
  *
  * stb_image allocates memory for all pixels that a header promises before it
  * reads them, and replaces missing pixels of BMP and TGA files by zeros. So
@@ -17,7 +17,8 @@
 
 #include "picture/image_read.h"
 
-/* Finds kind, sides and decoder_bytes of a PNG, JPEG, BMP or TGA file. */
+/* Finds kind, sides and decoder_bytes of a PNG, JPEG, BMP, TGA, PNM or GIF
+ * file. */
 bool image_header(struct image_file *file, struct error *err);
 
 /* Fails if the sides exceed the limits. */

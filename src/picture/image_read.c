@@ -9,7 +9,9 @@
 #include "base/memory.h"
 #include "picture/color.h"
 #include "picture/image_float.h"
+#include "picture/image_gif.h"
 #include "picture/image_header.h"
+#include "picture/image_pnm.h"
 #include "picture/stb.h"
 
 #include "kernels/tone.h"
@@ -31,6 +33,12 @@ static size_t pixels_of(const struct image_file *f)
 static bool is_float(const struct image_file *f)
 {
     return f->kind == IMAGE_HDR || f->kind == IMAGE_PFM;
+}
+
+/* True for the kinds of 8 bits a channel that stb_image does not decode. */
+static bool is_own(const struct image_file *f)
+{
+    return f->kind == IMAGE_PNM || f->kind == IMAGE_GIF;
 }
 
 /* ---- opening ---- */
@@ -144,12 +152,35 @@ static void *expect_pixels(const struct image_file *f, void *pixels, int width,
     return NULL;
 }
 
+static uint8_t *decode_own(const struct image_file *f, struct error *err)
+{
+    return f->kind == IMAGE_GIF ? image_gif_decode(f, err)
+                                : image_pnm_decode(f, err);
+}
+
+/* Returns linear floats of an image of our own decoders. */
+static float *decode_own_linear(const struct image_file *f, struct error *err)
+{
+    uint8_t *rgba = decode_own(f, err);
+    float *rgb = rgba ? alloc_array(pixels_of(f), 3 * sizeof *rgb) : NULL;
+
+    if (rgba && !rgb)
+        fail_memory(f, err);
+    for (size_t i = 0; rgb && i < pixels_of(f); i++)
+        for (size_t k = 0; k < 3; k++)
+            rgb[3 * i + k] = (float)color_decoded(rgba[4 * i + k] / 255.0);
+    free(rgba);
+    return rgb;
+}
+
 static float *decode_linear(struct image_file *f, struct error *err)
 {
     int width, height, channels;
 
     if (is_float(f))
         return image_float_decode(f, err);
+    if (is_own(f))
+        return decode_own_linear(f, err);
     stb_limit(f->decoder_bytes);
     stbi_us *pixels = stbi_load_16_from_memory((const unsigned char *)f->data,
                                                (int)f->size_bytes, &width,
@@ -226,6 +257,8 @@ static uint8_t *decode_8bit(struct image_file *f, struct error *err)
         float *rgb = decode_clamped(f, &clamped_count, err);
         return rgb ? encode_floats(f, rgb, err) : NULL;
     }
+    if (is_own(f))
+        return decode_own(f, err);
     stb_limit(f->decoder_bytes);
     rgba = stbi_load_from_memory((const unsigned char *)f->data,
                                  (int)f->size_bytes, &width, &height, &channels,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
  * image_read.h - reads image files: PNG, JPEG, BMP and TGA through stb_image,
- * PFM and Radiance HDR by its own code
+ * PNM, GIF, PFM and Radiance HDR by our own code
  *
  * image_open() reads the header and finds the number of pixels and the memory
  * that they take. It fails if the file is too short for them or if there is not
@@ -33,6 +33,8 @@ enum image_kind {
     IMAGE_JPEG,
     IMAGE_BMP,
     IMAGE_TGA,
+    IMAGE_PNM,
+    IMAGE_GIF,
     IMAGE_HDR,
     IMAGE_PFM,
 };
@@ -50,9 +52,10 @@ struct image_file {
     enum image_kind kind;
     int width, height;
 
-    /* HDR and PFM */
+    /* HDR, PFM and PNM */
     size_t pixels_at; /* offset in the data */
     int channels;
+    uint32_t value_max; /* of PNM */
     bool is_big_endian;
 
     size_t decoder_bytes; /* peak memory of stb_image, pixels included */

@@ -9,5 +9,5 @@ printf '\0\0\2\0\0\0\0\0\0\0\0\0\377\177\377\037\040\0x' >1.tga
     printf '\0\0\012\0\0\0\0\0\0\0\0\0\010\077\0\032\020\003'
     printf '%143s' ''
 } >2.tga
-printf 'P6\n1 1\n255\nabc' >3.tga
+printf '8BPS no picture' >3.tga
 run_untimed $b textured.obj

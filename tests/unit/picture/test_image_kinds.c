@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_image_kinds.c - PNM and GIF files have the pixels that their
+ * specifications give them, and broken ones their message
+ *
+ * The GIF file is the example of M. Flickinger's "What's In A GIF", which
+ * explains each of its bytes.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/unit/files.h"
+#include "tests/unit/whole_image.h"
+
+static const uint8_t sample[] = {'G',  'I',  'F',  '8',  '9',  'a',  10,   0,
+                                 10,   0,    0x91, 0,    0,    0xff, 0xff, 0xff,
+                                 0xff, 0,    0,    0,    0,    0xff, 0,    0,
+                                 0,    0x21, 0xf9, 4,    0,    0,    0,    0,
+                                 0,    0x2c, 0,    0,    0,    0,    10,   0,
+                                 10,   0,    0,    2,    0x16, 0x8c, 0x2d, 0x99,
+                                 0x87, 0x2a, 0x1c, 0xdc, 0x33, 0xa0, 2,    0x75,
+                                 0xec, 0x95, 0xfa, 0xa8, 0xde, 0x60, 0x8c, 4,
+                                 0x91, 0x4c, 1,    0,    0x3b};
+
+/* Offsets in the file. */
+enum { CONTROL_FLAGS = 28, CONTROL_COLOR = 31, LEFT = 34, FLAGS = 42 };
+
+static const char *const colors[10] = {"1111122222", "1111122222", "1111122222",
+                                       "1110000222", "1110000222", "2220000111",
+                                       "2220000111", "2222211111", "2222211111",
+                                       "2222211111"};
+
+static const uint8_t palette[3][3] = {{255, 255, 255},
+                                      {255, 0, 0},
+                                      {0, 0, 255}};
+
+static struct image read_image(const void *bytes, size_t size_bytes)
+{
+    struct image image;
+    struct error err;
+
+    put_bytes("a.img", bytes, size_bytes);
+    check_or_say(image_read_8bit(&image, "a.img", &err), err.text);
+    return image;
+}
+
+static void check_row(const struct image *image, int y, const char *row)
+{
+    for (int x = 0; x < 10; x++) {
+        const uint8_t *p = image->rgba + 4 * (10 * y + x);
+
+        assert_memory_equal(p, palette[row[x] - '0'], 3);
+        assert_int_equal(p[3], 255);
+    }
+}
+
+static void gif_has_the_pixels_of_the_example(void **state)
+{
+    /* rows of the file, as four passes over the image order them */
+    static const int interlaced[10] = {0, 8, 4, 2, 6, 1, 3, 5, 7, 9};
+    uint8_t bytes[sizeof sample];
+    struct image image = read_image(sample, sizeof sample);
+
+    (void)state;
+    assert_int_equal(image.width, 10);
+    assert_int_equal(image.height, 10);
+    for (int y = 0; y < 10; y++)
+        check_row(&image, y, colors[y]);
+    image_free(&image);
+    memcpy(bytes, sample, sizeof bytes);
+    bytes[FLAGS] = 0x40;
+    image = read_image(bytes, sizeof bytes);
+    for (int y = 0; y < 10; y++)
+        check_row(&image, interlaced[y], colors[y]);
+    image_free(&image);
+}
+
+static void gif_has_a_transparent_colour(void **state)
+{
+    uint8_t bytes[sizeof sample];
+    struct image image;
+
+    (void)state;
+    memcpy(bytes, sample, sizeof bytes);
+    bytes[CONTROL_FLAGS] = 1;
+    bytes[CONTROL_COLOR] = 2;
+    bytes[LEFT] = 4; /* the picture ends behind the screen */
+    image = read_image(bytes, sizeof bytes);
+    for (int i = 0; i < 100; i++) {
+        int x = i % 10 - 4, y = i / 10;
+
+        assert_int_equal(image.rgba[4 * i + 3],
+                         x < 0 || colors[y][x] == '2' ? 0 : 255);
+    }
+    image_free(&image);
+}
+
+static void check_rgb(const void *bytes, size_t size_bytes,
+                      const uint8_t expected[6])
+{
+    struct image image = read_image(bytes, size_bytes);
+
+    assert_int_equal(image.width, 2);
+    assert_int_equal(image.height, 1);
+    for (int i = 0; i < 2; i++) {
+        assert_memory_equal(image.rgba + 4 * i, expected + 3 * i, 3);
+        assert_int_equal(image.rgba[4 * i + 3], 255);
+    }
+    image_free(&image);
+}
+
+static void pnm_has_the_values_of_the_file(void **state)
+{
+    static const char p6[] = "P6\n# a comment\n2 1\n255\nabcdef";
+    static const char p5[] = "P5 2 1 15\n\x0f\x05";
+    static const char wide[] = "P5 2 1 65535\n\xff\xff\x80\x80";
+    static const char p3[] = "P3\n2 1 100\n100 50 0 # end\n 0 50 100";
+    static const char p2[] = "P2\n2 1\n1\n1 0\n";
+
+    (void)state;
+    check_rgb(p6, sizeof p6 - 1, (const uint8_t *)"abcdef");
+    check_rgb(p5, sizeof p5 - 1, (const uint8_t[]){255, 255, 255, 85, 85, 85});
+    check_rgb(wide, sizeof wide - 1,
+              (const uint8_t[]){255, 255, 255, 128, 128, 128});
+    check_rgb(p3, sizeof p3 - 1, (const uint8_t[]){255, 128, 0, 0, 128, 255});
+    check_rgb(p2, sizeof p2 - 1, (const uint8_t[]){255, 255, 255, 0, 0, 0});
+}
+
+/* As a sky, sRGB 188 is half of white (IEC 61966-2-1). */
+static void linear_values_are_decoded(void **state)
+{
+    struct image image;
+    struct error err;
+    uint64_t clamped;
+
+    (void)state;
+    put_bytes("a.img", "P6 1 1 255\n\xff\xbc\0", 14);
+    check_or_say(image_read_linear(&image, "a.img", &clamped, &err), err.text);
+    check_close((double)image.rgb[0], 1, 1e-6);
+    check_close((double)image.rgb[1], .5029, 1e-4);
+    check_close((double)image.rgb[2], 0, 0);
+    image_free(&image);
+}
+
+static void fails(const void *bytes, size_t size_bytes, const char *expected)
+{
+    struct image image;
+    struct error err;
+
+    put_bytes("a.img", bytes, size_bytes);
+    assert_false(image_read_8bit(&image, "a.img", &err));
+    assert_string_equal(err.text, expected);
+}
+
+static void broken_files_have_their_message(void **state)
+{
+    (void)state;
+    fails("P6\n2 x\n255\nabcdef", 17,
+          "a.img: expected width, height and largest value up to 65535 after "
+          "'P6'");
+    fails("P6 2 1 255\nabcde", 16,
+          "a.img: found 16 bytes, expected more for 2x1 pixels");
+    fails("P2 2 1 9\n9 x", 12, "a.img: found a bad value, expected 2 up to 9");
+    fails("P2 2 1 9\n9 10", 13, "a.img: found a bad value, expected 2 up to 9");
+    fails(sample, 6, "a.img: found 0x0 pixels, expected sides of 1 to 32768");
+    fails(sample, sizeof sample - 6, "a.img: found a broken GIF image");
+    fails(sample, 20, "a.img: found a broken GIF image");
+    fails("GIF89a\xff\x7f\xff\x7f", 10,
+          "a.img: found 32767x32767 pixels, expected 268435456 in all at most");
+    fails("GIF89a\xff\x3f\xff\x3f", 10,
+          "a.img: found 10 bytes, expected more for 16383x16383 pixels");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gif_has_the_pixels_of_the_example),
+        cmocka_unit_test(gif_has_a_transparent_colour),
+        cmocka_unit_test(pnm_has_the_values_of_the_file),
+        cmocka_unit_test(linear_values_are_decoded),
+        cmocka_unit_test(broken_files_have_their_message),
+    };
+
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+}
