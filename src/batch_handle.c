@@ -31,8 +31,11 @@ static bool set_up(struct glim *g, const struct options *o, struct error *err)
 
 struct glim *batch_handle_open(const struct options *o, struct error *err)
 {
+    struct glim_sun sun = {o->sun_azimuth_deg, o->sun_elevation_deg};
     struct glim_open_options how = {
         .view_path = o->view_path,
+        .sun = o->has_sun ? &sun : NULL,
+        .turbidity = o->turbidity,
         .up = o->up_is_z ? GLIM_UP_Z : GLIM_UP_Y,
         .threads = options_threads(o),
     };

@@ -108,14 +108,23 @@ GLIM_API const char *glim_version(void);
 
 /* ---- scenes ---- */
 
+/* Sun with a clear sky around it, which replaces the sky of the view file. */
+struct glim_sun {
+    double azimuth_deg;   /* clockwise from -z, -360 to 360 */
+    double elevation_deg; /* above the horizon, -90 to 90 */
+};
+
 /* Options of glim_open(); a zeroed struct has the defaults. */
 struct glim_open_options {
     /* path of the view file; NULL means the file with the scene's name and the
      * ending .view, if it exists */
     const char *view_path;
     enum glim_up up;
-    int threads; /* CPU threads as in glim_set_threads(), also for reading
-                    images */
+    const struct glim_sun *sun; /* NULL means that of the view file, if any */
+    double turbidity; /* haze of the sun's sky, 1.7 to 10; 0 means that of the
+                         view file */
+    int threads;      /* CPU threads as in glim_set_threads(), also for reading
+                         images */
 };
 
 /* Opens the scene of an OBJ file, which gzip may have packed ("-": standard

@@ -67,6 +67,18 @@ static bool assign(struct glim *g, struct error *err)
     return ok;
 }
 
+/* Sets the sun of the options. */
+static bool set_sun(struct view *view, const struct glim_open_options *o,
+                    struct error *err)
+{
+    const struct glim_sun *sun = o->sun;
+
+    if (sun != NULL &&
+        !view_set_sun(view, sun->azimuth_deg, sun->elevation_deg, err))
+        return false;
+    return o->turbidity == 0 || view_set_turbidity(view, o->turbidity, err);
+}
+
 static bool open_all(struct glim *g, const char *path,
                      const struct glim_open_options *o, struct error *err)
 {
@@ -74,6 +86,7 @@ static bool open_all(struct glim *g, const char *path,
     return g->cancel_fd >= 0 && handle_set_threads(g, o->threads, err) &&
            view_find(&g->view, path, o->view_path, &g->view_path, &g->report,
                      err) &&
+           set_sun(&g->view, o, err) &&
            scene_open(&g->scene, &g->world, &g->view, path, o->up == GLIM_UP_Z,
                       handle_threads(g), &g->report, err) &&
            assign(g, err) && make_warnings(g, err);

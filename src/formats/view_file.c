@@ -8,6 +8,7 @@
 
 #include "base/decimal.h"
 #include "base/memory.h"
+#include "light/daylight.h"
 
 bool view_read(struct view *view, const char *path, struct warnings *report,
                struct error *err)
@@ -99,6 +100,19 @@ static void write_key(FILE *to, const struct view *v, enum view_key_id id,
         if (v->lighting.sky_rotation_deg < 0 ||
             v->lighting.sky_rotation_deg > 0)
             write_line(to, "sky_rotation", &v->lighting.sky_rotation_deg, 1);
+        break;
+    case KEY_SUN:
+        if (v->lighting.sun.is_on) {
+            double angles[2] = {v->lighting.sun.azimuth_deg,
+                                v->lighting.sun.elevation_deg};
+
+            write_line(to, "sun", angles, 2);
+        }
+        break;
+    case KEY_TURBIDITY:
+        if (v->lighting.sun.turbidity < TURBIDITY_DEFAULT ||
+            v->lighting.sun.turbidity > TURBIDITY_DEFAULT)
+            write_line(to, "turbidity", &v->lighting.sun.turbidity, 1);
         break;
     case KEY_APERTURE:
         if (v->pose.aperture > 0)

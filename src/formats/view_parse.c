@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "light/daylight.h"
 
 /* Largest number: squares and differences stay finite. */
 #define GREATEST 1e30
@@ -37,6 +38,10 @@ const struct view_key view_keys[VIEW_KEYS] = {
      "a number from 0 to 1e30"},
     {"sky_rotation", KEY_SKY_ROTATION, 1, false, -1e6, 1e6,
      "an angle from -1e6 to 1e6 degrees"},
+    {"sun", KEY_SUN, 2, false, -SUN_AZIMUTH_MAX, SUN_AZIMUTH_MAX,
+     "an azimuth from -360 to 360 and an elevation from -90 to 90 degrees"},
+    {"turbidity", KEY_TURBIDITY, 1, false, TURBIDITY_LEAST, TURBIDITY_GREATEST,
+     "a number from 1.7 to 10"},
     {"aperture", KEY_APERTURE, 1, false, 0, GREATEST,
      "a number from 0 to 1e30"},
     {"focus", KEY_FOCUS, 1, false, 0, GREATEST, "a number from 0 to 1e30"},
@@ -54,14 +59,22 @@ static bool fail_at(const struct view_reader *r, struct word found,
                 r->lex->line, word_quote(found).text, expected, key);
 }
 
-/* Reads one number of a key and checks its range. */
+/* Returns true if number i of the key may have this value. */
+static bool is_in_range(const struct view_key *key, int i, double value)
+{
+    if (key->id == KEY_SUN && i == 1)
+        return fabs(value) <= SUN_ELEVATION_MAX;
+    return value >= key->least && value <= key->greatest &&
+           (!key->is_whole || value == floor(value));
+}
+
+/* Reads number i of a key and checks its range. */
 static bool read_number(struct view_reader *r, const struct view_key *key,
-                        double *value, struct error *err)
+                        int i, double *value, struct error *err)
 {
     struct lexer before = *r->lex;
     bool ok = !lexer_at_line_end(r->lex) && lexer_number(r->lex, value) &&
-              *value >= key->least && *value <= key->greatest &&
-              (!key->is_whole || *value == floor(*value));
+              is_in_range(key, i, *value);
 
     if (ok)
         return true;
@@ -90,6 +103,12 @@ static void store(struct view *view, enum view_key_id id, const double *v)
     case KEY_MAX_BOUNCES: view->max_bounces = (int)v[0]; break;
     case KEY_SKY_STRENGTH: view->lighting.sky_strength = v[0]; break;
     case KEY_SKY_ROTATION: view->lighting.sky_rotation_deg = v[0]; break;
+    case KEY_SUN:
+        view->lighting.sun.is_on = true;
+        view->lighting.sun.azimuth_deg = v[0];
+        view->lighting.sun.elevation_deg = v[1];
+        break;
+    case KEY_TURBIDITY: view->lighting.sun.turbidity = v[0]; break;
     case KEY_APERTURE: view->pose.aperture = v[0]; break;
     case KEY_FOCUS: view->pose.focus = v[0]; break;
     case KEY_EXPOSURE: view->lighting.exposure = v[0]; break;
@@ -108,7 +127,7 @@ static bool read_numbers(struct view_reader *r, const struct view_key *key,
     double values[3] = {0};
 
     for (int i = 0; i < key->count; i++) {
-        if (!read_number(r, key, &values[i], err))
+        if (!read_number(r, key, i, &values[i], err))
             return false;
     }
     if (key->id == KEY_UP && values[0] == 0 && values[1] == 0 && values[2] == 0)
@@ -148,7 +167,7 @@ static bool read_shot(struct view_reader *r, const struct view_key *view_key,
     char place[512];
     double number;
 
-    if (!read_number(r, view_key, &number, err))
+    if (!read_number(r, view_key, 0, &number, err))
         return false;
     while (!lexer_at_line_end(r->lex)) {
         struct word name = lexer_word(r->lex);

@@ -27,6 +27,8 @@ enum view_key_id {
     KEY_MAX_BOUNCES,
     KEY_SKY_STRENGTH,
     KEY_SKY_ROTATION,
+    KEY_SUN,
+    KEY_TURBIDITY,
     KEY_APERTURE,
     KEY_FOCUS,
     KEY_EXPOSURE,

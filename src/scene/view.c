@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "light/daylight.h"
+
 const char *const view_tones[TONES] = {
     [TONE_LINEAR] = "linear",
     [TONE_REINHARD] = "reinhard",
@@ -15,7 +17,10 @@ void view_init(struct view *view)
 {
     *view = (struct view){
         .pose = {.up = {0, 1, 0}, .fovy_deg = 40},
-        .lighting = {.sky_strength = 1},
+        .lighting = {.sky_strength = 1,
+                     .sun = {.azimuth_deg = 135,
+                             .elevation_deg = 45,
+                             .turbidity = TURBIDITY_DEFAULT}},
         .width_px = 1024,
         .height_px = 576,
         .max_bounces = -1,
@@ -50,6 +55,36 @@ void view_set_size(struct view *view, int width_px, int height_px)
     view->has_size = true;
 }
 
+bool view_set_sun(struct view *view, double azimuth_deg, double elevation_deg,
+                  struct error *err)
+{
+    struct sun *sun = &view->lighting.sun;
+
+    if (!(fabs(azimuth_deg) <= SUN_AZIMUTH_MAX &&
+          fabs(elevation_deg) <= SUN_ELEVATION_MAX))
+        return fail(err,
+                    "sun: found %g,%g, expected an azimuth from -%d to %d and "
+                    "an elevation from -%d to %d degrees",
+                    azimuth_deg, elevation_deg, SUN_AZIMUTH_MAX,
+                    SUN_AZIMUTH_MAX, SUN_ELEVATION_MAX, SUN_ELEVATION_MAX);
+    sun->is_on = true;
+    sun->azimuth_deg = azimuth_deg;
+    sun->elevation_deg = elevation_deg;
+    return true;
+}
+
+bool view_set_turbidity(struct view *view, double turbidity, struct error *err)
+{
+    if (!(turbidity >= TURBIDITY_LEAST && turbidity <= TURBIDITY_GREATEST))
+        return fail(err, "turbidity: found %g, expected %g to %g", turbidity,
+                    TURBIDITY_LEAST, TURBIDITY_GREATEST);
+    if (!view->lighting.sun.is_on)
+        return fail(err, "turbidity: found no sun, expected one in the options "
+                         "or the view file");
+    view->lighting.sun.turbidity = turbidity;
+    return true;
+}
+
 bool view_has_part(const struct view *view, int x, int y, int width, int height)
 {
     return x >= 0 && y >= 0 && width > 0 && height > 0 &&
@@ -74,13 +109,21 @@ static bool is_same_path(const char *a, const char *b)
     return a == b || (a && b && strcmp(a, b) == 0);
 }
 
+bool sun_has_same_sky(const struct sun *a, const struct sun *b)
+{
+    return a->is_on == b->is_on && a->elevation_deg == b->elevation_deg &&
+           a->turbidity == b->turbidity;
+}
+
 bool lighting_is_same_light(const struct lighting *a, const struct lighting *b)
 {
     return memcmp(a->background, b->background, sizeof a->background) == 0 &&
            a->has_background == b->has_background &&
            is_same_path(a->sky_path, b->sky_path) &&
            a->sky_strength == b->sky_strength &&
-           a->sky_rotation_deg == b->sky_rotation_deg;
+           a->sky_rotation_deg == b->sky_rotation_deg &&
+           sun_has_same_sky(&a->sun, &b->sun) &&
+           a->sun.azimuth_deg == b->sun.azimuth_deg;
 }
 
 bool lighting_equal(const struct lighting *a, const struct lighting *b)

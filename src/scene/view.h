@@ -22,14 +22,27 @@
  * memories, so that larger numbers can only be mistakes. */
 #define VIEW_SIDE_MAX 65536
 
+/* Sun with a clear sky around it (light/daylight.h). */
+struct sun {
+    bool is_on;
+    double azimuth_deg;   /* clockwise seen from above, 0 at -z, 90 at +x */
+    double elevation_deg; /* above the horizon */
+    double turbidity;     /* haze of the air */
+};
+
+/* Greatest azimuth, either way, and greatest elevation in degrees. */
+#define SUN_AZIMUTH_MAX   360
+#define SUN_ELEVATION_MAX 90
+
 /* Environment light, exposure and tone mapping. */
 struct lighting {
     double background[3]; /* constant radiance */
     bool has_background;
     /* path of an image that replaces the background, or NULL */
     char *sky_path;
-    double sky_strength;
+    double sky_strength; /* factor for the image or the sun with its sky */
     double sky_rotation_deg;
+    struct sun sun;  /* replaces the image and the background if it is on */
     double exposure; /* in stops: radiance is multiplied by 2^exposure */
     uint32_t tone;   /* enum tone */
 };
@@ -52,12 +65,19 @@ struct view {
 extern const char *const view_tones[TONES];
 
 /* Sets the defaults: no camera, up +y, fovy 40, 1024x576, black background, no
- * limit of bounces. */
+ * limit of bounces, and the sun off, in the south-east. */
 void view_init(struct view *view);
 
 /* Sets the size of the picture. A side of 0 is computed from the other one and
  * the previous aspect ratio. */
 void view_set_size(struct view *view, int width_px, int height_px);
+
+/* Switches the sun on at these angles. */
+bool view_set_sun(struct view *view, double azimuth_deg, double elevation_deg,
+                  struct error *err);
+
+/* Sets the turbidity of the view's sun, which must be on. */
+bool view_set_turbidity(struct view *view, double turbidity, struct error *err);
 
 /* Returns true if the rectangle is not empty and inside the picture. */
 bool view_has_part(const struct view *view, int x, int y, int width,
@@ -68,6 +88,9 @@ bool view_has_part(const struct view *view, int x, int y, int width,
 bool lighting_copy(struct lighting *to, const struct lighting *from);
 /* Returns true if all members are equal. */
 bool lighting_equal(const struct lighting *a, const struct lighting *b);
+
+/* Returns true if the same image shows both suns, turned by their azimuths. */
+bool sun_has_same_sky(const struct sun *a, const struct sun *b);
 
 /* Returns true if the light is the same: all members except exposure and tone
  * are equal, so that only the development differs. */

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "picture/color.h"
 #include "picture/image_read.h"
+#include "light/sun_sky.h"
 #include "scene/textures.h"
 #include "kernels/light.h"
 
@@ -146,38 +147,77 @@ bool world_init(struct host_world *host, const struct scene *scene,
     return lights_build(&host->lights, &arrays, err);
 }
 
-bool world_has_sky(const struct host_world *host, const struct view *view)
+/* Returns the path of the image that the view shows, or NULL. */
+static const char *shown_sky(const struct view *view)
 {
-    const char *a = host->sky_path, *b = view->lighting.sky_path;
-
-    return a == b || (a != NULL && b != NULL && strcmp(a, b) == 0);
+    return view->lighting.sun.is_on ? NULL : view->lighting.sky_path;
 }
 
-bool world_load_sky(struct host_world *host, const struct view *view,
-                    struct warnings *report, struct error *err)
+bool world_has_sky(const struct host_world *host, const struct view *view)
+{
+    const char *a = host->sky_path, *b = shown_sky(view);
+
+    return (a == b || (a != NULL && b != NULL && strcmp(a, b) == 0)) &&
+           sun_has_same_sky(&host->sun, &view->lighting.sun);
+}
+
+static bool read_sky(const struct host_world *host, const char *path,
+                     struct image *image, struct warnings *report,
+                     struct error *err)
 {
     struct image_file file;
-    struct image image = {0};
-    struct sky_table table = {0};
     uint64_t clamped_count = 0;
 
-    free(host->sky_path);
-    host->sky_path = NULL;
-    if (view->lighting.sky_path != NULL) {
-        host->sky_path = strdup(view->lighting.sky_path);
-        if (host->sky_path == NULL)
-            return fail(err, "%s: out of memory", view->lighting.sky_path);
-    }
-    if (view->lighting.sky_path != NULL &&
-        (!image_open(&file, view->lighting.sky_path, IMAGE_LINEAR,
-                     textures_bytes(host), err) ||
-         !image_decode(&file, &image, &clamped_count, err)))
+    if (!image_open(&file, path, IMAGE_LINEAR, textures_bytes(host), err) ||
+        !image_decode(&file, image, &clamped_count, err))
         return false;
     if (clamped_count > 0)
         warnings_add(report, "skies with impossible values",
                      "%s: found %" PRIu64
                      " negative or infinite values: clamped",
-                     view->lighting.sky_path, clamped_count);
+                     path, clamped_count);
+    return true;
+}
+
+static bool make_sun_sky(const struct host_world *host, struct image *image,
+                         struct error *err)
+{
+    struct pool *pool = world_pool(host);
+
+    image->width = SUN_SKY_WIDTH;
+    image->height = SUN_SKY_HEIGHT;
+    image->rgb =
+        (float *)(void *)sun_sky_create(SUN_SKY_WIDTH, SUN_SKY_HEIGHT,
+                                        host->sun.elevation_deg,
+                                        host->sun.turbidity, pool, err);
+    pool_destroy(pool);
+    return image->rgb != NULL;
+}
+
+/* Sets the sky that is tried from now on. */
+static bool set_tried_sky(struct host_world *host, const struct view *view,
+                          struct error *err)
+{
+    const char *path = shown_sky(view);
+
+    free(host->sky_path);
+    host->sky_path = path != NULL ? strdup(path) : NULL;
+    host->sun = view->lighting.sun;
+    return path == NULL || host->sky_path != NULL ||
+           fail(err, "%s: out of memory", path);
+}
+
+bool world_load_sky(struct host_world *host, const struct view *view,
+                    struct warnings *report, struct error *err)
+{
+    struct image image = {0};
+    struct sky_table table = {0};
+
+    if (!set_tried_sky(host, view, err) ||
+        (host->sun.is_on && !make_sun_sky(host, &image, err)) ||
+        (host->sky_path != NULL &&
+         !read_sky(host, host->sky_path, &image, report, err)))
+        return false;
     if (!sky_table_build(&table, (struct vec3 *)(void *)image.rgb,
                          (uint32_t)image.width, (uint32_t)image.height,
                          SKY_WITH_MIS, err)) {
@@ -298,7 +338,9 @@ void world_take_shape(struct host_world *host, struct host_world *from)
 static struct sky make_sky(const struct host_world *host,
                            const struct view *view)
 {
-    double angle = angle_rad(view->lighting.sky_rotation_deg);
+    const struct sun *sun = &view->lighting.sun;
+    double angle = angle_rad(sun->is_on ? -sun->azimuth_deg
+                                        : view->lighting.sky_rotation_deg);
     double one[3] = {1, 1, 1};
     struct sky sky = {
         .color = scaled(view->lighting.background, 1),

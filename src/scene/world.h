@@ -68,8 +68,10 @@ struct host_world {
     uint32_t *texels;
     size_t texel_count;
 
-    /* path of the sky image that loading was last tried for, or NULL */
+    /* path of the sky image that loading was last tried for, or NULL; the sun
+     * that replaces it */
     char *sky_path;
+    struct sun sun;
     struct vec3 *sky_texels; /* NULL without an image */
     uint32_t sky_width, sky_height;
     struct sky_table sky_table;
@@ -88,13 +90,13 @@ struct host_world {
 bool world_init(struct host_world *host, const struct scene *scene,
                 int thread_count, struct warnings *report, struct error *err);
 
-/* Loads the sky image that the view names, or removes the image if it names
- * none. After an error the previous image stays, and world_has_sky() returns
- * true nevertheless, so that it is not tried again. */
+/* Loads the sky image that the view names, or makes that of its sun, or removes
+ * the image if it has neither. After an error the previous image stays, and
+ * world_has_sky() returns true nevertheless, so that it is not tried again. */
 bool world_load_sky(struct host_world *host, const struct view *view,
                     struct warnings *report, struct error *err);
 
-/* Returns true if loading was last tried for the view's sky image. */
+/* Returns true if loading was last tried for the view's sky image or sun. */
 bool world_has_sky(const struct host_world *host, const struct view *view);
 
 /* Builds the path guide, a table that guides paths to light that is hard to

@@ -79,6 +79,9 @@ struct options {
     const char *denoise_path; /* file of the filtered picture; NULL: -o */
     enum show_kind show;      /* in batch mode */
     bool up_is_z;
+    bool has_sun;
+    double sun_azimuth_deg, sun_elevation_deg;
+    double turbidity; /* 0 if not given */
     bool has_crop;
     struct rect crop;
     enum backend_choice backend;

@@ -3,10 +3,12 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/decimal.h"
+#include "light/daylight.h"
 #include "scene/view.h"
 #include "render/cpu_dispatch.h"
 
@@ -34,6 +36,8 @@ static const struct option_rule rules[] = {
     {"seed", OPTION_SEED, "a number"},
     {"crop", OPTION_CROP, "X,Y,W,H in pixels"},
     {"up", OPTION_UP, "y or z"},
+    {"sun", OPTION_SUN, "AZ,EL in degrees"},
+    {"turbidity", OPTION_TURBIDITY, "a number"},
     {"t", OPTION_THREADS, "a number of threads"},
     {"backend", OPTION_BACKEND, "cpu, opencl or auto"},
     {"device", OPTION_DEVICE, "the number or name of a device"},
@@ -180,6 +184,28 @@ static bool set_decimal(const struct option_given *g, double min, double max,
         return fail(err, "%s: found '%s', expected a number from %g to %g",
                     g->shown, g->value, min, max);
     *value = number;
+    return true;
+}
+
+/* Parses AZ,EL. */
+static bool set_sun(struct options *o, const struct option_given *g,
+                    struct error *err)
+{
+    const char *p = g->value, *end = p + strlen(p);
+    double azimuth, elevation;
+
+    if (!decimal_parse(&p, end, &azimuth) || *p++ != ',' ||
+        !decimal_parse(&p, end, &elevation) || *p != '\0' ||
+        !(fabs(azimuth) <= SUN_AZIMUTH_MAX) ||
+        !(fabs(elevation) <= SUN_ELEVATION_MAX))
+        return fail(err,
+                    "%s: found '%s', expected AZ,EL: an azimuth from -%d to "
+                    "%d and an elevation from -%d to %d degrees",
+                    g->shown, g->value, SUN_AZIMUTH_MAX, SUN_AZIMUTH_MAX,
+                    SUN_ELEVATION_MAX, SUN_ELEVATION_MAX);
+    o->has_sun = true;
+    o->sun_azimuth_deg = azimuth;
+    o->sun_elevation_deg = elevation;
     return true;
 }
 
@@ -348,6 +374,10 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_CROP: return set_crop(o, g, err);
     case OPTION_THREADS:
         return whole_int(g, 1, THREADS_MAX, &o->thread_count, err);
+    case OPTION_SUN: return set_sun(o, g, err);
+    case OPTION_TURBIDITY:
+        return set_decimal(g, TURBIDITY_LEAST, TURBIDITY_GREATEST,
+                           &o->turbidity, err);
     case OPTION_OUTPUT: return given_text(g, &o->output_path, err);
     case OPTION_ANSI: return set_text_size(o, g, err);
     case OPTION_DENOISE:

@@ -12,12 +12,17 @@
 #include "terminal/xmalloc.h"
 
 /* Overrides values of the view file by those of the command line. */
-static void apply_options(const struct options *o, struct view *view)
+static bool apply_options(const struct options *o, struct view *view,
+                          struct error *err)
 {
     if (o->width_px != 0 || o->height_px != 0)
         view_set_size(view, o->width_px, o->height_px);
     if (o->has_max_bounces)
         view->max_bounces = o->max_bounces;
+    if (o->has_sun &&
+        !view_set_sun(view, o->sun_azimuth_deg, o->sun_elevation_deg, err))
+        return false;
+    return o->turbidity == 0 || view_set_turbidity(view, o->turbidity, err);
 }
 
 /* Puts the additions of scene_open() into the notice. */
@@ -81,8 +86,7 @@ static bool open_scene(struct session *s, struct view *view, struct error *err)
                    err))
         return false;
     file = *view;
-    apply_options(o, view);
-    if (!find_crop(s, view, err) ||
+    if (!apply_options(o, view, err) || !find_crop(s, view, err) ||
         !scene_open(&s->scene, &s->world, view, o->scene_path, o->up_is_z,
                     options_threads(o), &s->report, err))
         return false;

@@ -69,6 +69,8 @@ bool sub_command_takes(enum sub_command command, enum option_id id)
     case OPTION_ADAPTIVE:
     case OPTION_NO_ADAPTIVE:
     case OPTION_UP:
+    case OPTION_SUN:
+    case OPTION_TURBIDITY:
     case OPTION_THREADS:
     case OPTION_BACKEND:
     case OPTION_DEVICE: return command != COMMAND_COMPARE;

@@ -6,6 +6,7 @@
 #include "base/decimal.h"
 #include "base/file.h"
 #include "picture/blackbody.h"
+#include "light/daylight.h"
 #include "studio/material_parameters.h"
 
 /* ---- scales ---- */
@@ -30,6 +31,31 @@ static const struct value_scale scale_sky = {0, RADIANCE_MAX,      0.01, 1e4, 0,
                                              4, .expected = TO_MAX};
 static const struct value_scale scale_rotation = {
     -1e6, 1e6, 0, 360, 1, 4, .wraps = true, .expected = "an angle in degrees"};
+static const struct value_scale scale_azimuth = {
+    -SUN_AZIMUTH_MAX,
+    SUN_AZIMUTH_MAX,
+    0,
+    360,
+    1,
+    4,
+    .wraps = true,
+    .expected = "an angle from -360 to 360 degrees"};
+static const struct value_scale scale_elevation = {
+    -SUN_ELEVATION_MAX,
+    SUN_ELEVATION_MAX,
+    0,
+    90,
+    1,
+    4,
+    .expected = "an angle from -90 to 90 degrees"};
+static const struct value_scale scale_turbidity = {
+    TURBIDITY_LEAST,
+    TURBIDITY_GREATEST,
+    TURBIDITY_LEAST,
+    TURBIDITY_GREATEST,
+    0.1,
+    3,
+    .expected = "a number from 1.7 to 10"};
 static const struct value_scale scale_exposure = {
     -100,
     100,
@@ -69,9 +95,23 @@ static void set_assigned(struct owner *o, const struct value *v)
 
 /* ---- light ---- */
 
-/* Kinds of light as bits: without and with an image of the sky. */
-#define NO_SKY  (1u << 0)
-#define HAS_SKY (1u << 1)
+/* Kinds of sky as bits. */
+#define OF_CONSTANT (1u << SKY_CONSTANT)
+#define OF_IMAGE    (1u << SKY_IMAGE)
+#define OF_SUN      (1u << SKY_SUN)
+
+static const char *const switches[] = {"off", "on"};
+
+static bool get_sun(const struct owner *o, struct value *v)
+{
+    v->number = o->lighting.sun.is_on;
+    return true;
+}
+
+static void set_sun(struct owner *o, const struct value *v)
+{
+    o->lighting.sun.is_on = v->number > 0;
+}
 
 static const char *sky_name(const struct owner *o, uint32_t i)
 {
@@ -148,13 +188,23 @@ static const struct parameter_row object_rows[] = {
 };
 
 static const struct parameter_row light_rows[] = {
-    {"sky image", ALL, VALUE_CHOICE, NULL, .get = get_sky, .set = set_sky,
-     .name = sky_name, .find = find_sky, .expected = "the path of an image"},
-    {"strength", HAS_SKY, VALUE_NUMBER, &scale_sky, LIGHTING(sky_strength)},
-    {"rotation", HAS_SKY, VALUE_NUMBER, &scale_rotation,
+    {"sun", ALL, VALUE_CHOICE, NULL, .get = get_sun, .set = set_sun,
+     CHOICES(switches), .expected = "off or on"},
+    {"azimuth", OF_SUN, VALUE_NUMBER, &scale_azimuth,
+     LIGHTING(sun.azimuth_deg)},
+    {"elevation", OF_SUN, VALUE_NUMBER, &scale_elevation,
+     LIGHTING(sun.elevation_deg)},
+    {"turbidity", OF_SUN, VALUE_NUMBER, &scale_turbidity,
+     LIGHTING(sun.turbidity)},
+    {"sky image", OF_CONSTANT | OF_IMAGE, VALUE_CHOICE, NULL, .get = get_sky,
+     .set = set_sky, .name = sky_name, .find = find_sky,
+     .expected = "the path of an image"},
+    {"strength", OF_IMAGE | OF_SUN, VALUE_NUMBER, &scale_sky,
+     LIGHTING(sky_strength)},
+    {"rotation", OF_IMAGE, VALUE_NUMBER, &scale_rotation,
      LIGHTING(sky_rotation_deg)},
-    {"constant", NO_SKY, VALUE_COLOR, &scale_radiance, .get = get_background,
-     .set = set_background},
+    {"constant", OF_CONSTANT, VALUE_COLOR, &scale_radiance,
+     .get = get_background, .set = set_background},
     {"exposure", ALL, VALUE_NUMBER, &scale_exposure, LIGHTING(exposure)},
     {"tone", ALL, VALUE_CHOICE, NULL, LIGHTING(tone), CHOICES(view_tones),
      .expected = "linear, reinhard or aces"},
@@ -190,7 +240,9 @@ struct owner parameter_owner(const struct parameter_target *t,
     case PARAMETER_OBJECT: o.assigned = state->assigned[t->index]; break;
     case PARAMETER_LIGHT:
         o.lighting = state->view.lighting;
-        o.kind = o.lighting.sky_path != NULL;
+        o.kind = o.lighting.sun.is_on          ? SKY_SUN
+                 : o.lighting.sky_path != NULL ? SKY_IMAGE
+                                               : SKY_CONSTANT;
         break;
     }
     return o;

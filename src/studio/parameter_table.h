@@ -43,6 +43,9 @@ extern const struct value_scale scale_kelvin;
 
 struct parameter_row;
 
+/* Kind of sky of the light, as owner.kind. */
+enum sky_kind { SKY_CONSTANT, SKY_IMAGE, SKY_SUN };
+
 /* Owner of parameters: a copy of the values of a target. */
 struct owner {
     const struct parameter_target *target;
@@ -51,7 +54,7 @@ struct owner {
     struct material material; /* material made from them */
     uint32_t assigned;        /* material of an object, or NO_INDEX */
     struct lighting lighting; /* values of the light; sky_path is lent */
-    uint32_t kind; /* enum material_kind; for the light 1 if there is a sky */
+    uint32_t kind; /* enum material_kind; for the light enum sky_kind */
 };
 
 enum value_type {

@@ -71,7 +71,9 @@ static void check_same(const struct view *a, const struct view *b)
     require(a->max_bounces == b->max_bounces, "bounces");
     check_sky(a->lighting.sky_path, b->lighting.sky_path);
     require(a->lighting.sky_strength == b->lighting.sky_strength &&
-                a->lighting.sky_rotation_deg == b->lighting.sky_rotation_deg,
+                a->lighting.sky_rotation_deg == b->lighting.sky_rotation_deg &&
+                sun_has_same_sky(&a->lighting.sun, &b->lighting.sun) &&
+                a->lighting.sun.azimuth_deg == b->lighting.sun.azimuth_deg,
             "sky");
     require(a->lighting.exposure == b->lighting.exposure &&
                 a->lighting.tone == b->lighting.tone,

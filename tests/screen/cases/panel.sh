@@ -97,7 +97,22 @@ keys Escape
 wait_for "Tab page"
 keys Tab Tab
 wait_for "│ Materials   Objects  \[Light\]"
-keys Down
+expect "│>    sun        off"
+keys Right
+wait_for "│>    sun        on"
+expect "     elevation  45         ====....."
+expect "     strength   1"
+keys Down Down
+raw_keys '91'
+keys Enter
+wait_for "found '91', expected an angle from -90 to 90 degrees"
+keys Escape
+wait_until_gone "91_"
+keys ']'
+wait_for "│>    elevation  55"
+keys Up Up Left
+wait_for "│>    sun        off"
+keys Down Down
 raw_keys '0 0 1'
 keys Enter
 wait_until eval "screen_colors | grep -q '[34]8;2;0;0;255m'"

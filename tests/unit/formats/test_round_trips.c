@@ -137,6 +137,9 @@ static bool check_view(const char *bytes, size_t size)
 static void broken_views_survive_the_round_trip(void **state)
 {
     static const struct text texts[] = {
+        TEXT("sun 120 30\nturbidity 2.5\nsky a.hdr\n"),
+        TEXT("turbidity 5\nsun -359.9 -90\nsun 1e-3 90\nsun 7 8\n"),
+        TEXT("turbidity 5\n"),
         TEXT("# x\nsky s\\\\"),
         TEXT("sky s\\ \nexposure 1\n"),
         TEXT("sky \\\\\\\\\\\r\r\r ex\\%\\\\ 2 0\n"),
@@ -165,6 +168,8 @@ static void random_views_survive_the_round_trip(void **state)
         TEXT("\neye 1 2 3\nat 4 5 6\n"),
         TEXT("\nfovy 39.1"),
         TEXT("\nexposure .1"),
+        TEXT("\nsun 1 2"),
+        TEXT("\nturbidity 4"),
         TEXT("\nsky"),
         TEXT("\nsky"),
         TEXT("\nassign"),

@@ -396,6 +396,10 @@ static void written_views_are_read_back(void **state)
                      .has_background = true,
                      .sky_strength = 0.3,
                      .sky_rotation_deg = 12.5,
+                     .sun = {.is_on = true,
+                             .azimuth_deg = -100.0 / 3,
+                             .elevation_deg = 1e-7,
+                             .turbidity = 7.1},
                      .exposure = -0.7},
         .max_bounces = 3,
     };
