@@ -15,6 +15,7 @@
 #include "formats/asset_path.h"
 #include "formats/mtl_dialect.h"
 #include "formats/mtl_map.h"
+#include "formats/scene_lists.h"
 
 struct parser {
     struct scene *scene;
@@ -39,47 +40,6 @@ static bool out_of_memory(const struct parser *p)
                 p->path, p->lex.line);
 }
 
-/* Makes room for one more material, its name and its origin. */
-static bool grow_materials(struct scene *scene, size_t *capacity)
-{
-    size_t needed = (size_t)scene->material_count + 1;
-    size_t material_capacity = *capacity;
-    size_t name_capacity = *capacity;
-    void *materials = scene->materials;
-    void *names = scene->material_names;
-    void *origins = scene->material_origins;
-
-    if (needed >= NO_INDEX || !grow_array(&materials, &material_capacity,
-                                          needed, sizeof *scene->materials))
-        return false;
-    scene->materials = materials;
-    if (!grow_array(&names, &name_capacity, needed,
-                    sizeof *scene->material_names))
-        return false;
-    scene->material_names = names;
-    if (!grow_array(&origins, capacity, needed,
-                    sizeof *scene->material_origins))
-        return false;
-    scene->material_origins = origins;
-    return true;
-}
-
-static bool add_material(struct scene *scene, size_t *capacity,
-                         const char *name, const struct material *material,
-                         const struct material_origin *origin)
-{
-    char *copy = strdup(name);
-
-    if (copy == NULL || !grow_materials(scene, capacity)) {
-        free(copy);
-        return false;
-    }
-    scene->material_names[scene->material_count] = copy;
-    scene->material_origins[scene->material_count] = *origin;
-    scene->materials[scene->material_count++] = *material;
-    return true;
-}
-
 bool mtl_add_default(struct scene *scene, struct error *err)
 {
     struct material m = material_default();
@@ -87,7 +47,7 @@ bool mtl_add_default(struct scene *scene, struct error *err)
     size_t capacity = 0;
 
     if (scene->material_count > 0 ||
-        add_material(scene, &capacity, "", &m, &origin))
+        scene_add_material(scene, &capacity, "", &m, &origin))
         return true;
     return fail(err, "out of memory for the materials");
 }
@@ -125,38 +85,15 @@ static uint32_t name_texture(struct name_table *names, const char *path,
 static uint32_t add_texture(struct parser *p, const char *path,
                             const struct texture *texture, uint64_t line)
 {
-    struct scene *scene = p->scene;
+    struct texture_origin origin = {p->file, line};
     uint32_t index = name_texture(&p->textures, path, texture);
-    size_t needed = (size_t)scene->texture_count + 1;
-    size_t texture_capacity = p->texture_capacity;
-    size_t path_capacity = p->texture_capacity;
-    void *textures = scene->textures;
-    void *paths = scene->texture_paths;
-    void *origins = scene->texture_origins;
-    char *copy;
 
-    if (index == NO_NAME || index < scene->texture_count)
+    if (index == NO_NAME || index < p->scene->texture_count)
         return index;
-    if (!grow_array(&textures, &texture_capacity, needed,
-                    sizeof *scene->textures))
-        return NO_NAME;
-    scene->textures = textures;
-    if (!grow_array(&paths, &path_capacity, needed,
-                    sizeof *scene->texture_paths))
-        return NO_NAME;
-    scene->texture_paths = paths;
-    if (!grow_array(&origins, &p->texture_capacity, needed,
-                    sizeof *scene->texture_origins))
-        return NO_NAME;
-    scene->texture_origins = origins;
-    copy = strdup(path);
-    if (copy == NULL)
-        return NO_NAME;
-    scene->texture_paths[scene->texture_count] = copy;
-    scene->texture_origins[scene->texture_count] =
-        (struct texture_origin){p->file, line};
-    scene->textures[scene->texture_count++] = *texture;
-    return index;
+    return scene_add_texture(p->scene, &p->texture_capacity, path, texture,
+                             &origin)
+               ? index
+               : NO_NAME;
 }
 
 /* Adds the material that was read last to the scene. */
@@ -188,8 +125,8 @@ static bool finish_material(struct parser *p)
         p->scene->material_origins[index] = origin;
         return true;
     }
-    return add_material(p->scene, &p->material_capacity, p->name, &m,
-                        &origin) ||
+    return scene_add_material(p->scene, &p->material_capacity, p->name, &m,
+                              &origin) ||
            out_of_memory(p);
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "scene/material.h"
+#include "scene/material_features.h"
 #include "scene/world.h"
 #include "formats/mtl.h"
 #include "formats/obj.h"

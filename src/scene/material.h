@@ -51,11 +51,6 @@ struct material material_default(void);
 struct material material_from_source(const struct mtl_source *source,
                                      const char *path, struct warnings *report);
 
-/* Returns the kernel features that the material needs, a set of enum
- * feature. */
-uint32_t material_features(const struct material *material,
-                           const struct texture *textures);
-
 /* Returns `wanted` with as many statements as possible replaced by those of
  * `file`, such that the material stays the same. Used to save only changes. */
 struct mtl_source mtl_source_needed(const struct mtl_source *file,

@@ -11,6 +11,7 @@
 #include "picture/color.h"
 #include "picture/image_read.h"
 #include "light/sun_sky.h"
+#include "scene/material_features.h"
 #include "scene/textures.h"
 #include "kernels/light.h"
 

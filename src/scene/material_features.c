@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "scene/material_features.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "kernels/light.h"
+
+static bool has_texture(const struct material *m)
+{
+    const uint32_t textures[] = {
+        m->color_texture,  m->specular_texture, m->emission_texture,
+        m->alpha_texture,  m->metal_texture,    m->opacity_texture,
+        m->normal_texture, m->bump_texture,
+    };
+
+    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
+        if (textures[i] != NO_INDEX)
+            return true;
+    return false;
+}
+
+static bool is_translucent(const struct texture *textures, uint32_t texture)
+{
+    return texture != NO_INDEX && textures[texture].has_alpha != 0;
+}
+
+uint32_t material_features(const struct material *m,
+                           const struct texture *textures)
+{
+    uint32_t features = 0;
+
+    if (material_shines(m))
+        features |= FEATURE_EMITTERS;
+    if (has_texture(m))
+        features |= FEATURE_TEXTURES;
+    if (m->bump_texture != NO_INDEX || m->normal_texture != NO_INDEX)
+        features |= FEATURE_BUMPS;
+    if (m->opacity < 1 || is_translucent(textures, m->color_texture) ||
+        is_translucent(textures, m->opacity_texture))
+        features |= FEATURE_COVERAGE;
+    if (m->kind == MATERIAL_METAL)
+        features |= FEATURE_METAL;
+    if (m->kind == MATERIAL_PRINCIPLED)
+        features |= FEATURE_PRINCIPLED;
+    if (m->kind == MATERIAL_PRINCIPLED && m->anisotropy > 0)
+        features |= FEATURE_ANISOTROPY;
+    if (m->kind == MATERIAL_PRINCIPLED &&
+        m->sheen.x + m->sheen.y + m->sheen.z > 0)
+        features |= FEATURE_SHEEN;
+    if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
+        features |= FEATURE_GLASS;
+    if (m->kind == MATERIAL_PLASTIC)
+        features |= FEATURE_PLASTIC;
+    if (m->kind == MATERIAL_ROUGH_DIFFUSE)
+        features |= FEATURE_ROUGH_DIFFUSE;
+    else if (m->kind != MATERIAL_DIFFUSE &&
+             (m->alpha >= ALPHA_SMOOTH || m->coat_alpha >= ALPHA_SMOOTH))
+        features |= FEATURE_ROUGH;
+    return features;
+}
