@@ -299,6 +299,25 @@ static double metalness(const struct mtl_source *s, int illum,
     return illum == 1 && ka < 1 ? ka : 0; /* Ks is 0 */
 }
 
+/* Roughness of sheen, for which MTL has no statement. Blender's default. */
+#define SHEEN_ROUGHNESS 0.5f
+
+static void set_sheen_and_grain(struct material *m, const struct mtl_source *s,
+                                const struct diagnostics *at)
+{
+    float ps = (float)unit(&s->ps, "Ps", at);
+    double turn = s->anisor.line != 0 ? s->anisor.value : 0;
+
+    m->sheen = (struct vec3){ps, ps, ps};
+    if (ps > 0)
+        m->sheen_alpha = SHEEN_ROUGHNESS * SHEEN_ROUGHNESS;
+    m->anisotropy = (float)unit(&s->aniso, "aniso", at);
+    if (m->anisotropy > 0 && isfinite(turn)) {
+        turn = 2 * M_PI * (turn - floor(turn));
+        m->grain = (struct vec2){(float)cos(turn), (float)sin(turn)};
+    }
+}
+
 /* Sets the weights of a mixture. Returns false, and leaves the material, if it
  * is not one. */
 static bool make_principled(struct material *m, int illum,
@@ -314,7 +333,9 @@ static bool make_principled(struct material *m, int illum,
     m->coat = (float)unit(&pc, "Pc", at);
     if (m->coat > 0)
         m->coat_alpha = (float)(pcr * pcr);
-    return m->metal_texture != NO_INDEX || m->transmission > 0 || m->coat > 0 ||
+    set_sheen_and_grain(m, s, at);
+    return m->sheen.x > 0 || m->anisotropy > 0 ||
+           m->metal_texture != NO_INDEX || m->transmission > 0 || m->coat > 0 ||
            (m->metalness > 0 && m->metalness < 1);
 }
 
@@ -360,16 +381,6 @@ static void make_opaque(struct material *m, int illum,
     }
 }
 
-/* Reports a surface property that the kernels do not have. */
-static void check_absent(const struct mtl_number *n, const char *key,
-                         const char *name, const struct diagnostics *at)
-{
-    if (n->line != 0 && n->value > 0)
-        warnings_add_named(at->report, "properties that are not rendered", key,
-                           "%s:%" PRIu64 ": found %s %g: %s is not rendered",
-                           at->path, n->line, key, n->value, name);
-}
-
 /* Reports a map that this kind of material does not use. */
 static void check_map(const struct mtl_source *s, enum mtl_map which,
                       const struct material *m, const struct diagnostics *at)
@@ -402,8 +413,6 @@ struct material material_from_source(const struct mtl_source *s,
         make_opaque(&m, illum, s, &at);
     for (size_t i = 0; i < sizeof kind_maps / sizeof kind_maps[0]; i++)
         check_map(s, kind_maps[i], &m, &at);
-    check_absent(&s->ps, "Ps", "sheen", &at);
-    check_absent(&s->aniso, "aniso", "anisotropy", &at);
     if (m.kind == MATERIAL_THIN_GLASS && m.ior == 1 &&
         is_white_or_absent(&s->tf) && m.color_texture == NO_INDEX)
         warnings_add(report, "invisible materials",
