@@ -9,10 +9,9 @@
  *                Ni is 1; colour Tf times map_Kd
  *   principled   Pm between 0 and 1, map_Pm, Pc, Ps or aniso above 0, or Tf
  *                that is not black beside Pr: a mixture of metal of colour Kd
- *                (weight Pm times map_Pm), glass (mean of Tf) and plastic, under
- *                a coat (weight Pc, roughness Pcr) and grey sheen (Ps); aniso
- *                stretches highlights along u, turned by anisor of a turn
- *   metal        Pm 1; colour Kd
+ *                (weight Pm times map_Pm), glass (mean of Tf) and plastic,
+ * under a coat (weight Pc, roughness Pcr) and grey sheen (Ps); aniso stretches
+ * highlights along u, turned by anisor of a turn metal        Pm 1; colour Kd
  *   metal        illum 3 or 5 with map_Ks or with Ks that is not black;
  *                colour Ks
  *   plastic      map_Ks, or Ks that is not black: diffuse of colour Kd under a

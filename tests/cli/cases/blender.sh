@@ -17,7 +17,7 @@ picture classic "# Blender 5.0.1 MTL File: 'None'\n# www.blender.org\n
 newmtl m\nNs 640.000000\nKa 1.000000 1.000000 1.000000\n$colors$gold"
 picture lost "newmtl m\nNs 640.000000\nKa 1.000000 1.000000 1.000000\n$colors$gold"
 picture extended "# Blender 3.4.1 MTL File: 'None'\n
-newmtl m\n$colors${gold}Pr 0.200000\nPm 1.000000\nPs 0.500000\naniso 0.500000\n"
+newmtl m\n$colors${gold}Pr 0.200000\nPm 1.000000\nPs 0.000000\naniso 0.000000\n"
 # a number that is none, in a statement that only these files use
 printf '# Blender 4.0.0 MTL File\nnewmtl m\nKa x\n' >lost.mtl
 run_untimed -b -w 8 -h 8 -s 4 -o lost.pfm lost.obj
