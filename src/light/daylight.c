@@ -109,7 +109,7 @@ void daylight_init(struct daylight *d, double sun_elevation_deg,
 {
     double sun_rad = angle_rad(90 - sun_elevation_deg);
 
-    d->zenith[0] = luminance_of_zenith(turbidity, sun_rad);
+    d->zenith[0] = luminance_of_zenith(turbidity, sun_rad) / DAYLIGHT_UNIT;
     for (int i = 0; i < 2; i++)
         d->zenith[1 + i] =
             chromaticity_of_zenith(zenith_of_turbidity[i], turbidity, sun_rad);
@@ -122,28 +122,28 @@ void daylight_init(struct daylight *d, double sun_elevation_deg,
     }
 }
 
-/* Converts XYZ in candela per square metre to radiance, without the negative
- * channels of colours outside the gamut. */
-static void radiance_of(const double xyz[3], double rgb[3])
+/* Converts XYZ to Rec.709 without the negative channels of colours outside the
+ * gamut. */
+static void clamped_rgb(const double xyz[3], double rgb[3])
 {
     observer_rgb(xyz, rgb);
     for (int i = 0; i < 3; i++)
-        rgb[i] = fmax(rgb[i] / DAYLIGHT_UNIT, 0);
+        rgb[i] = rgb[i] > 0 ? rgb[i] : 0;
 }
 
 void daylight_sky(const struct daylight *d, const double heights[3],
                   double gamma_cos, double rgb[3])
 {
-    double gamma_rad = acos(fmax(-1, fmin(gamma_cos, 1)));
-    double v[3], xyz[3];
+    double in_range = gamma_cos < -1 ? -1 : gamma_cos > 1 ? 1 : gamma_cos;
+    double gamma_rad = acos(in_range);
+    double v[3], sum;
 
     for (int i = 0; i < 3; i++)
         v[i] = d->zenith[i] * heights[i] *
-               daylight_glow(d, i, gamma_cos, gamma_rad);
-    xyz[0] = v[0] * v[1] / v[2];
-    xyz[1] = v[0];
-    xyz[2] = v[0] * (1 - v[1] - v[2]) / v[2];
-    radiance_of(xyz, rgb);
+               daylight_glow(d, i, in_range, gamma_rad);
+    sum = v[0] / v[2]; /* X + Y + Z */
+    clamped_rgb((const double[3]){sum * v[1], v[0], sum * (1 - v[1] - v[2])},
+                rgb);
 }
 
 /* Returns the part of the light that passes the air (ibid., appendix A.1, with
@@ -174,6 +174,6 @@ void daylight_sun(double elevation_deg, double turbidity, double rgb[3])
             10 * sunlight[i].radiance * transmittance(i, mass, turbidity);
     observer_xyz(spectrum, xyz);
     for (int i = 0; i < 3; i++)
-        xyz[i] *= LUMINOUS_EFFICACY * OBSERVER_STEP_NM;
-    radiance_of(xyz, rgb);
+        xyz[i] *= LUMINOUS_EFFICACY * OBSERVER_STEP_NM / DAYLIGHT_UNIT;
+    clamped_rgb(xyz, rgb);
 }

@@ -29,7 +29,8 @@
 /* Sky of one elevation of the sun. */
 struct daylight {
     double perez[3][5]; /* coefficients A to E for Y, x and y */
-    double zenith[3]; /* Y, x and y at the zenith over Perez's formula there */
+    /* Y as radiance, x and y at the zenith, over Perez's formula there */
+    double zenith[3];
 };
 
 /* Sets the sky for a sun above the horizon. */
