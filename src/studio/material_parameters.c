@@ -131,12 +131,15 @@ static void set_color(struct owner *o, const struct value *v)
 
 static void set_opaque(struct mtl_source *s, uint32_t bits, const double rgb[3])
 {
+    struct mtl_number *const layers[] = {&s->pc, &s->ps, &s->aniso};
+
     put_number(&s->illum, bits == METAL ? 3 : 2);
     put_color(&s->kd, rgb);
     if (bits == METAL || bits == MIXED || s->pm.line != 0)
         put_number(&s->pm, bits == METAL ? 1 : bits == MIXED ? PM_DEFAULT : 0);
-    if (s->pc.line != 0)
-        put_number(&s->pc, 0);
+    for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
+        if (layers[i]->line != 0)
+            put_number(layers[i], 0);
     if (s->tf.line != 0)
         put_grey(&s->tf, 0);
     if (bits == PLASTIC && s->ks.rgb[0] == 0 && s->ks.rgb[1] == 0 &&
@@ -251,6 +254,17 @@ static bool get_coat_roughness(const struct owner *o, struct value *v)
 static void set_coat_roughness(struct owner *o, const struct value *v)
 {
     put_number(&o->source.pcr, v->number);
+}
+
+static bool get_grain_turn(const struct owner *o, struct value *v)
+{
+    v->number = o->source.anisor.value;
+    return true;
+}
+
+static void set_grain_turn(struct owner *o, const struct value *v)
+{
+    put_number(&o->source.anisor, v->number);
 }
 
 static bool get_map(const struct owner *o, struct value *v)
@@ -368,6 +382,12 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
      .get = get_coat, .set = set_coat},
     {"coat rough", MIXED, VALUE_NUMBER, &scale_unit, .get = get_coat_roughness,
      .set = set_coat_roughness},
+    {"sheen", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
+     STATEMENT(ps, sheen.x)},
+    {"grain", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
+     STATEMENT(aniso, anisotropy)},
+    {"grain turn", MIXED, VALUE_NUMBER, &scale_unit, .get = get_grain_turn,
+     .set = set_grain_turn},
     {"cover", OPAQUE, VALUE_NUMBER, &scale_unit, STATEMENT(d, opacity)},
     {"light", ALL, VALUE_NUMBER, &scale_emission, .get = get_emission,
      .set = set_emission},

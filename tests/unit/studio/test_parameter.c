@@ -50,6 +50,9 @@ static struct mtl_source any_source(void)
     s.pm = maybe(check_random(&seed));
     s.pc = maybe(check_random(&seed));
     s.pcr = maybe(check_random(&seed));
+    s.ps = maybe(check_random(&seed));
+    s.aniso = maybe(check_random(&seed));
+    s.anisor = maybe(check_random(&seed));
     s.kd_roughness = maybe(check_random(&seed));
     s.kelvin = maybe(1000 + 8000 * check_random(&seed));
     if (s.kelvin.line != 0) {
@@ -184,11 +187,17 @@ static void set_values_reach_the_material(void **state)
         set(&s, "coat", &(struct value){.number = .5});
         set(&s, "transmission", &(struct value){.number = .25});
         set(&s, "metal", &(struct value){.number = .75});
+        set(&s, "sheen", &(struct value){.number = .125});
+        set(&s, "grain", &(struct value){.number = .5});
+        set(&s, "grain turn", &(struct value){.number = .25});
         m = material_of(&s);
         if (m.kind == MATERIAL_PRINCIPLED) {
             check_close((double)m.coat, .5, 0);
             check_close((double)m.transmission, .25, 1e-7);
             check_close((double)m.metalness, .75, 0);
+            check_close((double)m.sheen.x, .125, 0);
+            check_close((double)m.anisotropy, .5, 0);
+            check_close((double)m.grain.y, 1, 1e-7);
         }
         set(&s, "of colour", &color);
         set(&s, "light", &(struct value){.number = 8});
