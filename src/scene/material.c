@@ -319,8 +319,8 @@ static void set_sheen_and_grain(struct material *m, const struct mtl_source *s,
 }
 
 /* Sets the weights of a mixture. Returns false, and leaves the material, if it
- * is not one. */
-static bool make_principled(struct material *m, int illum,
+ * is not one. A grain needs highlights: metal, or Ks (has_ks). */
+static bool make_principled(struct material *m, int illum, bool has_ks,
                             const struct mtl_source *s,
                             const struct diagnostics *at)
 {
@@ -334,6 +334,8 @@ static bool make_principled(struct material *m, int illum,
     if (m->coat > 0)
         m->coat_alpha = (float)(pcr * pcr);
     set_sheen_and_grain(m, s, at);
+    if (m->metalness == 0 && !has_ks)
+        m->anisotropy = 0;
     return m->sheen.x > 0 || m->anisotropy > 0 ||
            m->metal_texture != NO_INDEX || m->transmission > 0 || m->coat > 0 ||
            (m->metalness > 0 && m->metalness < 1);
@@ -347,7 +349,7 @@ static void make_opaque(struct material *m, int illum,
     uint32_t map_ks = mtl_source_map(s, MTL_MAP_KS);
     struct vec3 ks = reflecting(&s->ks, "Ks", 0, at);
     bool has_ks = !is_black(&ks) || map_ks != NO_INDEX;
-    bool is_principled = make_principled(m, illum, s, at);
+    bool is_principled = make_principled(m, illum, has_ks, s, at);
 
     m->opacity = (float)opacity(s, at);
     if (m->opacity <= 0)
