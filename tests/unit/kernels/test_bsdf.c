@@ -167,7 +167,7 @@ static void mirrors_and_sheets_have_no_density(void **state)
     (void)state;
     for (size_t k = 0; k < COUNT(kinds); k++) {
         struct bsdf m = {.specular = white, .eta = 1.5f, .kind = kinds[k]};
-        struct bsdf_sample s;
+        struct bsdf_sample s = {.is_delta = false};
 
         assert_true(bsdf_is_delta(&m));
         assert_true(surface_pdf(&m, direction(0.7f), direction(0.7f)) == 0);
