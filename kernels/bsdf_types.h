@@ -15,10 +15,9 @@
 #define COSINE_MIN 1e-15f
 
 struct bsdf {
-    struct vec3 color; /* albedo; reflectance of a metal; tint of glass */
-    struct vec3
-        specular;  /* plastic: reflectance of its face at normal incidence */
-    float alpha;   /* GGX roughness; EON roughness for rough diffuse */
+    struct vec3 color;    /* albedo; reflectance of a metal; tint of glass */
+    struct vec3 specular; /* plastic: its face's reflectance, as in materials */
+    float alpha;          /* GGX roughness; EON roughness for rough diffuse */
     float eta;     /* refractive index of the far side over that of wo's side */
     uint32_t kind; /* enum material_kind */
     float metalness, transmission, coat, coat_alpha; /* principled.h */

@@ -82,9 +82,7 @@ static inline struct vec3 ggx_visible_normal(struct vec3 wo, struct ggx g,
     struct vec3 s = v3_unit(v3(alpha * at.x, alpha * at.y, wo.z));
     float b = bound * s.z;
     float z = (1.0f - u.y) * (1.0f + b) - b;
-    float r = sqrtf(f_max((1.0f - z) * (1.0f + z), 0.0f));
-    struct vec2 turn = cos_sin_turns(u.x);
-    struct vec3 c = v3(r * turn.x + s.x, r * turn.y + s.y, z + s.z);
+    struct vec3 c = v3_add(v3_around_z(z, u.x), s);
     struct vec3 wide = ggx_stretched(g, c);
     struct vec3 h = v3(alpha * wide.x, alpha * wide.y, f_max(c.z, 0.0f));
     float length = v3_length(h);

@@ -36,11 +36,8 @@ static inline float multiscatter_width(float alpha)
 static inline struct vec3 multiscatter_direction(float alpha, struct vec2 u)
 {
     float b = multiscatter_width(alpha);
-    float z = b * u.y / (1.0f + b - u.y);
-    float r = sqrtf(f_max((1.0f - z) * (1.0f + z), 0.0f));
-    struct vec2 turn = cos_sin_turns(u.x);
 
-    return v3(r * turn.x, r * turn.y, z);
+    return v3_around_z(b * u.y / (1.0f + b - u.y), u.x);
 }
 
 static inline float multiscatter_pdf(struct vec3 wi, float alpha)

@@ -50,10 +50,7 @@ static inline float sheen_f(struct vec3 wo, struct vec3 wi, float alpha)
 
 static inline struct vec3 sheen_direction(struct vec2 u)
 {
-    float r = sqrtf(f_max((1.0f - u.y) * (1.0f + u.y), 0.0f));
-    struct vec2 turn = cos_sin_turns(u.x);
-
-    return v3(r * turn.x, r * turn.y, u.y);
+    return v3_around_z(u.y, u.x);
 }
 
 #endif

@@ -126,7 +126,7 @@ static inline struct bsdf bsdf_at(const struct world *w,
     b.kind = m->kind;
     b.eta = m->ior;
     b.anisotropy = 0.0f; /* bsdf_facets() reads it for metal and plastic too */
-    if (HAS(FEATURE_PRINCIPLED) && m->kind == MATERIAL_PRINCIPLED) {
+    if (bsdf_is_principled(&b)) {
         b.metalness = m->metalness;
         if (has_maps && m->metal_texture != NO_INDEX)
             b.metalness *= texture_at(w, m->metal_texture, v->uv).alpha;

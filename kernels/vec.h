@@ -166,6 +166,15 @@ static inline struct vec2 cos_sin_turns(float u)
     return v2(s, -c);
 }
 
+/* Unit vector of cosine z to the z axis, at an azimuth of u turns. */
+static inline struct vec3 v3_around_z(float z, float u)
+{
+    float r = sqrtf(f_max((1.0f - z) * (1.0f + z), 0.0f));
+    struct vec2 turn = cos_sin_turns(u);
+
+    return v3(r * turn.x, r * turn.y, z);
+}
+
 /* Arc tangent of y/x for 0 <= y <= x and x > 0. */
 static inline float atan_octant(float y, float x)
 {

@@ -46,6 +46,16 @@ struct material material_default(void)
     return m;
 }
 
+void material_maps(const struct material *m, uint32_t maps[MATERIAL_MAPS])
+{
+    const uint32_t all[MATERIAL_MAPS] = {
+        m->color_texture,  m->emission_texture, m->specular_texture,
+        m->alpha_texture,  m->metal_texture,    m->opacity_texture,
+        m->normal_texture, m->bump_texture};
+
+    memcpy(maps, all, sizeof all);
+}
+
 static double unit_clamped(double x)
 {
     if (!(x > 0))
@@ -113,6 +123,13 @@ static double within(const struct mtl_number *n, const char *key, double lo,
     return missing;
 }
 
+/* Returns a number from 0 to 1; others are clamped, with a warning. */
+static double unit(const struct mtl_number *n, const char *key,
+                   const struct diagnostics *at)
+{
+    return within(n, key, 0, 1, unit_clamped(n->value), at);
+}
+
 static bool is_of_blender(const struct mtl_source *s)
 {
     return s->dialect != MTL_CLASSIC;
@@ -123,7 +140,7 @@ static double alpha(const struct mtl_source *s, const struct diagnostics *at)
     double ns = within(&s->ns, "Ns", 0, DBL_MAX, 0, at);
 
     if (s->pr.line != 0) {
-        double pr = within(&s->pr, "Pr", 0, 1, unit_clamped(s->pr.value), at);
+        double pr = unit(&s->pr, "Pr", at);
 
         return pr * pr;
     }
@@ -150,7 +167,7 @@ static double opacity(const struct mtl_source *s, const struct diagnostics *at)
     if (s->d.line != 0)
         return within(&s->d, "d", 0, 1,
                       isnan(s->d.value) ? 1 : unit_clamped(s->d.value), at);
-    return 1 - within(&s->tr, "Tr", 0, 1, unit_clamped(s->tr.value), at);
+    return 1 - unit(&s->tr, "Tr", at);
 }
 
 static int illumination(const struct mtl_source *s,
@@ -252,20 +269,12 @@ static void make_plastic(struct material *m, const struct vec3 *ks,
 static void make_diffuse(struct material *m, const struct mtl_source *s,
                          const struct diagnostics *at)
 {
-    double r = within(&s->kd_roughness, "Kd_roughness", 0, 1,
-                      unit_clamped(s->kd_roughness.value), at);
+    double r = unit(&s->kd_roughness, "Kd_roughness", at);
 
     if (r < ROUGH_LEAST)
         return;
     m->kind = MATERIAL_ROUGH_DIFFUSE;
     m->alpha = (float)r;
-}
-
-/* Returns a number from 0 to 1; others are clamped, with a warning. */
-static double unit(const struct mtl_number *n, const char *key,
-                   const struct diagnostics *at)
-{
-    return within(n, key, 0, 1, unit_clamped(n->value), at);
 }
 
 /* Returns the weight of transmission, which Blender writes as a grey Tf. */

@@ -43,7 +43,14 @@
 /* Colour of a material whose file gives none. */
 #define MATERIAL_GREY 0.8f
 
+/* Maps of a material. */
+#define MATERIAL_MAPS 8
+
 struct material material_default(void);
+
+/* Lists the textures of all maps; NO_INDEX for those that are absent. */
+void material_maps(const struct material *material,
+                   uint32_t maps[MATERIAL_MAPS]);
 
 /* Makes the material that the statements describe. `path` is the MTL file, for
  * warnings. A black colour that has a map stays black; textures_load() replaces

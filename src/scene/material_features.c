@@ -2,20 +2,17 @@
 #include "scene/material_features.h"
 
 #include <stdbool.h>
-#include <stddef.h>
 
+#include "scene/material.h"
 #include "kernels/light.h"
 
 static bool has_texture(const struct material *m)
 {
-    const uint32_t textures[] = {
-        m->color_texture,  m->specular_texture, m->emission_texture,
-        m->alpha_texture,  m->metal_texture,    m->opacity_texture,
-        m->normal_texture, m->bump_texture,
-    };
+    uint32_t maps[MATERIAL_MAPS];
 
-    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
-        if (textures[i] != NO_INDEX)
+    material_maps(m, maps);
+    for (int i = 0; i < MATERIAL_MAPS; i++)
+        if (maps[i] != NO_INDEX)
             return true;
     return false;
 }
@@ -45,8 +42,7 @@ uint32_t material_features(const struct material *m,
         features |= FEATURE_PRINCIPLED;
     if (m->kind == MATERIAL_PRINCIPLED && m->anisotropy > 0)
         features |= FEATURE_ANISOTROPY;
-    if (m->kind == MATERIAL_PRINCIPLED &&
-        m->sheen.x + m->sheen.y + m->sheen.z > 0)
+    if (m->kind == MATERIAL_PRINCIPLED && !v3_is_zero(m->sheen))
         features |= FEATURE_SHEEN;
     if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
         features |= FEATURE_GLASS;

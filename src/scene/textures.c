@@ -332,24 +332,12 @@ static void resolve_bump_map(const struct host_world *host,
                  scene->texture_origins[map].line);
 }
 
-#define MAPS 8
-
-static void list_maps(const struct material *m, uint32_t maps[MAPS])
-{
-    const uint32_t all[MAPS] = {m->color_texture,    m->emission_texture,
-                                m->specular_texture, m->alpha_texture,
-                                m->metal_texture,    m->opacity_texture,
-                                m->normal_texture,   m->bump_texture};
-
-    memcpy(maps, all, sizeof all);
-}
-
 bool textures_are_tried(const struct host_world *host, const struct material *m)
 {
-    uint32_t maps[MAPS];
+    uint32_t maps[MATERIAL_MAPS];
 
-    list_maps(m, maps);
-    for (int i = 0; i < MAPS; i++)
+    material_maps(m, maps);
+    for (int i = 0; i < MATERIAL_MAPS; i++)
         if (maps[i] != NO_INDEX && !host->texture_is_tried[maps[i]])
             return false;
     return true;
@@ -359,10 +347,10 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
                        struct material *m, struct warnings *report,
                        struct error *err)
 {
-    uint32_t maps[MAPS];
+    uint32_t maps[MATERIAL_MAPS];
 
-    list_maps(m, maps);
-    for (int i = 0; i < MAPS; i++) {
+    material_maps(m, maps);
+    for (int i = 0; i < MATERIAL_MAPS; i++) {
         struct reading r;
         bool ok;
 
@@ -399,10 +387,10 @@ static uint32_t list_textures(struct host_world *host, uint32_t *textures)
     uint32_t count = 0;
 
     for (uint32_t i = 0; i < host->material_count; i++) {
-        uint32_t maps[MAPS];
+        uint32_t maps[MATERIAL_MAPS];
 
-        list_maps(&host->materials[i], maps);
-        for (int k = 0; host->material_is_used[i] && k < MAPS; k++)
+        material_maps(&host->materials[i], maps);
+        for (int k = 0; host->material_is_used[i] && k < MATERIAL_MAPS; k++)
             if (maps[k] != NO_INDEX && !host->texture_is_tried[maps[k]]) {
                 host->texture_is_tried[maps[k]] = true;
                 textures[count++] = maps[k];

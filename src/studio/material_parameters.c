@@ -50,6 +50,16 @@ static bool get_statement(const struct owner *o, struct value *v)
     return true;
 }
 
+/* Reads a number that a statement sets and that only the source has. */
+static bool get_source_number(const struct owner *o, struct value *v)
+{
+    const void *at = (const char *)&o->source + o->row->member;
+    const struct mtl_number *number = at;
+
+    v->number = number->value;
+    return true;
+}
+
 static void set_statement(struct owner *o, const struct value *v)
 {
     void *number = (char *)&o->source + o->row->member;
@@ -245,28 +255,6 @@ static void set_coat(struct owner *o, const struct value *v)
     put_number(&o->source.pc, v->number * mtl_source_full_coat(&o->source));
 }
 
-static bool get_coat_roughness(const struct owner *o, struct value *v)
-{
-    v->number = o->source.pcr.value;
-    return true;
-}
-
-static void set_coat_roughness(struct owner *o, const struct value *v)
-{
-    put_number(&o->source.pcr, v->number);
-}
-
-static bool get_grain_turn(const struct owner *o, struct value *v)
-{
-    v->number = o->source.anisor.value;
-    return true;
-}
-
-static void set_grain_turn(struct owner *o, const struct value *v)
-{
-    put_number(&o->source.anisor, v->number);
-}
-
 static bool get_map(const struct owner *o, struct value *v)
 {
     uint32_t texture = o->source.maps[o->row->map];
@@ -356,6 +344,11 @@ static void set_emission_color(struct owner *o, const struct value *v)
     .get = get_statement, .set = set_statement,  \
     .member = offsetof(struct mtl_source, name), \
     .result = offsetof(struct material, found)
+
+#define SOURCE_NUMBER(name)                         \
+    .get = get_source_number, .set = set_statement, \
+    .member = offsetof(struct mtl_source, name)
+
 static const char *const map_states[] = {"on", "off"};
 
 #define MAP(which) \
@@ -380,14 +373,12 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"index", CLEAR | MIXED, VALUE_NUMBER, &scale_ior, STATEMENT(ni, ior)},
     {"coat", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      .get = get_coat, .set = set_coat},
-    {"coat rough", MIXED, VALUE_NUMBER, &scale_unit, .get = get_coat_roughness,
-     .set = set_coat_roughness},
+    {"coat rough", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(pcr)},
     {"sheen", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      STATEMENT(ps, sheen.x)},
     {"grain", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      STATEMENT(aniso, anisotropy)},
-    {"grain turn", MIXED, VALUE_NUMBER, &scale_unit, .get = get_grain_turn,
-     .set = set_grain_turn},
+    {"grain turn", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(anisor)},
     {"cover", OPAQUE, VALUE_NUMBER, &scale_unit, STATEMENT(d, opacity)},
     {"light", ALL, VALUE_NUMBER, &scale_emission, .get = get_emission,
      .set = set_emission},

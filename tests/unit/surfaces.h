@@ -10,6 +10,8 @@
 
 #include "tests/unit/check.h"
 
+#include <math.h>
+
 #include "kernels/bsdf.h"
 
 static const float alphas[] = {5e-4f, 1e-3f, 1e-2f, 0.1f, 0.3f, 0.6f, 1.0f};
@@ -137,6 +139,49 @@ static inline void at_mixtures(visit f)
 static inline struct vec3 direction(float cosine)
 {
     return v3(sqrtf(1.0f - cosine * cosine), 0.0f, cosine);
+}
+
+/* Returns the mean weight of samples over the midpoints of side x side squares.
+ * Multiples of the golden ratio choose the lobe. */
+static inline struct vec3 sampled_albedo(const struct bsdf *m, float mu,
+                                         int side)
+{
+    double sum[3] = {0};
+
+    for (int i = 0; i < side * side; i++) {
+        struct vec2 u = v2((float)((i % side + 0.5) / side),
+                           (float)((i / side + 0.5) / side));
+        float choice = (float)fmod(i * 0.618033988749895, 1);
+        struct bsdf_sample s;
+
+        if (!bsdf_sample(m, direction(mu), u, choice, &s))
+            continue;
+        sum[0] += (double)s.weight.x;
+        sum[1] += (double)s.weight.y;
+        sum[2] += (double)s.weight.z;
+    }
+    return v3((float)(sum[0] / side / side), (float)(sum[1] / side / side),
+              (float)(sum[2] / side / side));
+}
+
+/* Integrates f over the upper hemisphere, seen from direction(mu), by midpoints
+ * in azimuth and in the root of the cosine. */
+static inline double hemisphere_integral(
+    double (*f)(const void *context, struct vec3 wo, struct vec3 wi),
+    const void *context, float mu, int side)
+{
+    double sum = 0;
+
+    for (int i = 0; i < side * side; i++) {
+        double t = (i % side + 0.5) / side;
+        double phi = M_PI * (i / side + 0.5) / side;
+        double r = sqrt(1 - pow(t, 4));
+        struct vec3 wi =
+            v3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)(t * t));
+
+        sum += f(context, direction(mu), wi) * 4 * M_PI * t;
+    }
+    return sum / side / side;
 }
 
 #endif

@@ -176,42 +176,21 @@ static void mirrors_and_sheets_have_no_density(void **state)
     }
 }
 
-/* Returns the mean weight over midpoints of the square. Multiples of the golden
- * ratio choose the lobe. */
 static double albedo(const struct bsdf *m, float mu)
 {
-    const int side = 300;
-    double sum = 0;
-
-    for (int i = 0; i < side * side; i++) {
-        struct vec2 u = v2((float)((i % side + 0.5) / side),
-                           (float)((i / side + 0.5) / side));
-        float choice = (float)fmod(i * 0.618033988749895, 1);
-        struct bsdf_sample s;
-
-        if (bsdf_sample(m, direction(mu), u, choice, &s))
-            sum += (double)s.weight.z;
-    }
-    return sum / side / side;
+    return (double)sampled_albedo(m, mu, 300).z;
 }
 
-/* Integrates f |cosine| over the upper hemisphere for surfaces without
- * highlights, by midpoints in azimuth and in the root of the cosine. */
+/* Returns f |cosine| of a channel from the direction `from`. */
+static double eval_z(const void *bsdf, struct vec3 from, struct vec3 wi)
+{
+    return (double)surface_f(bsdf, from, wi).z;
+}
+
+/* Integrates f |cosine| of surfaces without highlights. */
 static double integral_of_eval(const struct bsdf *m, float mu)
 {
-    const int side = 500;
-    double sum = 0;
-
-    for (int i = 0; i < side * side; i++) {
-        double t = (i % side + 0.5) / side;
-        double phi = M_PI * (i / side + 0.5) / side;
-        double r = sqrt(1 - pow(t, 4));
-        struct vec3 wi =
-            v3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)(t * t));
-
-        sum += (double)surface_f(m, direction(mu), wi).z * 4 * M_PI * t;
-    }
-    return sum / side / side;
+    return hemisphere_integral(eval_z, m, mu, 500);
 }
 
 static void check_furnace(const struct bsdf *m, float mu)
