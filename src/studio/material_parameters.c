@@ -368,7 +368,7 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"specular", MIXED, VALUE_NUMBER, &scale_unit, .get = get_specular,
      .set = set_specular},
     {"metal", MIXED, VALUE_NUMBER, &scale_unit, STATEMENT(pm, metalness)},
-    {"transmission", MIXED, VALUE_NUMBER, &scale_unit, .get = get_transmission,
+    {"transmits", MIXED, VALUE_NUMBER, &scale_unit, .get = get_transmission,
      .set = set_transmission},
     {"index", CLEAR | MIXED, VALUE_NUMBER, &scale_ior, STATEMENT(ni, ior)},
     {"coat", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,

@@ -185,7 +185,7 @@ static void set_values_reach_the_material(void **state)
             check_close((double)m.alpha, x * x, 1e-6);
         set(&s, "coat rough", &roughness);
         set(&s, "coat", &(struct value){.number = .5});
-        set(&s, "transmission", &(struct value){.number = .25});
+        set(&s, "transmits", &(struct value){.number = .25});
         set(&s, "metal", &(struct value){.number = .75});
         set(&s, "sheen", &(struct value){.number = .125});
         set(&s, "grain", &(struct value){.number = .5});
