@@ -25,10 +25,12 @@ enum feature {
     FEATURE_FILTER = 4096,      /* features for the filter: first_surface.h */
     FEATURE_PRINCIPLED = 8192,  /* MATERIAL_PRINCIPLED */
     FEATURE_ANISOTROPY = 16384, /* surfaces with a grain */
-    FEATURE_SHEEN = 32768
+    FEATURE_SHEEN = 32768,
+    FEATURE_POINT_LIGHTS = 65536,       /* point and spot lights */
+    FEATURE_DIRECTIONAL_LIGHTS = 131072 /* the sun is one */
 };
 
-#define FEATURES_ALL 65535u
+#define FEATURES_ALL 262143u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * light.h - area lights and the sky: light samples and their densities
+ * light.h - light samples of all lights and of the sky, and their densities
  *
  * light_sample() samples a direction from a receiver to a light, for next-event
  * estimation. light_pdf_at() and sky_light_terms() have its density at a point
@@ -12,9 +12,11 @@
 #ifndef KERNELS_LIGHT_H
 #define KERNELS_LIGHT_H
 
+#include "kernels/directional_light.h"
 #include "kernels/guide.h"
 #include "kernels/hit.h"
 #include "kernels/light_tree.h"
+#include "kernels/point_light.h"
 #include "kernels/sample.h"
 #include "kernels/sky.h"
 #include "kernels/texture.h"
@@ -23,8 +25,11 @@ struct light_sample {
     struct vec3 wi;       /* unit, from the receiver */
     struct vec3 radiance; /* along wi, if nothing occludes it */
     float pdf;            /* of wi per solid angle; above 0 and finite */
-    uint32_t tri;         /* NO_INDEX: the sky */
-    struct vec3 p;        /* the point on the triangle */
+    uint32_t tri;         /* NO_INDEX: not an area light */
+    struct vec3 p;        /* the point on the area light or point light */
+    bool is_near;         /* of a light of the tree; false: from infinity */
+    bool is_delta; /* BSDF samples cannot find the light: radiance and pdf
+                      are an irradiance and a probability */
 };
 
 /* True if a material emits light and is not invisible. */
@@ -116,9 +121,26 @@ static inline struct vec3 light_radiance(const struct world *w, uint32_t light,
     return radiance;
 }
 
-static inline bool sample_surface(const struct world *w,
-                                  const struct receiver *r, struct vec2 point,
-                                  struct vec2 choice, struct light_sample *s)
+/* Samples point light i, which was chosen with this probability. */
+static inline bool sample_point_light(const struct world *w, uint32_t i,
+                                      const struct receiver *r, struct vec2 u,
+                                      float probability, struct light_sample *s)
+{
+    float pdf;
+
+    if (!point_light_sample(w, i, r->p, u, &s->p, &s->wi, &s->radiance, &pdf))
+        return false;
+    s->pdf = probability * pdf;
+    s->tri = NO_INDEX;
+    s->is_delta = i >= w->settings.sphere_count;
+    return s->pdf > 0.0f;
+}
+
+/* Samples a light of the tree. */
+static inline bool sample_near_light(const struct world *w,
+                                     const struct receiver *r,
+                                     struct vec2 point, struct vec2 choice,
+                                     struct light_sample *s)
 {
     uint32_t light, part = 0;
     float probability =
@@ -126,8 +148,13 @@ static inline bool sample_surface(const struct world *w,
     struct vec3 p_error, to_point;
     struct hit h;
 
+    s->is_near = true;
+    s->is_delta = false;
     if (!(probability > 0.0f))
         return false;
+    if (HAS(FEATURE_POINT_LIGHTS) && light >= w->settings.light_count)
+        return sample_point_light(w, light - w->settings.light_count, r, point,
+                                  probability, s);
     h = w->lights[light].tris[1] == NO_INDEX ? triangle_point(point)
                                              : pair_point(point, &part);
     s->tri = h.tri = w->lights[light].tris[part];
@@ -167,6 +194,16 @@ static inline float light_pdf_at(const struct world *w,
            light_point_pdf(w, light, part, v3_sub(p, r->p));
 }
 
+/* Density of light_sample() at sphere i, which a ray from the receiver has
+ * met. */
+static inline float sphere_pdf_at(const struct world *w,
+                                  const struct receiver *r, uint32_t i)
+{
+    return w->settings.light_share *
+           light_tree_pmf(w, r, w->settings.light_count + i) *
+           point_light_pdf(w, i, r->p);
+}
+
 static inline float sky_cosine_pdf(const struct receiver *r, struct vec3 wi)
 {
     return f_max(v3_dot(wi, r->n), 0.0f) * (1.0f / PI);
@@ -191,7 +228,7 @@ static inline struct vec3 sky_light_terms(const struct world *w,
     }
     if (HAS(FEATURE_GUIDE) && first != NO_INDEX)
         *pdf = guide_mixed_pdf(w, first, wi, *pdf);
-    *pdf *= w->settings.sky_share;
+    *pdf *= sky_pmf(w, r);
     return radiance;
 }
 
@@ -210,6 +247,47 @@ static inline struct vec3 sky_direction(const struct world *w,
     return sky_has_table(w) ? sky_sample(w, u) : cosine_around(r->n, u);
 }
 
+/* Samples a directional light. */
+static inline bool sample_directional(const struct world *w, uint32_t i,
+                                      const struct receiver *r, struct vec2 u,
+                                      struct light_sample *s)
+{
+    float size = w->directional_lights[i].size;
+
+    s->wi = w->directional_lights[i].d;
+    s->radiance = w->directional_lights[i].emission;
+    s->pdf = directional_pmf(w, i, r);
+    s->is_delta = !(size > 0.0f);
+    if (size > 0.0f) {
+        s->wi = cone_around(s->wi, size, u);
+        s->pdf *= cone_pdf(size);
+    }
+    return s->pdf > 0.0f;
+}
+
+/* Samples the sky or a directional light; u, in [0, 1), chooses. */
+static inline bool sample_infinite_light(const struct world *w,
+                                         const struct receiver *r,
+                                         uint32_t first, struct vec2 point,
+                                         float u, struct light_sample *s)
+{
+    s->tri = NO_INDEX;
+    s->p = r->p;
+    s->is_near = false;
+    s->is_delta = false;
+    if (has_directional_lights(w)) {
+        uint32_t i = infinite_choose(w, r, u);
+
+        if (i != NO_INDEX)
+            return sample_directional(w, i, r, point, s);
+        if (!(w->settings.sky_power > 0.0f))
+            return false;
+    }
+    s->wi = sky_direction(w, r, first, point);
+    s->radiance = sky_light_terms(w, r, first, s->wi, &s->pdf);
+    return s->pdf > 0.0f;
+}
+
 /* Samples a light and a point on it, or a direction to the sky. Returns false
  * if choice.x chooses no light sample, or if there is no light. `first` is the
  * receiver's table in the guide, or NO_INDEX. The caller tests the side of the
@@ -218,19 +296,15 @@ static inline bool light_sample(const struct world *w, const struct receiver *r,
                                 uint32_t first, struct vec2 point,
                                 struct vec2 choice, struct light_sample *s)
 {
-    if (choice.x < w->settings.sky_share) {
-        s->wi = sky_direction(w, r, first, point);
-        s->radiance = sky_light_terms(w, r, first, s->wi, &s->pdf);
-        s->tri = NO_INDEX;
-        s->p = r->p;
-        return s->pdf > 0.0f;
-    }
+    if (choice.x < w->settings.sky_share)
+        return sample_infinite_light(w, r, first, point,
+                                     choice.x / w->settings.sky_share, s);
     /* most scenes do without this division */
     if (w->settings.light_share != 1.0f)
         choice.x = (choice.x - w->settings.sky_share) / w->settings.light_share;
     if (!(choice.x < 1.0f))
         return false;
-    return sample_surface(w, r, point, choice, s);
+    return sample_near_light(w, r, point, choice, s);
 }
 
 #endif

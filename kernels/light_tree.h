@@ -13,6 +13,24 @@
 
 #include "kernels/vec.h"
 
+/* Number of lights in the tree: area lights, then point lights. */
+static inline uint32_t light_tree_count(const struct world *w)
+{
+    uint32_t count = w->settings.light_count;
+
+    return HAS(FEATURE_POINT_LIGHTS) ? count + w->settings.point_light_count
+                                     : count;
+}
+
+/* Word `word` of a light's path. */
+static inline uint32_t light_path(const struct world *w, uint32_t light,
+                                  uint32_t word)
+{
+    if (HAS(FEATURE_POINT_LIGHTS) && light >= w->settings.light_count)
+        return w->point_lights[light - w->settings.light_count].path[word];
+    return w->lights[light].path[word];
+}
+
 /* The surface point that is lit. */
 struct receiver {
     struct vec3 p;
@@ -96,8 +114,8 @@ static inline float light_tree_sample(const struct world *w,
     uint32_t at = 0;
 
     *light = 0;
-    if (w->settings.light_count < 2)
-        return (float)w->settings.light_count;
+    if (light_tree_count(w) < 2)
+        return (float)light_tree_count(w);
     for (uint32_t level = 0;; level++) {
         float sums[LIGHT_WIDTH + 1];
         uint32_t i = 0;
@@ -128,10 +146,10 @@ static inline float light_tree_pmf(const struct world *w,
     float probability = 1.0f;
     uint32_t at = 0;
 
-    if (w->settings.light_count < 2)
+    if (light_tree_count(w) < 2)
         return 1.0f;
     for (uint32_t level = 0; (at & LIGHT_LEAF) == 0; level++) {
-        uint32_t bits = w->lights[light].path[level / (LIGHT_LEVELS / 2)];
+        uint32_t bits = light_path(w, light, level / (LIGHT_LEVELS / 2));
         uint32_t i = bits >> 3 * (level % (LIGHT_LEVELS / 2)) & 7u;
         float sums[LIGHT_WIDTH + 1];
 

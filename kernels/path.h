@@ -155,6 +155,42 @@ static inline void path_add_sky(const struct world *w, struct path *p)
     path_add(p, radiance, bsdf_mis_weight(w, p->pdf, pdf));
 }
 
+/* Adds the discs of directional lights to which the path's ray escapes. */
+static inline void path_add_discs(const struct world *w, struct path *p)
+{
+    for (uint32_t i = 0; i < w->settings.directional_light_count; i++) {
+        float pdf = 0.0f;
+
+        if (!disc_meets(w, i, p->ray.d))
+            continue;
+        if (p->pdf > 0.0f)
+            pdf = directional_pdf(w, i, &p->from);
+        path_add(p, w->directional_lights[i].emission,
+                 bsdf_mis_weight(w, p->pdf, pdf));
+    }
+}
+
+/* Adds the spheres that the path's ray meets on its way. They hide nothing. */
+static inline void path_add_spheres(const struct world *w, struct path *p,
+                                    float t_max)
+{
+    struct ray r = p->ray;
+
+    r.t_max = t_max;
+    for (uint32_t i = 0; i < w->settings.sphere_count; i++) {
+        float pdf = 0.0f;
+
+        if (!sphere_meets(w, i, r))
+            continue;
+        if (p->pdf > 0.0f)
+            pdf = sphere_pdf_at(w, &p->from, i);
+        path_add(p,
+                 v3_scale(w->point_lights[i].emission,
+                          point_light_part(w, i, r.d)),
+                 bsdf_mis_weight(w, p->pdf, pdf));
+    }
+}
+
 static inline void path_add_emission(const struct world *w, struct path *p,
                                      const struct material *m, uint32_t tri,
                                      const struct surface_point *v)
@@ -198,6 +234,8 @@ static inline bool wants_light_sample(const struct world *w,
 
     if (HAS(FEATURE_EMITTERS))
         has_lights = has_lights || w->settings.light_count > 0;
+    if (HAS(FEATURE_POINT_LIGHTS))
+        has_lights = has_lights || w->settings.point_light_count > 0;
     return has_lights && w->settings.direct != DIRECT_BSDF && !bsdf_is_delta(b);
 }
 
@@ -229,6 +267,9 @@ path_choose_light(const struct world *w, const struct path *p,
     if (!surface_sides_agree(v, l->at.wi, wi.z))
         return false;
     l->radiance = v3_mul(bsdf_terms(b, wo, wi, &pdf), l->at.radiance);
+    if ((HAS(FEATURE_POINT_LIGHTS) || HAS(FEATURE_DIRECTIONAL_LIGHTS)) &&
+        l->at.is_delta)
+        pdf = 0.0f;
     if (v3_is_zero(l->radiance))
         return false;
     l->radiance =
@@ -261,6 +302,9 @@ FLATTENED static inline void path_add_light(const struct world *w,
                                  w->positions[t.v[2]]);
         if (!(r.t_max > 0.0f))
             return;
+    } else if (HAS(FEATURE_POINT_LIGHTS) && l->at.is_near) {
+        r.d = v3_sub(l->at.p, r.o);
+        r.t_max = POINT_WAY;
     }
     p->out.rays++;
     if (!hit_any(w, r, l->at.tri))
@@ -359,8 +403,12 @@ static inline bool path_extend(const struct world *w, struct path *p,
     struct vec2 lobe;
     bool is_lit, goes_on;
 
+    if (HAS(FEATURE_POINT_LIGHTS))
+        path_add_spheres(w, p, h->tri == NO_INDEX ? FLOAT_MAX : h->t);
     if (h->tri == NO_INDEX) {
         path_add_sky(w, p);
+        if (HAS(FEATURE_DIRECTIONAL_LIGHTS))
+            path_add_discs(w, p);
         return false;
     }
     /* call this early: it takes long, and nothing before depends on it */

@@ -26,7 +26,9 @@ __kernel void trace_paths(
     __global const struct light_node *light_nodes,
     __global const float *sky_cdf,
     __global const struct guide_cell *guide_cells,
-    __global const float *guide_cdf)
+    __global const float *guide_cdf,
+    __global const struct point_light *point_lights,
+    __global const struct directional_light *directional_lights)
 {
     uint i = (uint)get_global_id(0);
 
@@ -34,11 +36,12 @@ __kernel void trace_paths(
         return;
     samples[i].rays = 0;
     if (*cancel == 0 && starts[i].ray.t_max > 0.0f) {
-        struct world w = {*settings,      positions,  normals,     uvs,
-                          tris,           materials,  textures,    texels,
-                          linear_of_srgb, sky_texels, nodes,       leaf_tris,
-                          lights,         tri_lights, light_nodes, sky_cdf,
-                          guide_cells,    guide_cdf};
+        struct world w = {
+            *settings,      positions,  normals,      uvs,
+            tris,           materials,  textures,     texels,
+            linear_of_srgb, sky_texels, nodes,        leaf_tris,
+            lights,         tri_lights, light_nodes,  sky_cdf,
+            guide_cells,    guide_cdf,  point_lights, directional_lights};
 
         struct first_surface surface;
 

@@ -26,6 +26,27 @@ static inline struct vec2 disk_from_square(struct vec2 u)
                       v2(radius * cos_small(angle), radius * sin_small(angle)));
 }
 
+/* A uniform direction of the cone around the unit vector n. `size` is 1 minus
+ * the cosine of the cone's half angle, and the density 1 / (2 pi size). Narrow
+ * cones keep their digits. */
+static inline struct vec3 cone_around(struct vec3 n, float size, struct vec2 u)
+{
+    struct vec2 p = disk_from_square(u);
+    float height = size * (p.x * p.x + p.y * p.y);
+    float width = sqrtf(f_max(size * (2.0f - height), 0.0f));
+    struct vec3 t, b;
+
+    frame_around(n, &t, &b);
+    return v3_unit_again(
+        v3_add(v3_add(v3_scale(t, p.x * width), v3_scale(b, p.y * width)),
+               v3_scale(n, 1.0f - height)));
+}
+
+static inline float cone_pdf(float size)
+{
+    return 1.0f / (2.0f * PI * size);
+}
+
 /* A direction of the hemisphere around +z with density cosine / pi. */
 static inline struct vec3 cosine_hemisphere(struct vec2 u)
 {

@@ -156,22 +156,55 @@ struct light {
     struct vec3 emission;
 };
 
+/*
+ * A point light or a spot light. With a radius it is a sphere, which shines
+ * with its radiance and hides nothing; without, it is a point, which only light
+ * samples find. It lights a surface by its emission times
+ *
+ *     min(max(cosine * cone_scale + cone_offset, 0), 1)^2
+ *
+ * of the cosine between the axis and the direction from the light, as
+ * KHR_lights_punctual of glTF defines spots. `path` is as in struct light.
+ */
+struct point_light {
+    struct vec3 p;
+    float radius;
+    struct vec3 axis;     /* unit vector; 0 for a point light */
+    float cone_scale;     /* 0 for a point light, */
+    float cone_offset;    /* and 1 */
+    struct vec3 emission; /* radiance of a sphere, intensity of a point */
+    uint32_t path[2];
+};
+
+/* A light at infinity in one direction. With a size it is a disc, which
+ * escaping rays find too. */
+struct directional_light {
+    struct vec3 d;        /* unit vector to its middle */
+    float size;           /* 1 - cosine of half its angle */
+    struct vec3 emission; /* radiance of a disc; irradiance without a size */
+    float sine;           /* of half its angle */
+    float power;          /* irradiance, mean of the channels */
+};
+
 #define LIGHT_LEVELS 20
 #define LIGHT_WIDTH  8
 #define LIGHT_LEAF   0x80000000u
 
 /* A node of the light tree: eight clusters of lights, as arrays for vector
- * units. Lights emit to both sides, so that normals have no sign: the cone
- * around the axis bounds the lines along them. */
+ * units. Area lights emit to both sides, so that normals have no sign: the cone
+ * around the axis bounds the lines along them. Point lights emit in all
+ * directions, and their cone has a sine of 1. */
 struct light_node {
     float x[LIGHT_WIDTH], y[LIGHT_WIDTH], z[LIGHT_WIDTH]; /* box centres */
     float radius[LIGHT_WIDTH]; /* of the sphere around the box; above 0 */
-    float axis_x[LIGHT_WIDTH]; /* unit vectors */
+    float axis_x[LIGHT_WIDTH]; /* unit vectors, or 0 */
     float axis_y[LIGHT_WIDTH];
     float axis_z[LIGHT_WIDTH];
-    float spread[LIGHT_WIDTH];   /* sine of the cone's half angle */
-    float power[LIGHT_WIDTH];    /* share of all lights' power; 0: no child */
-    uint32_t child[LIGHT_WIDTH]; /* a node; or a light, or-ed with LIGHT_LEAF */
+    float spread[LIGHT_WIDTH]; /* sine of the cone's half angle */
+    float power[LIGHT_WIDTH];  /* share of all lights' power; 0: no child */
+    /* a node; or a light, or-ed with LIGHT_LEAF: area lights are counted before
+     * point lights */
+    uint32_t child[LIGHT_WIDTH];
 };
 
 /* Bins along a side of the octahedral map of directions in guide.h. A power of
@@ -240,8 +273,12 @@ struct settings {
     uint32_t direct;   /* enum direct */
     uint32_t order;    /* enum order */
     uint32_t sample;   /* enum sample_kind */
-    float sky_share;   /* probability that a light sample is of the sky */
-    float light_share; /* of an area light; otherwise there is none */
+    /* probability that a light sample is of light from infinity: of the sky or
+     * of a directional light */
+    float sky_share;
+    float light_share; /* of a light of the tree; otherwise there is none */
+    float sky_power;   /* irradiance by half of the sky's mean, for the choice
+                          between the sky and directional lights */
 
     /* lengths of the world's arrays */
     uint32_t tri_count;
@@ -254,6 +291,9 @@ struct settings {
     uint32_t light_count;
     uint32_t light_node_count;
     uint32_t sky_cdf_count;
+    uint32_t point_light_count;
+    uint32_t sphere_count; /* the first point lights, which have a radius */
+    uint32_t directional_light_count;
 
     struct guide_grid guide;
 };
@@ -279,11 +319,13 @@ struct world {
     GLOBAL const float *sky_cdf; /* see kernels/sky.h; NULL: no table */
     GLOBAL const struct guide_cell *guide_cells; /* see kernels/guide.h */
     GLOBAL const float *guide_cdf;               /* GUIDE_BINS of each table */
+    GLOBAL const struct point_light *point_lights;
+    GLOBAL const struct directional_light *directional_lights;
 };
 
 struct ray {
     struct vec3 o;
-    struct vec3 d; /* unit vector; any length for shadow rays to area lights */
+    struct vec3 d; /* unit vector; any length for shadow rays to lights */
     float t_max;
     uint32_t key;  /* random key for partial coverage */
     uint32_t from; /* 1 + triangle that it leaves; 0: none */

@@ -15,7 +15,7 @@ HEADERLESS='main stb backend_cpu glim_scene glim_render glim_picture'
 
 # Files that may use the C library's output, because they write files. Output
 # for people goes through print.c.
-WRITERS='print assign mtl_save view_file cl_source stats_json json reference_info curses_windows'
+WRITERS='print assign mtl_save view_file view_light cl_source stats_json json reference_info curses_windows'
 
 {
     find include src kernels scenes tests -name '*.[ch]' -o -name '*.cl'

@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "scene/world_lamps.h"
 #include "formats/mtl.h"
 #include "formats/obj.h"
 #include "formats/view_file.h"
@@ -99,8 +100,9 @@ static bool is_dark(const struct host_world *host, const struct view *view)
 {
     const double *b = view->lighting.background;
 
-    return !world_has_emitters(host) && !host->sky_texels && b[0] <= 0.0 &&
-           b[1] <= 0.0 && b[2] <= 0.0;
+    return !world_has_emitters(host) && !host->sky_texels &&
+           host->point_light_count + host->directional_light_count == 0 &&
+           b[0] <= 0.0 && b[1] <= 0.0 && b[2] <= 0.0;
 }
 
 bool view_has_soft_sky(const struct view *view)
@@ -137,7 +139,8 @@ bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
 {
     if (!scene_load(scene, path, up_is_z, report, err) ||
         !world_init(host, scene, thread_count, report, err) ||
-        !world_load_sky(host, view, report, err))
+        !world_load_sky(host, view, report, err) ||
+        !world_set_lamps(host, scene, view, err))
         return false;
     complete_view(scene, host, view, report);
     return pose_check(&view->pose, path, err) &&

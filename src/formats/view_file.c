@@ -9,6 +9,7 @@
 #include "base/decimal.h"
 #include "base/memory.h"
 #include "light/daylight.h"
+#include "formats/view_light.h"
 
 bool view_read(struct view *view, const char *path, struct warnings *report,
                struct error *err)
@@ -131,6 +132,7 @@ static void write_key(FILE *to, const struct view *v, enum view_key_id id,
             fprintf(to, "tone %s\n", view_tones[v->lighting.tone]);
         break;
     case KEY_ASSIGN: assigns_write(&v->assigns, to); break;
+    case KEY_LIGHT: view_lights_write(&v->lamps, to); break;
     case KEY_VIEW: write_shots(to, v); break;
     }
 }

@@ -10,31 +10,29 @@
 
 #include "base/file.h"
 #include "light/daylight.h"
-
-/* Largest number: squares and differences stay finite. */
-#define GREATEST 1e30
+#include "formats/view_light.h"
 
 /* Limits of fovy, which must be above 0 and below 180 degrees. */
 #define FOVY_LEAST    1e-6
 #define FOVY_GREATEST 179.999999
 
 const struct view_key view_keys[VIEW_KEYS] = {
-    {"eye", KEY_EYE, 3, false, -GREATEST, GREATEST,
+    {"eye", KEY_EYE, 3, false, -VIEW_NUMBER_MAX, VIEW_NUMBER_MAX,
      "3 numbers from -1e30 to 1e30"},
-    {"at", KEY_AT, 3, false, -GREATEST, GREATEST,
+    {"at", KEY_AT, 3, false, -VIEW_NUMBER_MAX, VIEW_NUMBER_MAX,
      "3 numbers from -1e30 to 1e30"},
-    {"up", KEY_UP, 3, false, -GREATEST, GREATEST,
+    {"up", KEY_UP, 3, false, -VIEW_NUMBER_MAX, VIEW_NUMBER_MAX,
      "3 numbers from -1e30 to 1e30"},
     {"fovy", KEY_FOVY, 1, false, FOVY_LEAST, FOVY_GREATEST,
      "an angle above 0 and below 180 degrees"},
     {"res", KEY_RES, 2, true, 1, VIEW_SIDE_MAX,
      "2 whole numbers from 1 to 65536"},
-    {"background", KEY_BACKGROUND, 3, false, 0, GREATEST,
+    {"background", KEY_BACKGROUND, 3, false, 0, VIEW_NUMBER_MAX,
      "3 numbers from 0 to 1e30"},
     {"max_bounces", KEY_MAX_BOUNCES, 1, true, -1, INT_MAX,
      "a whole number, or -1 for no limit"},
     {"sky", KEY_SKY, 0, false, 0, 0, "an image file"},
-    {"sky_strength", KEY_SKY_STRENGTH, 1, false, 0, GREATEST,
+    {"sky_strength", KEY_SKY_STRENGTH, 1, false, 0, VIEW_NUMBER_MAX,
      "a number from 0 to 1e30"},
     {"sky_rotation", KEY_SKY_ROTATION, 1, false, -1e6, 1e6,
      "an angle from -1e6 to 1e6 degrees"},
@@ -42,18 +40,20 @@ const struct view_key view_keys[VIEW_KEYS] = {
      "an azimuth from -360 to 360 and an elevation from -90 to 90 degrees"},
     {"turbidity", KEY_TURBIDITY, 1, false, TURBIDITY_LEAST, TURBIDITY_GREATEST,
      "a number from 1.7 to 10"},
-    {"aperture", KEY_APERTURE, 1, false, 0, GREATEST,
+    {"aperture", KEY_APERTURE, 1, false, 0, VIEW_NUMBER_MAX,
      "a number from 0 to 1e30"},
-    {"focus", KEY_FOCUS, 1, false, 0, GREATEST, "a number from 0 to 1e30"},
+    {"focus", KEY_FOCUS, 1, false, 0, VIEW_NUMBER_MAX,
+     "a number from 0 to 1e30"},
     {"exposure", KEY_EXPOSURE, 1, false, -100, 100,
      "a number of stops from -100 to 100"},
     {"tone", KEY_TONE, 0, false, 0, 0, "linear, reinhard or aces"},
     {"assign", KEY_ASSIGN, 0, false, 0, 0, "two names"},
+    {"light", KEY_LIGHT, 0, false, 0, 0, "point, spot or directional"},
     {"view", KEY_VIEW, 1, true, 1, VIEW_SHOTS, "a number from 1 to 9"},
 };
 
-static bool fail_at(const struct view_reader *r, struct word found,
-                    const char *expected, const char *key, struct error *err)
+bool view_fail_at(const struct view_reader *r, struct word found,
+                  const char *expected, const char *key, struct error *err)
 {
     return fail(err, "%s:%" PRIu64 ": found %s, expected %s for %s", r->path,
                 r->lex->line, word_quote(found).text, expected, key);
@@ -68,9 +68,8 @@ static bool is_in_range(const struct view_key *key, int i, double value)
            (!key->is_whole || value == floor(value));
 }
 
-/* Reads number i of a key and checks its range. */
-static bool read_number(struct view_reader *r, const struct view_key *key,
-                        int i, double *value, struct error *err)
+bool view_read_number(struct view_reader *r, const struct view_key *key, int i,
+                      double *value, struct error *err)
 {
     struct lexer before = *r->lex;
     bool ok = !lexer_at_line_end(r->lex) && lexer_number(r->lex, value) &&
@@ -81,7 +80,7 @@ static bool read_number(struct view_reader *r, const struct view_key *key,
     struct word found = {.length = 0};
     if (!lexer_at_line_end(&before))
         found = lexer_word(&before);
-    return fail_at(r, found, key->expected, key->name, err);
+    return view_fail_at(r, found, key->expected, key->name, err);
 }
 
 static void store(struct view *view, enum view_key_id id, const double *v)
@@ -115,6 +114,7 @@ static void store(struct view *view, enum view_key_id id, const double *v)
     case KEY_SKY:
     case KEY_TONE:
     case KEY_ASSIGN:
+    case KEY_LIGHT:
     case KEY_VIEW: break;
     }
 }
@@ -127,7 +127,7 @@ static bool read_numbers(struct view_reader *r, const struct view_key *key,
     double values[3] = {0};
 
     for (int i = 0; i < key->count; i++) {
-        if (!read_number(r, key, i, &values[i], err))
+        if (!view_read_number(r, key, i, &values[i], err))
             return false;
     }
     if (key->id == KEY_UP && values[0] == 0 && values[1] == 0 && values[2] == 0)
@@ -167,23 +167,23 @@ static bool read_shot(struct view_reader *r, const struct view_key *view_key,
     char place[512];
     double number;
 
-    if (!read_number(r, view_key, 0, &number, err))
+    if (!view_read_number(r, view_key, 0, &number, err))
         return false;
     while (!lexer_at_line_end(r->lex)) {
         struct word name = lexer_word(r->lex);
         const struct view_key *key = view_find_key(name);
 
         if (!key || !is_of_pose(key))
-            return fail_at(r, name, "eye, at, up, fovy, aperture or focus",
-                           view_key->name, err);
+            return view_fail_at(r, name, "eye, at, up, fovy, aperture or focus",
+                                view_key->name, err);
         if (!read_numbers(r, key, &shot, err))
             return false;
         has_eye |= key->id == KEY_EYE;
         has_at |= key->id == KEY_AT;
     }
     if (!has_eye || !has_at)
-        return fail_at(r, (struct word){.length = 0}, "eye and at",
-                       view_key->name, err);
+        return view_fail_at(r, (struct word){.length = 0}, "eye and at",
+                            view_key->name, err);
     snprintf(place, sizeof place, "%s:%" PRIu64, r->path, line);
     if (!pose_check(&shot.pose, place, err))
         return false;
@@ -222,7 +222,8 @@ static bool read_key(struct view_reader *r, const struct view_key *key,
     if (!read_numbers(r, key, r->view, err))
         return false;
     if (!lexer_at_line_end(r->lex))
-        return fail_at(r, lexer_word(r->lex), key->expected, key->name, err);
+        return view_fail_at(r, lexer_word(r->lex), key->expected, key->name,
+                            err);
     if (key->id == KEY_EYE)
         r->eye_line = r->lex->line;
     if (key->id == KEY_AT)
@@ -243,7 +244,7 @@ static bool read_tone(struct view_reader *r, const struct view_key *key,
         r->view->lighting.tone = i;
         return true;
     }
-    return fail_at(r, name, key->expected, key->name, err);
+    return view_fail_at(r, name, key->expected, key->name, err);
 }
 
 static bool read_assign(struct view_reader *r, struct error *err)
@@ -276,6 +277,8 @@ bool view_parse_line(void *context, struct lexer *lex, struct error *err)
         return read_tone(r, key, err);
     if (key && key->id == KEY_ASSIGN)
         return read_assign(r, err);
+    if (key && key->id == KEY_LIGHT)
+        return view_light_read(r, err);
     if (key && key->id == KEY_VIEW)
         return read_shot(r, key, err);
     if (key)

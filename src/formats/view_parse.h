@@ -35,8 +35,12 @@ enum view_key_id {
     KEY_SKY,    /* takes a name */
     KEY_TONE,   /* takes a name */
     KEY_ASSIGN, /* takes two names */
+    KEY_LIGHT,  /* takes a kind and other keys */
     KEY_VIEW    /* takes a number and other keys */
 };
+
+/* Largest number: squares and differences stay finite. */
+#define VIEW_NUMBER_MAX 1e30
 
 #define VIEW_KEYS ((size_t)KEY_VIEW + 1)
 
@@ -66,6 +70,14 @@ struct view_reader {
 };
 
 lexer_take_line view_parse_line;
+
+/* Reads number i of a key and checks its range. */
+bool view_read_number(struct view_reader *reader, const struct view_key *key,
+                      int i, double *value, struct error *err);
+
+/* Fails with the line, the word found, and the expected value of a key. */
+bool view_fail_at(const struct view_reader *reader, struct word found,
+                  const char *expected, const char *key, struct error *err);
 
 /* Parses `key value` lines into `view`; values that are not given stay. An
  * unknown key is a warning. `path` is used for messages, and file names in the

@@ -234,10 +234,14 @@ static void fill_child(struct light_node *node, uint32_t i,
     float length = v3_length(c.axis);
     struct vec3 axis =
         length > 0.0f ? v3_scale(c.axis, 1.0f / length) : e[0].normal;
-    float cosine = 1.0f;
+    float spread = 0.0f;
 
-    for (uint32_t k = 0; k < count; k++)
-        cosine = f_min(cosine, fabsf(v3_dot(axis, e[k].normal)));
+    for (uint32_t k = 0; k < count; k++) {
+        float cosine = fabsf(v3_dot(axis, e[k].normal));
+
+        spread = f_max(spread, sqrtf(f_max(1.0f - cosine * cosine, 0.0f)) +
+                                   e[k].spread);
+    }
     node->x[i] = 0.5f * (c.lo.x + c.hi.x);
     node->y[i] = 0.5f * (c.lo.y + c.hi.y);
     node->z[i] = 0.5f * (c.lo.z + c.hi.z);
@@ -245,7 +249,7 @@ static void fill_child(struct light_node *node, uint32_t i,
     node->axis_x[i] = axis.x;
     node->axis_y[i] = axis.y;
     node->axis_z[i] = axis.z;
-    node->spread[i] = sqrtf(f_max(1.0f - cosine * cosine, 0.0f));
+    node->spread[i] = f_min(spread, 1.0f);
     node->power[i] = (float)c.power;
 }
 
@@ -257,13 +261,25 @@ static bool add_node(struct builder *b, uint32_t *index, struct error *err)
     if (!grow_array(&nodes, &b->node_capacity, (size_t)l->node_count + 1,
                     sizeof *l->nodes))
         return fail(err, "out of memory for the tree of %u lights",
-                    l->light_count);
+                    l->light_count + l->point_light_count);
     l->nodes = nodes;
     l->nodes[l->node_count] = (struct light_node){.power = {0}};
     for (uint32_t i = 0; i < LIGHT_WIDTH; i++)
         l->nodes[l->node_count].radius[i] = RADIUS_LEAST;
     *index = l->node_count++;
     return true;
+}
+
+/* Sets the index of the child at one depth in the path of a light. */
+static void set_path(struct lights *l, uint32_t light, uint32_t depth,
+                     uint32_t child)
+{
+    uint32_t *path = light < l->light_count
+                         ? l->lights[light].path
+                         : l->point_lights[light - l->light_count].path;
+
+    path[depth / (LIGHT_LEVELS / 2)] |= child
+                                        << 3 * (depth % (LIGHT_LEVELS / 2));
 }
 
 /* Builds the node of a range. Recursion is at most LIGHT_LEVELS deep. */
@@ -284,9 +300,7 @@ static bool build(struct builder *b, uint32_t first, uint32_t count,
         fill_child(&b->lights->nodes[*index], i, b->emitters + p.first,
                    p.count);
         for (uint32_t k = p.first; k < p.first + p.count; k++)
-            b->lights->lights[b->emitters[k].light]
-                .path[depth / (LIGHT_LEVELS / 2)] |=
-                i << 3 * (depth % (LIGHT_LEVELS / 2));
+            set_path(b->lights, b->emitters[k].light, depth, i);
         if (p.count == 1)
             child = b->emitters[p.first].light | LIGHT_LEAF;
         else if (!build(b, p.first, p.count, depth + 1, &child, err))
@@ -300,8 +314,8 @@ bool light_tree_build(struct lights *lights, struct emitter *emitters,
                       struct error *err)
 {
     struct builder b = {emitters, lights, 0};
+    uint32_t count = lights->light_count + lights->point_light_count;
     uint32_t root;
 
-    return lights->light_count < 2 ||
-           build(&b, 0, lights->light_count, 0, &root, err);
+    return count < 2 || build(&b, 0, count, 0, &root, err);
 }

@@ -22,13 +22,14 @@
 
 struct emitter {
     struct vec3 lo, hi;
-    struct vec3 normal; /* unit vector; the sign means nothing */
+    struct vec3 normal; /* unit vector; the sign means nothing; 0: no normal */
+    float spread;       /* sine of a cone around the normal with more of them */
     double power;
-    uint32_t light;
+    uint32_t light; /* area lights, then point lights */
 };
 
-/* Makes the nodes for the lights, one emitter each, and sets the lights'
- * `path`. The order of the emitters changes. */
+/* Makes the nodes for area lights and point lights, one emitter each, and sets
+ * the `path` of both. The order of the emitters changes. */
 bool light_tree_build(struct lights *lights, struct emitter *emitters,
                       struct error *err);
 

@@ -189,22 +189,83 @@ static void add_light(const struct world *w, struct lights *l,
     l->light_count++;
 }
 
-/* Finds the emitters among `candidate_count` triangles of emissive materials.
- */
+/* Intensity of a point light along its axis. */
+static double intensity_of(const struct point_light *l)
+{
+    double area =
+        l->radius > 0 ? M_PI * (double)l->radius * (double)l->radius : 1;
+
+    return color_mean(l->emission) * area;
+}
+
+/* Part of the sphere of directions into which a point light shines. The mean of
+ * its falloff (see struct point_light) over cosines is a cubic. */
+static double lit_part(const struct point_light *l)
+{
+    double scale = (double)l->cone_scale, offset = (double)l->cone_offset;
+    double outer, inner;
+
+    if (!(scale > 0))
+        return 1;
+    outer = fmax(-offset / scale, -1);
+    inner = fmin((1 - offset) / scale, 1);
+    return (1 - inner) / 2 +
+           (pow(inner * scale + offset, 3) - pow(outer * scale + offset, 3)) /
+               (6 * scale);
+}
+
+/* Copies point lights of one kind with their emitters. Returns their power. */
+static double add_points(struct lights *l, struct emitter *emitters,
+                         const struct world *w, bool is_sphere)
+{
+    double total = 0;
+
+    for (uint32_t i = 0; i < w->settings.point_light_count; i++) {
+        const struct point_light *p = &w->point_lights[i];
+        struct vec3 half = v3(p->radius, p->radius, p->radius);
+        uint32_t n = l->light_count + l->point_light_count;
+
+        if ((p->radius > 0) != is_sphere)
+            continue;
+        /* the cone of a spot has its full width where falloff ends */
+        emitters[n] = (struct emitter){
+            .lo = v3_sub(p->p, half),
+            .hi = v3_add(p->p, half),
+            .normal = p->axis,
+            .spread = p->cone_scale > 0
+                          ? 1 - f_max(-p->cone_offset / p->cone_scale, 0)
+                          : 1,
+            .power = 2 * intensity_of(p),
+            .light = n,
+        };
+        total += emitters[n].power;
+        l->point_power += emitters[n].power * lit_part(p);
+        l->point_lights[l->point_light_count++] = *p;
+        l->sphere_count += is_sphere;
+    }
+    return total;
+}
+
+/* Finds the emitters among `candidate_count` triangles of emissive materials,
+ * and adds those of point lights. */
 static bool find_emitters(struct lights *l, struct emitter **emitters,
                           const struct world *w, uint32_t candidate_count,
                           const struct texture_power_sums *footprints,
                           struct error *err)
 {
+    uint32_t point_count = w->settings.point_light_count;
     double total = 0;
 
-    *emitters = alloc_array(candidate_count, sizeof **emitters);
+    *emitters =
+        alloc_array((size_t)candidate_count + point_count, sizeof **emitters);
+    l->point_lights = alloc_array(point_count, sizeof *l->point_lights);
     l->lights = alloc_array(candidate_count, sizeof *l->lights);
     l->powers = alloc_array(candidate_count, sizeof *l->powers);
     l->tri_lights = alloc_array(w->settings.tri_count, sizeof *l->tri_lights);
     if (*emitters == NULL || l->lights == NULL || l->powers == NULL ||
-        l->tri_lights == NULL)
-        return fail(err, "out of memory for %u lights", candidate_count);
+        l->tri_lights == NULL || l->point_lights == NULL)
+        return fail(err, "out of memory for %u lights",
+                    candidate_count + point_count);
     for (uint32_t i = 0; i < w->settings.tri_count; i++) {
         struct emitter e;
 
@@ -216,7 +277,9 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
         add_light(w, l, *emitters, i, &e);
         l->tri_lights[i] = l->light_count - 1;
     }
-    for (uint32_t i = 0; i < l->light_count; i++)
+    total +=
+        add_points(l, *emitters, w, true) + add_points(l, *emitters, w, false);
+    for (uint32_t i = 0; i < l->light_count + l->point_light_count; i++)
         (*emitters)[i].power = fmax((*emitters)[i].power / total, POWER_LEAST);
     return true;
 }
@@ -270,7 +333,7 @@ bool lights_build(struct lights *lights, const struct world *w,
         is_used[material] = material_shines(&w->materials[material]);
         candidate_count += is_used[material] ? 1 : 0;
     }
-    ok = candidate_count == 0 ||
+    ok = candidate_count + w->settings.point_light_count == 0 ||
          (make_footprints(w, is_used, material_count, footprints, err) &&
           find_emitters(lights, &emitters, w, candidate_count, footprints,
                         err) &&
@@ -288,7 +351,7 @@ out:
 
 double lights_power(const struct lights *lights)
 {
-    double power = 0;
+    double power = lights->point_power;
 
     for (uint32_t i = 0; i < lights->light_count; i++)
         power += lights->powers[i][0] + lights->powers[i][1];
@@ -303,6 +366,8 @@ static float light_share(const struct lights *lights, const struct sky *sky)
     double radiance = color_mean(sky->color);
     double ratio = lights->unsampled_variance / (M_PI * radiance * radiance);
 
+    if (lights->point_light_count > 0)
+        return 1;
     if (lights->light_count == 0)
         return 0;
     if (sky->width != 0 || !(ratio < VARIANCE_FULL))
@@ -318,6 +383,9 @@ void lights_lend(const struct lights *lights, struct world *world)
     world->tri_lights = lights->tri_lights;
     world->light_nodes = lights->nodes;
     world->settings.light_node_count = lights->node_count;
+    world->point_lights = lights->point_lights;
+    world->settings.point_light_count = lights->point_light_count;
+    world->settings.sphere_count = lights->sphere_count;
 }
 
 void lights_free(struct lights *lights)
@@ -325,6 +393,7 @@ void lights_free(struct lights *lights)
     free(lights->lights);
     free(lights->powers);
     free(lights->tri_lights);
+    free(lights->point_lights);
     free(lights->nodes);
     memset(lights, 0, sizeof *lights);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * lights.h - finds the area lights of a world and builds their tree
+ * lights.h - finds the area lights of a world and builds the tree of them and
+ * of its point lights
  *
  * An emissive triangle is a light if it has enough power to be sampled. With
  * the next triangle it is one light if both are much alike and form a flat
@@ -22,18 +23,23 @@ struct lights {
     uint32_t light_count;
     double (*powers)[2]; /* of the triangles of each light */
     uint32_t *tri_lights;
+    struct point_light *point_lights; /* spheres first */
+    uint32_t point_light_count, sphere_count;
+    double point_power; /* of all point lights */
     struct light_node *nodes;
     uint32_t node_count;
     double unsampled_variance; /* sum of area times squared radiance */
 };
 
-/* Finds the lights from the world's triangles, materials and textures. */
+/* Finds the lights from the world's triangles, materials and textures, and
+ * copies its point lights. */
 bool lights_build(struct lights *lights, const struct world *world,
                   struct error *err);
 
 /* Returns the power of all lights. The power of a triangle is its area times
  * the mean of its radiance over its part of the emission map and over the
- * channels, times its opacity. */
+ * channels, times its opacity; a point light has the power of a surface with
+ * the same flux. */
 double lights_power(const struct lights *lights);
 
 /* Returns true if a change from one material to the other changes the lights.

@@ -180,17 +180,25 @@ bool sky_table_build(struct sky_table *table, const struct vec3 *texels,
                 height);
 }
 
-/* The sky's share of light samples. */
+/* Mean radiance of the world's sky. */
+static double sky_mean(const struct sky_table *table, const struct sky *sky)
+{
+    return color_mean(sky->color) * (sky->width != 0 ? table->mean : 1);
+}
+
+/* The share of light samples for light from infinity. */
 static float share_of(const struct sky_table *table, const struct settings *s)
 {
     bool is_black =
         v3_is_zero(s->sky.color) || (s->sky.width != 0 && !(table->mean > 0));
 
-    if (is_black)
+    if (is_black && s->directional_light_count == 0)
         return 0;
-    if (s->light_count == 0)
+    if (s->light_count + s->point_light_count == 0)
         return 1;
-    return table->sums != NULL ? SHARE_BESIDE_LIGHTS : 1 - s->light_share;
+    return table->sums != NULL || s->directional_light_count > 0
+               ? SHARE_BESIDE_LIGHTS
+               : 1 - s->light_share;
 }
 
 void sky_table_lend(const struct sky_table *table, struct world *world)
@@ -199,11 +207,12 @@ void sky_table_lend(const struct sky_table *table, struct world *world)
 
     world->sky_cdf = table->sums;
     s->sky_share = share_of(table, s);
+    s->sky_power = (float)(M_PI * sky_mean(table, &s->sky));
     s->sky_cdf_count = 0;
-    if (table->sums == NULL || s->sky_share == 0)
-        return;
-    s->sky_cdf_count = sky_row_cdf(s->sky, s->sky.height);
-    s->light_share = 1 - s->sky_share;
+    if (table->sums != NULL && s->sky_share > 0 && !v3_is_zero(s->sky.color))
+        s->sky_cdf_count = sky_row_cdf(s->sky, s->sky.height);
+    if (s->sky_cdf_count > 0 || s->directional_light_count > 0)
+        s->light_share = 1 - s->sky_share;
 }
 
 void sky_table_free(struct sky_table *table)

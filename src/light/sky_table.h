@@ -34,7 +34,7 @@ bool sky_table_build(struct sky_table *table, const struct vec3 *texels,
                      struct error *err);
 
 /* Lends the table to a world that has its sky and its lights, and shares the
- * light samples between both. */
+ * light samples between lights of the tree and light from infinity. */
 void sky_table_lend(const struct sky_table *table, struct world *world);
 
 void sky_table_free(struct sky_table *table);

@@ -29,6 +29,8 @@ static const enum world_part parts[CL_ARRAY_COUNT] = {
     [CL_ARRAY_SKY_SUMS] = WORLD_SKY,
     [CL_ARRAY_GUIDE_CELLS] = WORLD_GUIDE,
     [CL_ARRAY_GUIDE_SUMS] = WORLD_GUIDE,
+    [CL_ARRAY_POINT_LIGHTS] = WORLD_LIGHTS,
+    [CL_ARRAY_DIRECTIONAL_LIGHTS] = WORLD_DIRECTIONAL_LIGHTS,
 };
 
 #define SOURCE(array, count)                       \
@@ -86,6 +88,9 @@ bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
             SOURCE(w->guide_cells, guide_cell_count(&s->guide)),
         [CL_ARRAY_GUIDE_SUMS] =
             SOURCE(w->guide_cdf, (size_t)s->guide.table_count * GUIDE_BINS),
+        [CL_ARRAY_POINT_LIGHTS] = SOURCE(w->point_lights, s->point_light_count),
+        [CL_ARRAY_DIRECTIONAL_LIGHTS] =
+            SOURCE(w->directional_lights, s->directional_light_count),
     };
 
     for (int i = 0; i < CL_ARRAY_COUNT; i++) {

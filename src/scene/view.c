@@ -138,8 +138,10 @@ bool view_copy(struct view *to, const struct view *from)
 
     copy.lighting.sky_path = NULL;
     copy.assigns = (struct assigns){0};
+    copy.lamps = (struct lamps){0};
     if (!lighting_copy(&copy.lighting, &from->lighting) ||
-        !assigns_copy(&copy.assigns, &from->assigns)) {
+        !assigns_copy(&copy.assigns, &from->assigns) ||
+        !lamps_copy(&copy.lamps, &from->lamps)) {
         view_free(&copy);
         return false;
     }
@@ -171,5 +173,6 @@ void view_free(struct view *view)
 {
     free(view->lighting.sky_path);
     assigns_free(&view->assigns);
+    lamps_free(&view->lamps);
     *view = (struct view){0};
 }

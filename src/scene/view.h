@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "scene/assign.h"
+#include "scene/lamp.h"
 #include "scene/pose.h"
 #include "kernels/tone.h"
 
@@ -59,6 +60,7 @@ struct view {
     struct pose shots[VIEW_SHOTS]; /* the numbered poses */
     bool has_shot[VIEW_SHOTS];
     struct assigns assigns;
+    struct lamps lamps;
 };
 
 /* Names of enum tone in view files. */

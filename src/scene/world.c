@@ -257,6 +257,8 @@ struct world world_arrays(const struct host_world *host,
         .texels = host->texels,
         .linear_of_srgb = host->linear_of_srgb,
         .sky_texels = host->sky_texels,
+        .point_lights = host->point_lights,
+        .directional_lights = host->directional_lights,
         .settings =
             {
                 .tri_count = scene->tri_count,
@@ -266,6 +268,8 @@ struct world world_arrays(const struct host_world *host,
                 .material_count = host->material_count,
                 .texture_count = scene->texture_count,
                 .texel_count = (uint32_t)host->texel_count,
+                .point_light_count = host->point_light_count,
+                .directional_light_count = host->directional_light_count,
             },
     };
 }
@@ -276,6 +280,10 @@ uint32_t world_features(const struct host_world *host)
 
     if (host->guide.grid.table_count > 0)
         features |= FEATURE_GUIDE;
+    if (host->point_light_count > 0)
+        features |= FEATURE_POINT_LIGHTS;
+    if (host->directional_light_count > 0)
+        features |= FEATURE_DIRECTIONAL_LIGHTS;
     for (uint32_t i = 0; i < host->material_count; i++)
         if (host->material_is_used[i])
             features |= material_features(&host->materials[i], host->textures);
@@ -419,6 +427,8 @@ void world_free(struct host_world *host)
     free(host->texels);
     free(host->sky_texels);
     sky_table_free(&host->sky_table);
+    free(host->point_lights);
+    free(host->directional_lights);
     lights_free(&host->lights);
     path_guide_free(&host->guide);
     bvh8_free(&host->tree);

@@ -36,8 +36,9 @@ enum world_part {
     WORLD_MATERIALS, /* materials and their sources */
     WORLD_TEXTURES,
     WORLD_TEXELS,
-    WORLD_SKY, /* image and table of the sky */
-    WORLD_LIGHTS,
+    WORLD_SKY,    /* image and table of the sky */
+    WORLD_LIGHTS, /* area lights, point lights and their tree */
+    WORLD_DIRECTIONAL_LIGHTS,
     WORLD_GUIDE,
     WORLD_PARTS
 };
@@ -76,6 +77,12 @@ struct host_world {
     uint32_t sky_width, sky_height;
     struct sky_table sky_table;
 
+    /* lamps of the view: point lights as they were given to `lights` */
+    struct point_light *point_lights;
+    uint32_t point_light_count;
+    struct directional_light *directional_lights;
+    uint32_t directional_light_count;
+
     struct lights lights;
     struct path_guide guide;
 
@@ -85,8 +92,8 @@ struct host_world {
     float linear_of_srgb[256];
 };
 
-/* Makes the world of a scene without edits and without a sky: reads textures
- * and builds lights. Missing images are warnings in the report. */
+/* Makes the world of a scene without edits, sky and lamps: reads textures and
+ * builds lights. Missing images are warnings in the report. */
 bool world_init(struct host_world *host, const struct scene *scene,
                 int thread_count, struct warnings *report, struct error *err);
 

@@ -377,7 +377,8 @@ static bool is_shown_as_saved(const struct edit *e)
 {
     return !edit_has_unsaved_materials(e) && !has_unsaved_assigned(e) &&
            lighting_is_same_light(&e->now.view.lighting,
-                                  &e->saved.view.lighting);
+                                  &e->saved.view.lighting) &&
+           lamps_equal(&e->now.view.lamps, &e->saved.view.lamps);
 }
 
 void edit_compare(struct edit *e, bool is_comparing)
@@ -397,6 +398,7 @@ struct view edit_view(const struct edit *e)
     struct view view = e->now.view;
 
     view.lighting = edit_shown(e)->view.lighting;
+    view.lamps = edit_shown(e)->view.lamps;
     return view;
 }
 
@@ -419,6 +421,7 @@ bool edit_has_unsaved_materials(const struct edit *e)
 bool edit_has_unsaved_view(const struct edit *e)
 {
     return !lighting_equal(&e->now.view.lighting, &e->saved.view.lighting) ||
+           !lamps_equal(&e->now.view.lamps, &e->saved.view.lamps) ||
            has_unsaved_assigned(e);
 }
 
@@ -456,7 +459,8 @@ static void write_assigns(const struct edit *e, const struct scene *scene,
 void edit_to_view(const struct edit *e, const struct scene *scene,
                   struct view *view)
 {
-    xcheck(lighting_copy(&view->lighting, &e->now.view.lighting));
+    xcheck(lighting_copy(&view->lighting, &e->now.view.lighting) &&
+           lamps_copy(&view->lamps, &e->now.view.lamps));
     write_assigns(e, scene, &view->assigns);
 }
 
@@ -464,7 +468,8 @@ void edit_saved_lighting(struct edit *e, const struct view *written)
 {
     edit_compare(e, false);
     xcheck(lighting_copy(&e->saved.view.lighting, &written->lighting) &&
-           assigns_copy(&e->saved.view.assigns, &written->assigns));
+           assigns_copy(&e->saved.view.assigns, &written->assigns) &&
+           lamps_copy(&e->saved.view.lamps, &written->lamps));
     memcpy(e->saved.assigned, e->now.assigned,
            e->object_count * sizeof *e->now.assigned);
 }

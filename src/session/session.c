@@ -7,7 +7,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
-#include "scene/world.h"
+#include "scene/world_lamps.h"
 #include "formats/scene_load.h"
 #include "terminal/xmalloc.h"
 
@@ -72,7 +72,8 @@ static bool apply_edit(struct session *s, const struct view *view,
         if (!world_load_sky(&s->world, view, &s->report, &why))
             snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
     }
-    return world_guide(&s->world, &s->scene, view, err);
+    return world_set_lamps(&s->world, &s->scene, view, err) &&
+           world_guide(&s->world, &s->scene, view, err);
 }
 
 /* Reads the scene and its view. edit.saved keeps size and bounces of the file;

@@ -80,6 +80,7 @@ static void check_same(const struct view *a, const struct view *b)
             "exposure");
     check_shots(a, b);
     check_assigns(&a->assigns, &b->assigns);
+    require(lamps_equal(&a->lamps, &b->lamps), "lamps");
 }
 
 /* Returns whether the file could be read. Its warnings must be valid

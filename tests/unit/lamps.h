@@ -106,6 +106,30 @@ static inline void add_quads(struct mesh *m, int count, double size,
     }
 }
 
+/* Fills point lights at random places in the unit cube: points, spots and
+ * spheres in turn. */
+static inline void fill_points(struct point_light *points, uint32_t count,
+                               uint64_t *seed)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        float intensity = between(seed, 0.5, 4);
+        struct point_light l = {.p = point_between(seed, -0.9, 0.9),
+                                .cone_offset = 1};
+
+        if (i % 3 == 1) { /* between 30 and 60 degrees */
+            l.axis = any_direction(seed);
+            l.cone_scale = 2.7320508f;
+            l.cone_offset = -1.3660254f;
+        }
+        if (i % 3 == 2) {
+            l.radius = between(seed, 0.001, 0.05);
+            intensity /= PI * l.radius * l.radius;
+        }
+        l.emission = v3(intensity, intensity, intensity);
+        points[i] = l;
+    }
+}
+
 static inline void finish(struct mesh *m, struct lights *lights)
 {
     struct error err;
@@ -137,7 +161,7 @@ static inline double sum_of_probabilities(const struct world *w,
 {
     double sum = 0;
 
-    for (uint32_t i = 0; i < w->settings.light_count; i++)
+    for (uint32_t i = 0; i < light_tree_count(w); i++)
         sum += (double)light_tree_pmf(w, r, i);
     return sum;
 }

@@ -174,4 +174,35 @@ static inline struct material lamp_material(float radiance)
     return m;
 }
 
+/* Adds a small square of material 0 around p with normal n. */
+static inline void add_receiver(struct mesh *m, struct vec3 p, struct vec3 n)
+{
+    struct vec3 t, b;
+
+    frame_around(n, &t, &b);
+    t = v3_scale(t, 0.01f);
+    b = v3_scale(b, 0.01f);
+    mesh_add_quad(m, v3_sub(v3_sub(p, t), b), v3_sub(v3_add(p, t), b),
+                  v3_add(v3_add(p, t), b), v3_add(v3_sub(p, t), b), 0);
+}
+
+/* Returns an eye near p, 37 degrees off the normal. */
+static inline struct vec3 eye_over(struct vec3 p, struct vec3 n)
+{
+    struct vec3 t, b;
+
+    frame_around(n, &t, &b);
+    return v3_add(p, v3_add(v3_scale(n, 0.04f), v3_scale(t, 0.03f)));
+}
+
+/* Checks the irradiance of a diffuse receiver. */
+static inline void check_receiver(struct lit_mesh *s, const struct receiver *r,
+                                  double albedo, double irradiance, int paths)
+{
+    check_claim(s, ((struct claim){.eye = eye_over(r->p, r->n),
+                                   .at = r->p,
+                                   .truth = GREY(albedo / M_PI * irradiance),
+                                   .paths = paths}));
+}
+
 #endif

@@ -82,6 +82,7 @@ static bool views_are_equal(const struct view *a, const struct view *b)
 {
     struct view x = *a, y = *b;
     bool ok = a->assigns.count == b->assigns.count &&
+              lamps_equal(&a->lamps, &b->lamps) &&
               skies_are_equal(a->lighting.sky_path, b->lighting.sky_path);
 
     for (size_t i = 0; ok && i < a->assigns.count; i++)
@@ -91,6 +92,7 @@ static bool views_are_equal(const struct view *a, const struct view *b)
                     b->assigns.items[i].material) == 0;
     x.lighting.sky_path = y.lighting.sky_path = NULL;
     x.assigns = y.assigns = (struct assigns){0};
+    x.lamps = y.lamps = (struct lamps){0};
     /* Values of absent keys are those of view_init(). */
     return ok && memcmp(&x, &y, sizeof x) == 0;
 }
@@ -140,6 +142,9 @@ static void broken_views_survive_the_round_trip(void **state)
         TEXT("sun 120 30\nturbidity 2.5\nsky a.hdr\n"),
         TEXT("turbidity 5\nsun -359.9 -90\nsun 1e-3 90\nsun 7 8\n"),
         TEXT("turbidity 5\n"),
+        TEXT("light point 0 1e-9 .1 radius -0\nfovy 3\nlight directional 1 2"),
+        TEXT("light spot -0 1 2 at 0 1 3 outer 90 inner 1e-9 at 1 1 1\\\n"),
+        TEXT("light point 1 2 3 \\\nintensity .1 .2 .3333333333333 # \\\n"),
         TEXT("# x\nsky s\\\\"),
         TEXT("sky s\\ \nexposure 1\n"),
         TEXT("sky \\\\\\\\\\\r\r\r ex\\%\\\\ 2 0\n"),
@@ -169,6 +174,10 @@ static void random_views_survive_the_round_trip(void **state)
         TEXT("\nfovy 39.1"),
         TEXT("\nexposure .1"),
         TEXT("\nsun 1 2"),
+        TEXT("\nlight point 1 2 3"),
+        TEXT("\nlight spot 1 2 3 at .1 .2 .3"),
+        TEXT("\nlight directional 4 5 angle .5"),
+        TEXT("radius .7"),
         TEXT("\nturbidity 4"),
         TEXT("\nsky"),
         TEXT("\nsky"),

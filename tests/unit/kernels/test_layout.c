@@ -48,6 +48,13 @@
     S(light) M(light, tris) M(light, path) M(light, texture)                  \
       M(light, rotation) M(light, corners) M(light, scaled_normals)           \
       M(light, emission)                                                      \
+    S(point_light) M(point_light, p) M(point_light, radius)                   \
+      M(point_light, axis) M(point_light, cone_scale)                         \
+      M(point_light, cone_offset) M(point_light, emission)                    \
+      M(point_light, path)                                                    \
+    S(directional_light) M(directional_light, d) M(directional_light, size)   \
+      M(directional_light, emission) M(directional_light, sine)               \
+      M(directional_light, power)                                             \
     S(light_node) M(light_node, x) M(light_node, y) M(light_node, z)          \
       M(light_node, radius) M(light_node, axis_x) M(light_node, axis_y)       \
       M(light_node, axis_z) M(light_node, spread) M(light_node, power)        \
@@ -60,6 +67,8 @@
       M(settings, max_vertices) M(settings, seed) M(settings, features)       \
       M(settings, direct) M(settings, order) M(settings, sample)              \
       M(settings, sky_share) M(settings, light_share)                         \
+      M(settings, sky_power) M(settings, point_light_count)                   \
+      M(settings, sphere_count) M(settings, directional_light_count)          \
       M(settings, tri_count) M(settings, position_count)                      \
       M(settings, normal_count) M(settings, uv_count)                         \
       M(settings, material_count) M(settings, texture_count)                  \

@@ -9,38 +9,6 @@
 
 enum { FLOOR, LAMP, SCREEN, OTHER };
 
-/* Adds a small square of material FLOOR around p with normal n. */
-static void add_receiver(struct mesh *m, struct vec3 p, struct vec3 n)
-{
-    struct vec3 t, b;
-
-    frame_around(n, &t, &b);
-    t = v3_scale(t, 0.01f);
-    b = v3_scale(b, 0.01f);
-    mesh_add_quad(m, v3_sub(v3_sub(p, t), b), v3_sub(v3_add(p, t), b),
-                  v3_add(v3_add(p, t), b), v3_add(v3_sub(p, t), b), FLOOR);
-}
-
-/* Returns an eye near p, 37 degrees off the normal. */
-static struct vec3 eye_over(struct vec3 p, struct vec3 n)
-{
-    struct vec3 t, b;
-
-    frame_around(n, &t, &b);
-    return v3_add(p, v3_add(v3_scale(n, 0.04f), v3_scale(t, 0.03f)));
-}
-
-static void check_receiver(struct lit_mesh *s, const struct receiver *r,
-                           double irradiance, int paths)
-{
-    double truth = ALBEDO / M_PI * irradiance;
-
-    check_claim(s, ((struct claim){.eye = eye_over(r->p, r->n),
-                                   .at = r->p,
-                                   .truth = GREY(truth),
-                                   .paths = paths}));
-}
-
 /* Polygons of five corners are below, above and beside the receiver, whose
  * plane cuts off up to four of the corners. */
 static void polygons_obey_lambert(void **state)
@@ -71,7 +39,7 @@ static void polygons_obey_lambert(void **state)
             mesh_add(m, corners[0], corners[k % 2 ? i : i + 1],
                      corners[k % 2 ? i + 1 : i], LAMP);
         lit_mesh_finish(&s);
-        check_receiver(&s, r, 5 * lambert(corners, 5, r), 2048);
+        check_receiver(&s, r, ALBEDO, 5 * lambert(corners, 5, r), 2048);
         lit_mesh_free(&s);
     }
 }
@@ -142,7 +110,7 @@ static void screens_hide_their_share(void **state)
         add_sheet(m, ceiling, LAMP);
         add_sheet(m, screen, SCREEN);
         lit_mesh_finish(&s);
-        check_receiver(&s, r,
+        check_receiver(&s, r, ALBEDO,
                        2 * sheet_irradiance(ceiling, r) +
                            (double)opacity *
                                ((double)glow * sheet_irradiance(screen, r) -
@@ -205,7 +173,7 @@ static void cut_outs_hide_and_shine_by_half(void **state)
             add_uvs(m);
         sheet->x0 = (sheet->x0 + sheet->x1) / 2;
         lit_mesh_finish(&s);
-        check_receiver(&s, &r,
+        check_receiver(&s, &r, ALBEDO,
                        2 * (sheet_irradiance(lamp, &r) -
                             sheet_irradiance(hidden_part(lamp, shade, r.p),
                                              &r)),
@@ -331,7 +299,7 @@ static void many_lamps_add_up(void **state)
             irradiance += lamp * lamp * lambert(p, 3, r);
         }
         lit_mesh_finish(&s);
-        check_receiver(&s, r, irradiance, 4096);
+        check_receiver(&s, r, ALBEDO, irradiance, 4096);
         lit_mesh_free(&s);
     }
 }
@@ -354,7 +322,7 @@ static void mirrors_show_lamps_to_floors(void **state)
     mesh_add_quad(&s.mesh, v3(0, 0, -1), v3(0, 1, -1), v3(0, 1, 1), v3(0, 0, 1),
                   SCREEN);
     lit_mesh_finish(&s);
-    check_receiver(&s, &r,
+    check_receiver(&s, &r, ALBEDO,
                    2 * (sheet_irradiance(lamp, &r) +
                         sheet_irradiance(image, &r)),
                    1024);
@@ -389,7 +357,7 @@ static void glass_dims_what_is_in_it(void **state)
     /* Without light reflected by the faces. */
     s.mesh.world.settings.max_vertices = 2;
     lit_mesh_finish(&s);
-    check_receiver(&s, &r, 2 * sheet_irradiance(lamp, &r), 1024);
+    check_receiver(&s, &r, ALBEDO, 2 * sheet_irradiance(lamp, &r), 1024);
     s.mesh.world.settings.max_vertices = 3;
     check_claim(&s, ((struct claim){.eye = {0, 2, 0},
                                     .truth = GREY(truth * 0.96 / (1.5 * 1.5)),

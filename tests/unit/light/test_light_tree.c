@@ -288,6 +288,113 @@ static void deep_trees_fit_into_the_path_s_bits(void **state)
     discard(&m, &lights);
 }
 
+/* Irradiance at a receiver by the definition of a point light. A sphere that
+ * the horizon cuts has less than this. */
+static double point_irradiance(const struct point_light *l,
+                               const struct receiver *r)
+{
+    struct vec3 to = v3_sub(l->p, r->p);
+    double square = (double)v3_dot(to, to), distance = sqrt(square);
+    double spot = (double)l->cone_offset - (double)l->cone_scale *
+                                               (double)v3_dot(l->axis, to) /
+                                               distance;
+    double area = l->radius > 0 ? M_PI * (double)(l->radius * l->radius) : 1;
+
+    spot = fmin(fmax(spot, 0), 1);
+    return (double)l->emission.x * area * spot * spot *
+           fmax((double)v3_dot(to, r->n), 0) / distance / square;
+}
+
+/* Point lights are chosen beside area lights, each with the probability that
+ * MIS weights use. */
+static void trees_hold_points_and_lamps(void **state)
+{
+    const uint32_t areas[] = {0, 1, 40, 0, 40};
+    const uint32_t counts[] = {1, 1, 1, 200, 300};
+
+    (void)state;
+    for (size_t k = 0; k < 5; k++) {
+        uint64_t seed = 21;
+        struct point_light points[300];
+        struct mesh m = {0};
+        struct lights lights;
+
+        add_lamps(&m, (int)areas[k], 0.1, &seed);
+        fill_points(points, counts[k], &seed);
+        m.world.point_lights = points;
+        m.world.settings.point_light_count = counts[k];
+        finish(&m, &lights);
+        assert_int_equal(lights.light_count, areas[k]);
+        assert_int_equal(lights.point_light_count, counts[k]);
+        for (int i = 0; i < 20; i++) {
+            struct receiver r = any_receiver(&seed);
+            int points_chosen = 0;
+
+            check_close(sum_of_probabilities(&m.world, &r), 1, 2e-5);
+            for (int n = 0; n < 2000; n++) {
+                uint32_t light;
+                float p =
+                    light_tree_sample(&m.world, &r, any_choice(&seed), &light);
+
+                assert_true(p > 0 && p == light_tree_pmf(&m.world, &r, light));
+                points_chosen += light >= areas[k];
+            }
+            assert_true(areas[k] == 0 ? points_chosen == 2000
+                                      : points_chosen > 0);
+        }
+        for (uint32_t i = 0; i < counts[k]; i++)
+            assert_int_equal(lights.point_lights[i].radius > 0,
+                             i < lights.sphere_count);
+        discard(&m, &lights);
+    }
+}
+
+/* 200 points and spots among 60 lamps: the mean of light samples is the sum
+ * over all lights one by one, and the variance is much less than with a choice
+ * by power alone. */
+static void many_points_add_up(void **state)
+{
+    uint64_t seed = 33;
+    struct point_light points[300], kept[200];
+    struct mesh m = {0};
+    struct lights lights;
+    double spread = 0, plain = 0;
+    uint32_t count = 0;
+
+    (void)state;
+    fill_points(points, 300, &seed);
+    for (uint32_t i = 0; i < 300; i++)
+        if (points[i].radius == 0)
+            kept[count++] = points[i];
+    assert_int_equal(count, 200);
+    add_lamps(&m, 60, 0.1, &seed);
+    m.world.point_lights = kept;
+    m.world.settings.point_light_count = count;
+    finish(&m, &lights);
+    for (int i = 0; i < 40; i++) {
+        struct receiver r = any_receiver(&seed);
+        double truth = 0, squares = 0, power = 0, error, mean;
+
+        r.transmits = false;
+        for (uint32_t k = 0; k < count; k++)
+            power += (double)kept[k].emission.x;
+        for (uint32_t k = 0; k < count; k++) {
+            double e = point_irradiance(&kept[k], &r);
+
+            truth += e;
+            squares += e * e * power / (double)kept[k].emission.x;
+        }
+        plain += sqrt(squares / truth / truth - 1);
+        for (uint32_t t = 0; t < m.tri_count; t++)
+            truth += lambert(&m.positions[3 * t], 3, &r);
+        mean = irradiance(&m.world, &r, 40000, &seed, &error);
+        check_close(mean, truth, Z_LIMIT * error + 1e-4 * truth);
+        spread += error / truth * sqrt(40000);
+    }
+    check_at_most(spread, plain / 2);
+    discard(&m, &lights);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -298,6 +405,8 @@ int main(void)
         cmocka_unit_test(orientation_counts_and_winding_does_not),
         cmocka_unit_test(both_random_numbers_choose),
         cmocka_unit_test(tree_prefers_the_near_lights),
+        cmocka_unit_test(trees_hold_points_and_lamps),
+        cmocka_unit_test(many_points_add_up),
         cmocka_unit_test(deep_trees_fit_into_the_path_s_bits),
     };
 

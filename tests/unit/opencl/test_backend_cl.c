@@ -13,6 +13,7 @@
 #include <time.h>
 
 #include "base/memory.h"
+#include "scene/world_lamps.h"
 #include "scene/world_materials.h"
 #include "scene/world.h"
 #include "formats/scene_load.h"
@@ -405,6 +406,40 @@ static void edited_worlds_are_equal(void **state)
     close_pair(&p);
 }
 
+/* Lamps of each kind come and go. */
+static void lamps_are_equal(void **state)
+{
+    struct pair p;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/materials.obj", 48, 48);
+    for (uint32_t i = 0; i < 9; i++) {
+        enum lamp_kind kind = (enum lamp_kind)(i % LAMP_KINDS);
+        struct lamp lamp;
+        struct error err;
+
+        lamp_init(&lamp, kind);
+        for (int k = 0; k < 3; k++)
+            lamp.position[k] =
+                p.view.pose.eye[k] + (k == 1 ? 0.5 * (double)i : 0);
+        memcpy(lamp.at, p.view.pose.at, sizeof lamp.at);
+        lamp.elevation_deg = 40;
+        if (i >= 3) {
+            lamp.radius = 0.1 * i;
+            lamp.angle_deg = 5 * i;
+        }
+        if (i == 6)
+            lamps_free(&p.view.lamps);
+        assert_true(lamps_add(&p.view.lamps, &lamp));
+        check_or_say(world_set_lamps(&p.world, &p.scene, &p.view, &err),
+                     err.text);
+        render_both(&p, (struct rect){0, 0, 48, 48}, 2, i);
+    }
+    close_pair(&p);
+}
+
 /* A build for the scene's features gives the same bits. A build that lacks a
  * needed feature is not used. */
 static void special_builds_give_the_same_bits(void **state)
@@ -605,8 +640,8 @@ static void only_changes_are_uploaded(void **state)
         assert_int_equal(uploads(&p), 2);
     }
     paint(&p, 1, 0.5, 2);
-    /* Lights, their owners and their tree. */
-    assert_int_equal(uploads(&p), 2 + 3);
+    /* Lights, their owners, point lights and their tree. */
+    assert_int_equal(uploads(&p), 2 + 4);
     load_again(&p, "scenes/cornell.obj");
     /* All but nodes and leaves. */
     assert_int_equal(uploads(&p), CL_ARRAY_COUNT - 2);
@@ -623,6 +658,7 @@ int main(void)
         cmocka_unit_test(drafts_are_equal),
         cmocka_unit_test(feature_pictures_are_equal),
         cmocka_unit_test(edited_worlds_are_equal),
+        cmocka_unit_test(lamps_are_equal),
         cmocka_unit_test(special_builds_give_the_same_bits),
         cmocka_unit_test(self_tests_pass),
         cmocka_unit_test(halts_lose_no_samples),

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "scene/world.h"
+#include "scene/world_lamps.h"
 #include "formats/obj.h"
 #include "formats/scene_load.h"
 #include "tests/unit/files.h"
@@ -536,6 +536,81 @@ static void skies_are_read(void **state)
     unload(&l);
 }
 
+/* Lamps of a scene that is scaled by 1/8 and moved: lengths are scaled, an
+ * intensity by the square, and radiance and irradiance stay. */
+static void lamps_are_normalised(void **state)
+{
+    struct loaded l = load("v 2 0 0\nv 10 0 0\nv 2 0 8\nf 1 3 2\n");
+    const struct point_light *points;
+    const struct directional_light *d;
+    struct lamp lamps[4];
+    struct view view;
+    struct world w;
+    uint64_t version, generation;
+
+    (void)state;
+    view_init(&view);
+    view.pose = (struct pose){.eye = {0, 0, 3}, .up = {0, 1}, .fovy_deg = 40};
+    lamp_init(&lamps[0], LAMP_SPOT);
+    memcpy(lamps[0].position, (double[]){6, 4, 4}, sizeof lamps[0].position);
+    memcpy(lamps[0].at, (double[]){6, 0, 4}, sizeof lamps[0].at);
+    memcpy(lamps[0].rgb, (double[]){16, 32, 64}, sizeof lamps[0].rgb);
+    lamps[0].inner_deg = 60;
+    lamps[0].outer_deg = 90;
+    lamp_init(&lamps[1], LAMP_POINT);
+    lamps[1].radius = 2;
+    lamp_init(&lamps[2], LAMP_DIRECTIONAL);
+    lamps[2].azimuth_deg = 90;
+    lamps[2].elevation_deg = 30;
+    lamps[2].angle_deg = 60;
+    memcpy(lamps[2].rgb, (double[]){1, 2, 3}, sizeof lamps[2].rgb);
+    lamp_init(&lamps[3], LAMP_POINT);
+    memset(lamps[3].rgb, 0, sizeof lamps[3].rgb);
+    for (int i = 0; i < 4; i++)
+        assert_true(lamps_add(&view.lamps, &lamps[i]));
+    assert_true(world_set_lamps(&l.world, &l.scene, &view, &l.err));
+    assert_true(world_lend(&l.world, &l.scene, &view, 0, &w, &l.err));
+    assert_int_equal(w.settings.point_light_count, 2);
+    assert_int_equal(w.settings.sphere_count, 1);
+    assert_int_equal(w.settings.directional_light_count, 1);
+    assert_true(w.settings.features ==
+                (FEATURE_POINT_LIGHTS | FEATURE_DIRECTIONAL_LIGHTS));
+    assert_true(w.settings.sky_share == 0.5f && w.settings.light_share == 0.5f);
+    points = w.point_lights;
+    check_vec(points[0].p, -.75, 0, -.5);
+    check_close((double)points[0].radius, .25, 1e-7);
+    check_close((double)points[0].emission.x, 1 / (4 * M_PI), 1e-7);
+    check_vec(points[1].p, 0, .5, 0);
+    check_vec(points[1].emission, .25, .5, 1);
+    check_vec(points[1].axis, 0, -1, 0);
+    check_close((double)points[1].cone_scale, 2, 1e-6);
+    check_close((double)points[1].cone_offset, 0, 1e-6);
+    d = w.directional_lights;
+    check_vec(d->d, cos(M_PI / 6), .5, 0);
+    check_close((double)d->size, 1 - cos(M_PI / 6), 1e-7);
+    check_close((double)d->sine, .5, 1e-7);
+    check_vec(d->emission, 4 / M_PI, 8 / M_PI, 12 / M_PI);
+    check_close((double)d->power, 2, 1e-6);
+
+    /* equal lamps are no change, and each kind has its own version */
+    generation = l.world.generation;
+    version = l.world.versions[WORLD_LIGHTS];
+    assert_true(world_set_lamps(&l.world, &l.scene, &view, &l.err));
+    assert_true(l.world.generation == generation);
+    view.lamps.items[2].elevation_deg = 0;
+    assert_true(world_set_lamps(&l.world, &l.scene, &view, &l.err));
+    assert_true(l.world.generation > generation &&
+                l.world.versions[WORLD_LIGHTS] == version);
+    view.lamps.items[0].radius = 1;
+    assert_true(world_set_lamps(&l.world, &l.scene, &view, &l.err));
+    assert_true(l.world.versions[WORLD_LIGHTS] > version);
+    lamps_free(&view.lamps);
+    assert_true(world_set_lamps(&l.world, &l.scene, &view, &l.err));
+    assert_int_equal(world_features(&l.world), 0);
+    view_free(&view);
+    unload(&l);
+}
+
 static void only_transparent_materials_have_coverage(void **state)
 {
     static const char *const mtls[] = {"newmtl m\nKd .5\n", "newmtl m\nd .5\n",
@@ -597,6 +672,7 @@ int main(void)
         cmocka_unit_test(up_along_the_view_is_replaced),
         cmocka_unit_test(impossible_cameras_are_refused),
         cmocka_unit_test(skies_are_read),
+        cmocka_unit_test(lamps_are_normalised),
         cmocka_unit_test(only_transparent_materials_have_coverage),
         cmocka_unit_test(srgb_table_is_that_of_the_standard),
     };

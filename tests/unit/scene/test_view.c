@@ -172,6 +172,9 @@ static void wrong_lines_have_their_message(void **state)
     static const char sizes[] = "2 whole numbers from 1 to 65536";
     static const char light[] = "3 numbers from 0 to 1e30";
     static const char point[] = "3 numbers from -1e30 to 1e30";
+    static const char kinds[] = "point, spot or directional";
+    static const char sun[] = "an azimuth from -360 to 360 and an elevation "
+                              "from -90 to 90 degrees";
     static const char number[] = "a number from 1 to 9";
     static const char parts[] = "eye, at, up, fovy, aperture or focus";
     static const struct {
@@ -215,6 +218,26 @@ static void wrong_lines_have_their_message(void **state)
          "exposure"},
         {"tone", "the end of the line", "linear, reinhard or aces", "tone"},
         {"tone bright", "'bright'", "linear, reinhard or aces", "tone"},
+        {"light", "the end of the line", kinds, "light"},
+        {"light area 1 2 3", "'area'", kinds, "light"},
+        {"light point 1 2", "the end of the line", point, "point"},
+        {"light point 1 2 nan", "'nan'", point, "point"},
+        {"light point 1 2 3 at 0 0 0", "'at'", "intensity or radius", "point"},
+        {"light point 1 2 3 intensity 1 -1 1", "'-1'", light, "intensity"},
+        {"light point 1 2 3 radius inf", "'inf'", "a number from 0 to 1e30",
+         "radius"},
+        {"light point 1 2 3 7", "'7'", "intensity or radius", "point"},
+        {"light spot 1 2 3", "the end of the line", "at", "spot"},
+        {"light spot 1 2 3 at 0 0 0 outer 91", "'91'",
+         "an angle from 0 to 90 degrees", "outer"},
+        {"light spot 1 2 3 at 0 0 0 angle 9", "'angle'",
+         "at, intensity, inner, outer or radius", "spot"},
+        {"light directional 1", "the end of the line", sun, "directional"},
+        {"light directional 1 91", "'91'", sun, "directional"},
+        {"light directional 1 2 intensity 1 1 1", "'intensity'",
+         "irradiance or angle", "directional"},
+        {"light directional 1 2 angle 181", "'181'",
+         "an angle from 0 to 180 degrees", "angle"},
         {"view", "the end of the line", number, "view"},
         {"view 0 eye 0 0 1 at 0 0 0", "'0'", number, "view"},
         {"view 10 eye 0 0 1 at 0 0 0", "'10'", number, "view"},
@@ -236,6 +259,14 @@ static void wrong_lines_have_their_message(void **state)
         refused(text, expected);
     }
     refused("up 0 0 0", "1: found 0 0 0, expected a direction for up");
+    refused("light spot 1 2 3 at 1 2 3\n",
+            "1: found a spot at its own position, expected another point for "
+            "at");
+    refused("light spot -0 2 3 at 0 2 3\n",
+            "1: found a spot at its own position, expected another point for "
+            "at");
+    refused("light spot 1 2 3 at 0 0 0 outer 5 inner 6\n",
+            "1: found inner 6 above outer 5, expected inner within outer");
     refused("sky\n", "1: found no name, expected an image file for sky");
     refused("eye 1 2 3\n\nat 1 2 3\nup 0 1 0\n",
             "3: found eye and at in one point, expected two");
@@ -448,6 +479,58 @@ static void is_file(const char *path, const char *expected)
     assert_string_equal(text, expected);
 }
 
+static void lights_are_read(void **state)
+{
+    struct view view;
+    const struct lamp *l;
+
+    (void)state;
+    read_text(&view, "light point 1 2 3 # a bulb\n"
+                     "light spot 4 5 6 at 7 8 9 inner 10 outer 20 "
+                     "intensity 1 2 3 radius .5\n"
+                     "exposure 1\n"
+                     "light directional -30 60 angle .5 irradiance 4 5 6\n");
+    assert_int_equal(view.lamps.count, 3);
+    l = view.lamps.items;
+    assert_int_equal(l[0].kind, LAMP_POINT);
+    is3(l[0].position, 1, 2, 3);
+    is3(l[0].rgb, 1, 1, 1);
+    assert_true(l[0].radius == 0);
+    assert_int_equal(l[1].kind, LAMP_SPOT);
+    is3(l[1].position, 4, 5, 6);
+    is3(l[1].at, 7, 8, 9);
+    is3(l[1].rgb, 1, 2, 3);
+    assert_true(l[1].inner_deg == 10 && l[1].outer_deg == 20 &&
+                l[1].radius == 0.5);
+    assert_int_equal(l[2].kind, LAMP_DIRECTIONAL);
+    assert_true(l[2].azimuth_deg == -30 && l[2].elevation_deg == 60 &&
+                l[2].angle_deg == 0.5);
+    is3(l[2].rgb, 4, 5, 6);
+    view_free(&view);
+}
+
+/* All lights are written at the place of the first one. */
+static void lights_are_written_in_this_form(void **state)
+{
+    struct error err;
+    struct view view;
+    const char *path = put("light point 1 2 3 radius 0\n# mine\n"
+                           "light spot 1 2 3 outer 45 at 0 0 -1e-9 inner 5\n"
+                           "light directional 10 20 irradiance 1 1 1\n");
+    struct warnings report = {0};
+
+    (void)state;
+    view_init(&view);
+    assert_true(view_read(&view, path, &report, &err));
+    view.lamps.items[0].rgb[2] = 0.25;
+    assert_true(view_write(&view, path, &change, &err));
+    is_file(path, "light point 1 2 3 intensity 1 1 0.25\n"
+                  "light spot 1 2 3 at 0 0 -1e-09 inner 5\n"
+                  "light directional 10 20\n# mine\n"
+                  "up 0 1 0\nfovy 40\n");
+    view_free(&view);
+}
+
 /* Comments, order and unknown lines are kept with a new camera. */
 static void lines_of_others_are_kept(void **state)
 {
@@ -589,6 +672,8 @@ int main(void)
         cmocka_unit_test(copies_own_their_texts),
         cmocka_unit_test(numbered_views_have_the_keys_above),
         cmocka_unit_test(lines_of_others_are_kept),
+        cmocka_unit_test(lights_are_read),
+        cmocka_unit_test(lights_are_written_in_this_form),
     };
 
     return cmocka_run_group_tests_name("view", tests, make_folder,

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+/*
+ * point_light.h - point and spot lights: how they look from a receiver, and
+ * rays through those that are spheres
+ *
+ * Units:     normalised scene units, radiance, intensity (radiance times area)
+ */
+#ifndef KERNELS_POINT_LIGHT_H
+#define KERNELS_POINT_LIGHT_H
+
+#include "kernels/sample.h"
+
+/* Squared distance below which a point without a radius lights surfaces as from
+ * there. Its light would otherwise have no bound, and a path that comes so near
+ * by chance would be a speck in the picture. */
+#define POINT_NEAR2 1e-8f
+
+/* Part of a way from which on nothing occludes a point light: a light on a
+ * surface shines to both of its sides. */
+#define POINT_WAY 0.9999f
+
+/* Part of the emission towards a receiver that sees the light in direction
+ * wi. */
+static inline float point_light_part(const struct world *w, uint32_t i,
+                                     struct vec3 wi)
+{
+    float part =
+        w->point_lights[i].cone_offset -
+        w->point_lights[i].cone_scale * v3_dot(w->point_lights[i].axis, wi);
+
+    part = f_min(f_max(part, 0.0f), 1.0f);
+    return part * part;
+}
+
+/* Size of the cone in which a sphere is seen, for cone_around(): its middle is
+ * at `to` from the receiver. From inside it is seen in all directions. */
+static inline float sphere_size(struct vec3 to, float radius)
+{
+    float ratio = radius * radius / v3_dot(to, to);
+
+    return ratio < 1.0f ? ratio / (1.0f + sqrtf(1.0f - ratio)) : 2.0f;
+}
+
+/* Distance along d, a unit vector, at which a ray meets a sphere whose middle
+ * is at `to` from its origin: the near side, or from inside the far one. Rays
+ * that pass it get the distance of the middle; *passes is then true. */
+static inline float sphere_distance(struct vec3 to, struct vec3 d, float radius,
+                                    bool *passes)
+{
+    float middle = v3_dot(to, d);
+    struct vec3 aside = v3_sub(to, v3_scale(d, middle));
+    float square = radius * radius - v3_dot(aside, aside);
+    float chord = sqrtf(f_max(square, 0.0f));
+
+    *passes = !(square >= 0.0f);
+    return v3_dot(to, to) < radius * radius ? middle + chord : middle - chord;
+}
+
+/* A direction to point light i, its radiance and its density, which for a point
+ * is 1. *p becomes the point on the light. Returns false if the receiver is on
+ * the point. */
+static inline bool point_light_sample(const struct world *w, uint32_t i,
+                                      struct vec3 from, struct vec2 u,
+                                      struct vec3 *p, struct vec3 *wi,
+                                      struct vec3 *radiance, float *pdf)
+{
+    struct vec3 to = v3_sub(w->point_lights[i].p, from);
+    float radius = w->point_lights[i].radius;
+    float square = v3_dot(to, to);
+    float scale = 1.0f;
+    bool passes;
+
+    if (!(square > 0x1p-100f && square <= FLOAT_MAX))
+        return false;
+    *p = w->point_lights[i].p;
+    *wi = v3_unit(to);
+    *pdf = 1.0f;
+    if (radius > 0.0f) {
+        float size = sphere_size(to, radius);
+
+        *wi = cone_around(*wi, size, u);
+        *p = v3_add(from,
+                    v3_scale(*wi, sphere_distance(to, *wi, radius, &passes)));
+        *pdf = cone_pdf(size);
+    } else {
+        scale = 1.0f / f_max(square, POINT_NEAR2);
+    }
+    *radiance = v3_scale(w->point_lights[i].emission,
+                         scale * point_light_part(w, i, *wi));
+    return true;
+}
+
+/* Density of point_light_sample() for a sphere that a ray from `from` has
+ * met. */
+static inline float point_light_pdf(const struct world *w, uint32_t i,
+                                    struct vec3 from)
+{
+    return cone_pdf(sphere_size(v3_sub(w->point_lights[i].p, from),
+                                w->point_lights[i].radius));
+}
+
+/* True if the ray meets sphere i before its t_max. */
+static inline bool sphere_meets(const struct world *w, uint32_t i, struct ray r)
+{
+    bool passes;
+    float t = sphere_distance(v3_sub(w->point_lights[i].p, r.o), r.d,
+                              w->point_lights[i].radius, &passes);
+
+    return !passes && t > 0.0f && t < r.t_max;
+}
+
+#endif

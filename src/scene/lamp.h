@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+/*
+ * lamp.h - lights that are no surfaces: points, spots and directions
+ *
+ * Definitions are those of glTF's KHR_lights_punctual, in glim's units. A
+ * surface of area A and radiance L has seen from afar the intensity L A.
+ *
+ * Units:     file units, degrees; intensity is radiance times area, irradiance
+ *            is of a surface that faces the light
+ * Ownership: lamps_free() frees; a zeroed list is empty
+ * Threads:   one thread at a time
+ * Errors:    false when memory is out
+ */
+#ifndef GLIM_LAMP_H
+#define GLIM_LAMP_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum lamp_kind { LAMP_POINT, LAMP_SPOT, LAMP_DIRECTIONAL };
+
+#define LAMP_KINDS 3
+
+struct lamp {
+    uint32_t kind;      /* enum lamp_kind */
+    double position[3]; /* of points and spots */
+    double at[3];       /* point to which a spot is turned */
+    double rgb[3];      /* intensity; of a direction: irradiance */
+    double radius;      /* above 0: a sphere of this radius */
+    double inner_deg;   /* angles from a spot's axis, between which its light */
+    double outer_deg;   /* falls to 0 */
+    double azimuth_deg; /* direction to the light, as that of struct sun */
+    double elevation_deg;
+    double angle_deg; /* above 0: a disc of this diameter */
+};
+
+struct lamps {
+    struct lamp *items;
+    uint32_t count;
+};
+
+/* Sets the defaults of a kind: intensity or irradiance 1, and a spot's angles
+ * of 0 and 45 degrees. */
+void lamp_init(struct lamp *lamp, enum lamp_kind kind);
+
+bool lamps_add(struct lamps *lamps, const struct lamp *lamp);
+bool lamps_equal(const struct lamps *a, const struct lamps *b);
+
+/* Replaces the contents of `to`; leaves them unchanged when memory is out. */
+bool lamps_copy(struct lamps *to, const struct lamps *from);
+void lamps_free(struct lamps *lamps);
+
+#endif

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+# Lights of the view file: lines that it refuses, and a picture by their light
+# alone.
+take plain
+b="-b -w 8 -h 4 -s 1 -o out.png"
+for line in light 'light bulb 1 2 3' 'light point 1 2' 'light point 1 2 nan' \
+    'light point 1 2 3 radius -1' 'light point 1 2 3 at 0 0 0' \
+    'light point 1 2 3 intensity 1e31 0 0' 'light spot 1 2 3' \
+    'light spot 1 2 3 at 1 2 3' 'light spot 1 2 3 at 0 0 0 inner 9 outer 8' \
+    'light directional 1' 'light directional 1 91' \
+    'light directional 1 2 angle 200'; do
+    echo "$line" >plain.view
+    run $b plain.obj
+done
+# no soft sky
+printf 'light point 1 2 3\nlight spot 1 2 3 at 0 0 0 radius 1e30\n' >plain.view
+printf 'light directional -360 -90\nlight point 0 0 0 intensity 0 0 0\n' \
+    >>plain.view
+run_untimed $b plain.obj
