@@ -93,7 +93,7 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
         return eon_terms(m, wo, wi, pdf);
     if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
         return metal_terms(m, wo, wi, metal_loss(m, wo), pdf);
-    return plastic_terms(m, wo, wi, specular_albedo(m, wo.z), pdf);
+    return plastic_terms(m, wo, wi, specular_albedo(m, wo), pdf);
 }
 
 /* Factor of radiance from wi beside f: 1/eta^2 for transmission into glass

@@ -45,21 +45,6 @@ struct bsdf_sample {
     bool is_delta;      /* a delta lobe was sampled */
 };
 
-/* Returns the roughness by which the energy of the facets is found: the root of
- * the mean square of both widths, up to 1. The albedo of stretched facets,
- * which also depends on the azimuth, is missed by up to 7 % where the
- * anisotropy is up to 0.75 and alpha up to 0.6, and by 23 % at the ends of
- * both. */
-static inline float bsdf_mean_alpha(const struct bsdf *m)
-{
-    struct ggx g = bsdf_facets(m);
-    float s2 = g.stretch * g.stretch;
-
-    if (!HAS(FEATURE_ANISOTROPY) || s2 == 1.0f)
-        return m->alpha;
-    return f_min(m->alpha * sqrtf(0.5f * (s2 + 1.0f / s2)), 1.0f);
-}
-
 /* True if the surface is smooth, so that its specular lobes are deltas. */
 static inline bool is_smooth(const struct bsdf *m)
 {

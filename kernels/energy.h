@@ -85,29 +85,35 @@ struct ggx_albedo {
     float schlick;
 };
 
+/* Returns the albedos, where visible facets have a mean cosine of about
+ * mu + shift. */
+static inline struct ggx_albedo ggx_albedo_of(float mu, float loss, float shift)
+{
+    struct ggx_albedo e;
+    float c = f_max(1.0f - mu - shift, 0.0f);
+
+    e.loss = loss;
+    e.schlick = (1.0f - loss) * c * c * c * c * c;
+    return e;
+}
+
 static inline struct ggx_albedo ggx_albedo(float mu, float alpha)
 {
     struct cubic_nodes a =
         cubic_nodes_around(energy_axis_alpha(alpha), GGX_ALPHA_NODES);
     struct cubic_nodes m =
         cubic_nodes_around(energy_axis_mu(mu, alpha), GGX_MU_NODES);
-    struct ggx_albedo e = {0.0f, 0.0f};
-    float shift = 0.0f;
-    float c;
+    float loss = 0.0f, shift = 0.0f;
 
     for (uint32_t i = 0; i < 4; i++)
         for (uint32_t j = 0; j < 4; j++) {
             uint32_t k = (a.first + i) * GGX_MU_NODES + m.first + j;
             float w = a.w[i] * m.w[j];
 
-            e.loss += w * ggx_losses[k];
+            loss += w * ggx_losses[k];
             shift += w * ggx_shifts[k];
         }
-    e.loss *= ggx_loss_scale(mu, alpha);
-    /* visible facets have a mean cosine of about mu + shift */
-    c = f_max(1.0f - mu - shift, 0.0f);
-    e.schlick = (1.0f - e.loss) * c * c * c * c * c;
-    return e;
+    return ggx_albedo_of(mu, loss * ggx_loss_scale(mu, alpha), shift);
 }
 
 /* Hemispherical means: 2 int x(mu) mu dmu of both members. */

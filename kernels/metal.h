@@ -12,9 +12,8 @@
 #define KERNELS_METAL_H
 
 #include "kernels/bsdf_types.h"
-#include "kernels/energy.h"
+#include "kernels/energy_stretched.h"
 #include "kernels/fresnel.h"
-#include "kernels/ggx.h"
 
 /* Share of the light lost by single scattering that multiple scattering
  * returns, for a channel. */
@@ -51,7 +50,7 @@ static inline float multiscatter_pdf(struct vec3 wi, float alpha)
  * to sample the multiscatter lobe. */
 static inline float metal_loss(const struct bsdf *m, struct vec3 wo)
 {
-    return ggx_albedo(wo.z, bsdf_mean_alpha(m)).loss;
+    return facets_albedo(wo, bsdf_facets(m)).loss;
 }
 
 /* loss_o: metal_loss() at wo. */
@@ -59,20 +58,20 @@ static inline struct vec3 metal_terms(const struct bsdf *m, struct vec3 wo,
                                       struct vec3 wi, float loss_o, float *pdf)
 {
     struct vec3 h = half_vector(wo, wi);
-    float alpha = bsdf_mean_alpha(m);
-    float loss_i = ggx_albedo(wi.z, alpha).loss;
-    float loss_mean = ggx_albedo_mean(alpha).loss;
+    struct ggx g = bsdf_facets(m);
+    float loss_i = facets_albedo(wi, g).loss;
+    float loss_mean = facets_albedo_mean(g).loss;
     struct vec3 f = fresnel_schlick_mean(m->color);
     struct vec3 single = v3_scale(fresnel_schlick(m->color, v3_dot(wo, h)),
-                                  ggx_reflection(wo, wi, h, bsdf_facets(m)));
+                                  ggx_reflection(wo, wi, h, g));
     struct vec3 multiple =
         v3_scale(v3(multiscatter_color(f.x, loss_mean),
                     multiscatter_color(f.y, loss_mean),
                     multiscatter_color(f.z, loss_mean)),
                  loss_o * loss_i / loss_mean * wi.z * (1.0f / PI));
 
-    *pdf = (1.0f - loss_o) * ggx_reflection_pdf(wo, h, bsdf_facets(m)) +
-           loss_o * multiscatter_pdf(wi, alpha);
+    *pdf = (1.0f - loss_o) * ggx_reflection_pdf(wo, h, g) +
+           loss_o * multiscatter_pdf(wi, m->alpha);
     return v3_add(single, multiple);
 }
 
@@ -87,7 +86,7 @@ static inline bool metal_sample(const struct bsdf *m, struct vec3 wo,
         return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
                             fresnel_schlick(m->color, wo.z));
     loss_o = metal_loss(m, wo);
-    wi = choice < loss_o ? multiscatter_direction(bsdf_mean_alpha(m), u)
+    wi = choice < loss_o ? multiscatter_direction(m->alpha, u)
                          : ggx_reflect(wo, bsdf_facets(m), u);
     if (!(wi.z > COSINE_MIN))
         return false;

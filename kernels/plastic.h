@@ -13,9 +13,8 @@
 #define KERNELS_PLASTIC_H
 
 #include "kernels/diffuse.h"
-#include "kernels/energy.h"
+#include "kernels/energy_stretched.h"
 #include "kernels/fresnel.h"
-#include "kernels/ggx.h"
 
 /* Reflectance at grazing incidence, F90. It falls with that at normal incidence
  * below 0.02, as no dielectric reflects less (Lagarde and de Rousiers 2014,
@@ -45,18 +44,18 @@ static inline struct vec3 specular_albedo_of(struct vec3 f0,
               f0.z * part + grazing);
 }
 
-static inline struct vec3 specular_albedo(const struct bsdf *m, float mu)
+static inline struct vec3 specular_albedo(const struct bsdf *m, struct vec3 w)
 {
     if (is_smooth(m))
-        return specular_fresnel(m->specular, schlick_weight(mu));
-    return specular_albedo_of(m->specular, ggx_albedo(mu, bsdf_mean_alpha(m)));
+        return specular_fresnel(m->specular, schlick_weight(w.z));
+    return specular_albedo_of(m->specular, facets_albedo(w, bsdf_facets(m)));
 }
 
 static inline struct vec3 specular_albedo_mean(const struct bsdf *m)
 {
     if (is_smooth(m))
         return specular_fresnel(m->specular, SCHLICK_MEAN);
-    return specular_albedo_of(m->specular, ggx_albedo_mean(bsdf_mean_alpha(m)));
+    return specular_albedo_of(m->specular, facets_albedo_mean(bsdf_facets(m)));
 }
 
 /* (1 - o) (1 - i) / (1 - mean), or 0 under a surface that reflects all light.
@@ -83,7 +82,7 @@ static inline struct vec3 plastic_terms(const struct bsdf *m, struct vec3 wo,
                                         struct vec3 wi, struct vec3 specular_o,
                                         float *pdf)
 {
-    struct vec3 specular_i = specular_albedo(m, wi.z);
+    struct vec3 specular_i = specular_albedo(m, wi);
     struct vec3 mean = specular_albedo_mean(m);
     float cosine = cosine_pdf(wi);
     float chance = specular_probability(m, specular_o);
@@ -107,7 +106,7 @@ static inline bool plastic_sample(const struct bsdf *m, struct vec3 wo,
                                   struct vec2 u, float choice,
                                   struct bsdf_sample *s)
 {
-    struct vec3 specular_o = specular_albedo(m, wo.z);
+    struct vec3 specular_o = specular_albedo(m, wo);
     float chance = specular_probability(m, specular_o);
     struct vec3 wi, f;
     float pdf;

@@ -68,9 +68,10 @@ static inline float mean_channel(struct vec3 c)
 }
 
 /* Returns an estimate of the plastic's albedo. */
-static inline float principled_plastic_albedo(const struct bsdf *m, float mu)
+static inline float principled_plastic_albedo(const struct bsdf *m,
+                                              struct vec3 wo)
 {
-    struct vec3 e = specular_albedo(m, mu);
+    struct vec3 e = specular_albedo(m, wo);
 
     return mean_channel(
         v3_add(e, v3_mul(m->color, v3(1.0f - e.x, 1.0f - e.y, 1.0f - e.z))));
@@ -95,7 +96,7 @@ static inline struct lobes principled_lobes(const struct bsdf *m,
         struct bsdf coat = principled_coat(m);
 
         l.chance[LOBE_COAT] =
-            l.weight[LOBE_COAT] * specular_albedo(&coat, wo.z).x;
+            l.weight[LOBE_COAT] * specular_albedo(&coat, wo).x;
         below -= l.chance[LOBE_COAT];
     }
     l.weight[LOBE_METAL] = below * m->metalness;
@@ -108,7 +109,7 @@ static inline struct lobes principled_lobes(const struct bsdf *m,
     l.chance[LOBE_PLASTIC] = 0.0f;
     if (l.weight[LOBE_PLASTIC] > 0.0f)
         l.chance[LOBE_PLASTIC] =
-            l.weight[LOBE_PLASTIC] * principled_plastic_albedo(m, wo.z);
+            l.weight[LOBE_PLASTIC] * principled_plastic_albedo(m, wo);
     for (int i = 0; i < LOBES; i++)
         sum += l.chance[i];
     for (int i = 0; i < LOBES; i++)
@@ -191,7 +192,7 @@ static inline struct vec3 principled_terms_of(const struct bsdf *m,
         principled_add(l, LOBE_METAL, f, lobe_pdf, &sum, pdf);
     }
     if (l->weight[LOBE_PLASTIC] > 0.0f) {
-        f = plastic_terms(m, wo, wi, specular_albedo(m, wo.z), &lobe_pdf);
+        f = plastic_terms(m, wo, wi, specular_albedo(m, wo), &lobe_pdf);
         principled_add(l, LOBE_PLASTIC, f, lobe_pdf, &sum, pdf);
     }
     return sum;

@@ -11,9 +11,12 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "kernels/energy.h"
+#include "kernels/energy_stretched.h"
 
 #define POINTS 128
+
+/* Azimuths of means, in a quarter of the circle. */
+#define AZIMUTHS 8
 
 /* Points and weights of Gaussian quadrature in [0, 1]. The points of `tail` are
  * denser near 1, where normals of the caps are far from upright; all losses of
@@ -107,6 +110,46 @@ static struct albedo reflection(const struct gauss *g, double mu, double alpha)
                    (mu * root(alpha, mu_i) + mu_i * t_o);
             e.one += part;
             e.schlick += part * pow(1 - fmin(h.o_dot_h, 1), 5);
+        }
+    return e;
+}
+
+/* The same for facets of the widths ax and ay, with the azimuth phi of wo, over
+ * all of the azimuth of normals. It is periodic, so that midpoints do. */
+static struct albedo stretched(const struct gauss *g, double mu, double phi,
+                               double ax, double ay)
+{
+    double sine = sqrt(1 - mu * mu);
+    double x = sine * cos(phi), y = sine * sin(phi);
+    double a2 = ay * ay;
+    double reach = 1 + sine;
+    double k = (1 - a2) * reach * reach / (reach * reach + a2 * mu * mu);
+    double t_o = sqrt(ax * ax * x * x + ay * ay * y * y + mu * mu);
+    double sx = ax * x / t_o, sy = ay * y / t_o, sz = mu / t_o;
+    struct albedo e = {0, 0};
+
+    for (int i = 0; i < POINTS; i++)
+        for (int j = 0; j < POINTS; j++) {
+            double z = (1 - g->tail[j]) * (1 + k * sz) - k * sz;
+            double r = sqrt(fmax(1 - z * z, 0));
+            double turn = 2 * M_PI * (i + 0.5) / POINTS;
+            double hx = ax * (r * cos(turn) + sx);
+            double hy = ay * (r * sin(turn) + sy);
+            double hz = fmax(z + sz, 0);
+            double length = sqrt(hx * hx + hy * hy + hz * hz);
+            double o_dot_h = (x * hx + y * hy + mu * hz) / length;
+            double ix = 2 * o_dot_h * hx / length - x;
+            double iy = 2 * o_dot_h * hy / length - y;
+            double iz = 2 * o_dot_h * hz / length - mu;
+            double t_i, part;
+
+            if (!(iz > 0))
+                continue;
+            t_i = sqrt(ax * ax * ix * ix + ay * ay * iy * iy + iz * iz);
+            part = g->tail_w[j] / POINTS * iz * (k * mu + t_o) /
+                   (mu * t_i + iz * t_o);
+            e.one += part;
+            e.schlick += part * pow(1 - fmin(o_dot_h, 1), 5);
         }
     return e;
 }
@@ -292,6 +335,68 @@ static void print_means(const struct gauss *g, bool is_schlick)
     printf("\n};\n");
 }
 
+static double stretch_at(int i)
+{
+    return pow(10, 0.5 * node(i, STRETCHED_STRETCH_NODES));
+}
+
+/* Prints a table of stretched facets. Nodes of a stretch of 1 have one
+ * azimuth. */
+static void print_stretched(const struct gauss *g, bool is_shift)
+{
+    const int planes = STRETCHED_ALPHA_NODES * STRETCHED_STRETCH_NODES;
+    const int in_plane = STRETCHED_WIDTH_NODES * STRETCHED_MU_NODES;
+
+    for (int i = 0; i < planes * in_plane; i++) {
+        double alpha = alpha_at(node(i / in_plane / STRETCHED_STRETCH_NODES,
+                                     STRETCHED_ALPHA_NODES));
+        double s = stretch_at(i / in_plane % STRETCHED_STRETCH_NODES);
+        double t =
+            node(i % in_plane / STRETCHED_MU_NODES, STRETCHED_WIDTH_NODES);
+        double width = 1 / s + t * (s - 1 / s);
+        double share =
+            s > 1 ? (width * width - 1 / s / s) / (s * s - 1 / s / s) : t;
+        double mu = mu_at(node(i % STRETCHED_MU_NODES, STRETCHED_MU_NODES),
+                          alpha * width);
+        double phi = acos(sqrt(fmin(fmax(share, 0), 1)));
+        struct albedo e = stretched(g, mu, phi, alpha * s, alpha / s);
+        double scale = (double)stretched_loss_scale((float)mu, (float)alpha,
+                                                    (float)width, (float)s);
+        double shift = 1 - pow(e.schlick / e.one, 0.2) - mu;
+
+        print_gap(i, 12);
+        printf("%.0f,",
+               is_shift ? (shift + (double)STRETCHED_SHIFT_MIN) /
+                              (double)STRETCHED_SHIFT_UNIT
+                        : (1 - e.one) / scale / (double)STRETCHED_LOSS_UNIT);
+    }
+    printf("\n};\n");
+}
+
+/* Prints print_means() of stretched facets, also over the azimuth. */
+static void print_stretched_means(const struct gauss *g, bool is_schlick)
+{
+    for (int i = 0; i < STRETCHED_MEAN_NODES * STRETCHED_STRETCH_NODES; i++) {
+        double alpha =
+            alpha_at(node(i / STRETCHED_STRETCH_NODES, STRETCHED_MEAN_NODES));
+        double s = stretch_at(i % STRETCHED_STRETCH_NODES);
+        double square = alpha * alpha * (s * s + 1 / s / s) / 2;
+        double sum = 0;
+
+        for (int j = 0; j < POINTS * AZIMUTHS; j++) {
+            double t = g->x[j / AZIMUTHS];
+            double phi = M_PI / 2 * (j % AZIMUTHS + 0.5) / AZIMUTHS;
+            struct albedo e = stretched(g, t * t, phi, alpha * s, alpha / s);
+
+            sum += g->w[j / AZIMUTHS] / AZIMUTHS * 4 * t * t * t *
+                   (is_schlick ? e.schlick : (1 - e.one) / square);
+        }
+        print_gap(i, 6);
+        printf("%.7ff,", sum);
+    }
+    printf("\n};\n");
+}
+
 static void print_glass(const struct gauss *g)
 {
     for (int i = 0; i < GLASS_ETA_NODES; i++)
@@ -325,6 +430,10 @@ static void print_sheen(const struct gauss *g)
     printf("\n};\n");
 }
 
+#define STRETCHED_SIZE                                   \
+    "STRETCHED_ALPHA_NODES * STRETCHED_STRETCH_NODES * " \
+    "STRETCHED_WIDTH_NODES * STRETCHED_MU_NODES"
+
 int main(void)
 {
     static struct gauss g;
@@ -350,10 +459,20 @@ int main(void)
     printf("#define GGX_ALPHA_NODES %d\n#define GGX_MU_NODES %d\n"
            "#define GGX_MEAN_NODES %d\n#define GLASS_ETA_NODES %d\n"
            "#define GLASS_ALPHA_NODES %d\n#define GLASS_MU_NODES %d\n"
-           "#define SHEEN_ALPHA_NODES %d\n#define SHEEN_MU_NODES %d\n",
+           "#define SHEEN_ALPHA_NODES %d\n#define SHEEN_MU_NODES %d\n"
+           "#define STRETCHED_ALPHA_NODES %d\n"
+           "#define STRETCHED_STRETCH_NODES %d\n"
+           "#define STRETCHED_WIDTH_NODES %d\n#define STRETCHED_MU_NODES %d\n"
+           "#define STRETCHED_MEAN_NODES %d\n"
+           "#define STRETCHED_LOSS_UNIT %.6ff\n"
+           "#define STRETCHED_SHIFT_UNIT %.8ff\n"
+           "#define STRETCHED_SHIFT_MIN %.2ff\n",
            GGX_ALPHA_NODES, GGX_MU_NODES, GGX_MEAN_NODES, GLASS_ETA_NODES,
-           GLASS_ALPHA_NODES, GLASS_MU_NODES, SHEEN_ALPHA_NODES,
-           SHEEN_MU_NODES);
+           GLASS_ALPHA_NODES, GLASS_MU_NODES, SHEEN_ALPHA_NODES, SHEEN_MU_NODES,
+           STRETCHED_ALPHA_NODES, STRETCHED_STRETCH_NODES,
+           STRETCHED_WIDTH_NODES, STRETCHED_MU_NODES, STRETCHED_MEAN_NODES,
+           (double)STRETCHED_LOSS_UNIT, (double)STRETCHED_SHIFT_UNIT,
+           (double)STRETCHED_SHIFT_MIN);
     printf("\n/* 1 - E over ggx_loss_scale(). */");
     print_head("float", "ggx_losses", "GGX_ALPHA_NODES * GGX_MU_NODES");
     print_ggx(&g, false);
@@ -373,6 +492,19 @@ int main(void)
     printf("\n/* E of white sheen. */");
     print_head("float", "sheen_albedos", "SHEEN_ALPHA_NODES * SHEEN_MU_NODES");
     print_sheen(&g);
+    printf(
+        "\n/* Of stretched facets: 1 - E over stretched_loss_scale(), shifts "
+        "as above. */");
+    print_head("uint16_t", "stretched_losses", STRETCHED_SIZE);
+    print_stretched(&g, false);
+    print_head("uint16_t", "stretched_shifts", STRETCHED_SIZE);
+    print_stretched(&g, true);
+    print_head("float", "stretched_mean_losses",
+               "STRETCHED_MEAN_NODES * STRETCHED_STRETCH_NODES");
+    print_stretched_means(&g, false);
+    print_head("float", "stretched_mean_schlicks",
+               "STRETCHED_MEAN_NODES * STRETCHED_STRETCH_NODES");
+    print_stretched_means(&g, true);
     printf("// clang-format on\n\n#endif\n");
     return 0;
 }

@@ -88,4 +88,41 @@ static inline double albedo_by_quadrature(enum facets facets, double alpha,
     return sum / side / side;
 }
 
+/* The same over facets of the widths ax and ay, from an azimuth phi; without
+ * glass. Normals have slopes stretched by the widths. */
+static inline double stretched_by_quadrature(enum facets facets, double ax,
+                                             double ay, double mu, double phi)
+{
+    const int side = 700;
+    double sine = sqrt(1 - mu * mu);
+    double x = sine * cos(phi), y = sine * sin(phi);
+    double width =
+        sine > 0 ? sqrt(ax * ax * x * x + ay * ay * y * y) / sine : 0;
+    double lo = smith_lambda(width, mu);
+    double sum = 0;
+
+    for (int i = 0; i < side; i++) {
+        double s = (i + 0.5) / side;
+        double slope = sqrt(1 / ((1 - s) * (1 - s)) - 1);
+
+        for (int j = 0; j < side; j++) {
+            double turn = 2 * M_PI * (j + 0.5) / side;
+            double hx = ax * slope * cos(turn), hy = ay * slope * sin(turn);
+            double hz = 1 / sqrt(1 + hx * hx + hy * hy);
+            double oh = (x * hx + y * hy + mu) * hz;
+            double ix = 2 * oh * hx * hz - x, iy = 2 * oh * hy * hz - y;
+            double iz = 2 * oh * hz - mu, li;
+
+            if (oh <= 0 || iz <= 0)
+                continue;
+            width = sqrt((ax * ax * ix * ix + ay * ay * iy * iy) /
+                         (ix * ix + iy * iy));
+            li = smith_lambda(width, fmin(iz, 1));
+            sum += 2 * (1 - s) * oh / (mu * hz) / (1 + lo + li) *
+                   (facets == FACETS_SCHLICK ? pow(1 - fmin(oh, 1), 5) : 1);
+        }
+    }
+    return sum / side / side;
+}
+
 #endif

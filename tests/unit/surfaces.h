@@ -143,8 +143,8 @@ static inline struct vec3 direction(float cosine)
 
 /* Returns the mean weight of samples over the midpoints of side x side squares.
  * Multiples of the golden ratio choose the lobe. */
-static inline struct vec3 sampled_albedo(const struct bsdf *m, float mu,
-                                         int side)
+static inline struct vec3 sampled_albedo_from(const struct bsdf *m,
+                                              struct vec3 wo, int side)
 {
     double sum[3] = {0};
 
@@ -154,7 +154,7 @@ static inline struct vec3 sampled_albedo(const struct bsdf *m, float mu,
         float choice = (float)fmod(i * 0.618033988749895, 1);
         struct bsdf_sample s;
 
-        if (!bsdf_sample(m, direction(mu), u, choice, &s))
+        if (!bsdf_sample(m, wo, u, choice, &s))
             continue;
         sum[0] += (double)s.weight.x;
         sum[1] += (double)s.weight.y;
@@ -162,6 +162,13 @@ static inline struct vec3 sampled_albedo(const struct bsdf *m, float mu,
     }
     return v3((float)(sum[0] / side / side), (float)(sum[1] / side / side),
               (float)(sum[2] / side / side));
+}
+
+/* The same from direction(mu). */
+static inline struct vec3 sampled_albedo(const struct bsdf *m, float mu,
+                                         int side)
+{
+    return sampled_albedo_from(m, direction(mu), side);
 }
 
 /* Integrates f over the upper hemisphere, seen from direction(mu), by midpoints

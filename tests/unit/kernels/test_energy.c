@@ -2,7 +2,7 @@
 #include "tests/unit/check.h"
 #include "tests/unit/facets.h"
 
-#include "kernels/energy.h"
+#include "kernels/energy_stretched.h"
 
 static const double alphas[] = {5e-4, 1e-3, 1e-2, 0.1, 0.3, 0.6, 1.0};
 static const double cosines[] = {1.0, 0.7, 0.3, 0.05, 0.001};
@@ -83,6 +83,86 @@ static void means_are_those_of_the_table(void **state)
     }
 }
 
+static struct vec3 toward(double mu, double phi)
+{
+    double sine = sqrt(1 - mu * mu);
+
+    return v3((float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)mu);
+}
+
+/* Over the whole range of the anisotropy, which ends at the stretch root 10. */
+static void albedo_of_stretched_facets_is_that_of_quadrature(void **state)
+{
+    uint64_t seed = 5;
+    double error = 0, schlick_error = 0;
+    const int n = 150;
+
+    (void)state;
+    for (int i = 0; i < n; i++) {
+        struct point p = point(POINTS, &seed);
+        double s = 1 / sqrt(1 - 0.9 * check_random(&seed));
+        double phi = 2 * M_PI * check_random(&seed);
+        double ax = p.alpha * s, ay = p.alpha / s;
+        struct ggx g = {(float)p.alpha, (float)s};
+        struct ggx_albedo e = facets_albedo(toward(p.mu, phi), g);
+        double one = stretched_by_quadrature(FACETS_WHITE, ax, ay, p.mu, phi);
+        double schlick =
+            stretched_by_quadrature(FACETS_SCHLICK, ax, ay, p.mu, phi);
+
+        check_close(1 - (double)e.loss, one, 6e-3);
+        check_close((double)e.schlick, schlick, 1e-2);
+        error += fabs(1 - (double)e.loss - one) / n;
+        schlick_error += fabs((double)e.schlick - schlick) / n;
+    }
+    check_at_most(error, 6e-4);
+    check_at_most(schlick_error, 1e-3);
+}
+
+/* Hardly stretched facets have the albedo of isotropic ones. */
+static void stretching_begins_at_isotropic_facets(void **state)
+{
+    uint64_t seed = 6;
+
+    (void)state;
+    for (int i = 0; i < 300; i++) {
+        struct point p = point(i, &seed);
+        struct ggx g = {(float)p.alpha, 1.0f + 1e-6f};
+        struct ggx_albedo a = facets_albedo(toward(p.mu, i), g);
+        struct ggx_albedo mean = facets_albedo_mean(g);
+
+        g.stretch = 1;
+        check_close((double)a.loss,
+                    (double)facets_albedo(toward(p.mu, i), g).loss, 4e-3);
+        check_close((double)mean.loss / (double)facets_albedo_mean(g).loss, 1,
+                    2e-2);
+    }
+}
+
+static void means_are_those_of_the_stretched_table(void **state)
+{
+    const int n = 200, turns = 24;
+
+    (void)state;
+    for (int k = 0; k <= 40; k++) {
+        double root = sqrt(5e-4) + (1 - sqrt(5e-4)) * (k % 9) / 8;
+        struct ggx g = {(float)(root * root),
+                        (float)pow(10, 0.5 * (k + 1) / 41)};
+        struct ggx_albedo mean = facets_albedo_mean(g);
+        double loss = 0, schlick = 0;
+
+        for (int i = 0; i < n * turns; i++) {
+            double t = (i / turns + 0.5) / n;
+            double phi = M_PI / 2 * (i % turns + 0.5) / turns;
+            struct ggx_albedo e = facets_albedo(toward(t * t, phi), g);
+
+            loss += (double)e.loss * 4 * t * t * t / n / turns;
+            schlick += (double)e.schlick * 4 * t * t * t / n / turns;
+        }
+        check_close((double)mean.loss / loss, 1, 1.2e-2);
+        check_close((double)mean.schlick, schlick, 1e-3);
+    }
+}
+
 static void albedo_of_glass_is_that_of_quadrature(void **state)
 {
     uint64_t seed = 4;
@@ -106,6 +186,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(albedo_of_ggx_is_that_of_quadrature),
         cmocka_unit_test(means_are_those_of_the_table),
+        cmocka_unit_test(albedo_of_stretched_facets_is_that_of_quadrature),
+        cmocka_unit_test(stretching_begins_at_isotropic_facets),
+        cmocka_unit_test(means_are_those_of_the_stretched_table),
         cmocka_unit_test(albedo_of_glass_is_that_of_quadrature),
     };
 
