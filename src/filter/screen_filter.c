@@ -36,21 +36,57 @@ struct films {
     float far;
 };
 
+/* ---- sizes ---- */
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+void screen_filter_draft_size(int frame_width, int frame_height, int *width,
+                              int *height)
+{
+    double pixels = (double)frame_width * (double)frame_height;
+    double scale = sqrt(fmin(SCREEN_FILTER_PIXELS / pixels, 1.0));
+
+    *width = (int)fmax(frame_width * scale, 1.0);
+    *height = (int)fmax(frame_height * scale, 1.0);
+}
+
+/* Returns true if the draft has the size of one for the frame, or that of a
+ * film with fewer pixels. */
+static bool fits(const struct film *film, const struct film *draft,
+                 const struct frame *frame)
+{
+    int width, height;
+
+    screen_filter_draft_size(frame->width, frame->height, &width, &height);
+    return draft->width == smaller(width, film->width) &&
+           draft->height == smaller(height, film->height);
+}
+
+/* ---- memory ---- */
+
 static size_t row_index(const struct screen_filter *f, int y)
 {
     return (size_t)y * (size_t)f->width;
 }
 
-/* ---- memory ---- */
-
 void screen_filter_free(struct screen_filter *f)
 {
     filter_free(&f->filter);
     screen_halves_free(&f->halves);
+    screen_detail_free(&f->detail);
     free(f->memory);
     free(f->rows);
-    free(f->bytes);
+    free(f->raw_bytes);
+    free(f->filtered_bytes);
     *f = (struct screen_filter){0};
+}
+
+static bool has_detail(const struct screen_filter *f)
+{
+    return f->shown_width > f->width;
 }
 
 static void take_planes(struct screen_filter *f)
@@ -67,25 +103,50 @@ static void take_planes(struct screen_filter *f)
     f->largest = f->shares + f->width + 1;
 }
 
-static bool resize(struct screen_filter *f, int width, int height)
+/* Allocates what depends on both sizes. The detail is of no use if the frame
+ * shows no more pixels along an axis. */
+static bool allocate(struct screen_filter *f)
 {
-    size_t pixels = (size_t)width * (size_t)height;
+    size_t width = (size_t)f->width, pixels = width * (size_t)f->height;
     struct error ignored;
 
-    if (f->width == width && f->height == height)
+    f->memory = alloc_array(pixels, PLANES * sizeof *f->memory);
+    f->rows = alloc_array(width * ROWS + 2, sizeof *f->rows);
+    f->raw_bytes = alloc_array(width, 3);
+    f->filtered_bytes = alloc_array((size_t)f->shown_width, 3);
+    return f->memory != NULL && f->rows != NULL && f->raw_bytes != NULL &&
+           f->filtered_bytes != NULL &&
+           filter_init(&f->filter, f->width, f->height, &ignored) &&
+           screen_halves_init(&f->halves, f->width, f->height,
+                              f->filter.loops) &&
+           (!has_detail(f) ||
+            screen_detail_init(&f->detail, f->shown_width, f->shown_height,
+                               f->width, f->height, f->filter.loops));
+}
+
+/* Prepares for a draft, and for a frame that shows `film`. */
+static bool resize(struct screen_filter *f, const struct film *draft,
+                   const struct film *film, const struct frame *frame)
+{
+    int shown_width = smaller(frame->width, film->width);
+    int shown_height = smaller(frame->height, film->height);
+
+    if (shown_width <= draft->width || shown_height <= draft->height) {
+        shown_width = draft->width;
+        shown_height = draft->height;
+    }
+    if (f->width == draft->width && f->height == draft->height &&
+        f->shown_width == shown_width && f->shown_height == shown_height)
         return true;
     screen_filter_free(f);
-    f->memory = alloc_array(pixels, PLANES * sizeof *f->memory);
-    f->rows = alloc_array((size_t)width * ROWS + 2, sizeof *f->rows);
-    f->bytes = alloc_array((size_t)width, 6);
-    if (f->memory == NULL || f->rows == NULL || f->bytes == NULL ||
-        !filter_init(&f->filter, width, height, &ignored) ||
-        !screen_halves_init(&f->halves, width, height, f->filter.loops)) {
+    f->width = draft->width;
+    f->height = draft->height;
+    f->shown_width = shown_width;
+    f->shown_height = shown_height;
+    if (!allocate(f)) {
         screen_filter_free(f);
         return false;
     }
-    f->width = width;
-    f->height = height;
     take_planes(f);
     return true;
 }
@@ -244,7 +305,6 @@ struct target {
 static void put_raw(const struct target *t, int x, int y, int count)
 {
     const struct screen_filter *f = t->films->filter;
-    const uint8_t *raw = f->bytes + 3 * (size_t)f->width;
     uint8_t *to =
         t->frame->rgb + 3 * ((size_t)y * (size_t)t->frame->width + (size_t)x);
 
@@ -254,7 +314,9 @@ static void put_raw(const struct target *t, int x, int y, int count)
         return;
     }
     for (int i = x; i < x + count; i++, to += 3)
-        memcpy(to, raw + 3 * (size_t)scaled(i, f->width, t->frame->width), 3);
+        memcpy(to,
+               f->raw_bytes + 3 * (size_t)scaled(i, f->width, t->frame->width),
+               3);
 }
 
 static void mix_pixel(float share, const uint8_t *filtered, uint8_t *to)
@@ -272,51 +334,51 @@ static void put_chunk(const struct target *t, const float *share, int first,
     int width = t->frame->width;
     uint8_t *to =
         t->frame->rgb + 3 * ((size_t)y * (size_t)width + (size_t)first);
-    int from[CHUNK];
+    float shares[CHUNK];
     float least = 1.0f;
 
     for (int i = 0; i < count; i++) {
-        from[i] = scaled(first + i, f->width, width);
-        least = f_min(least, share[from[i]]);
+        shares[i] = share[scaled(first + i, f->width, width)];
+        least = f_min(least, shares[i]);
     }
     if (least < 1.0f)
         put_raw(t, first, y, count);
     for (int i = 0; i < count; i++, to += 3) {
-        const uint8_t *filtered = f->bytes + 3 * (size_t)from[i];
+        int from = scaled(first + i, f->shown_width, width);
+        const uint8_t *filtered = f->filtered_bytes + 3 * (size_t)from;
 
-        if (share[from[i]] >= 1.0f)
+        if (shares[i] >= 1.0f)
             memcpy(to, filtered, 3);
         else
-            mix_pixel(share[from[i]], filtered, to);
+            mix_pixel(shares[i], filtered, to);
     }
+}
+
+/* Returns the row of the filtered picture that row y of the frame shows. */
+static const float *filtered_row(const struct target *t, int y)
+{
+    struct screen_filter *f = t->films->filter;
+    int from = scaled(y, f->shown_height, t->frame->height);
+
+    return has_detail(f) ? screen_detail_row(&f->detail, from)
+                         : f->rgb + 3 * row_index(f, from);
 }
 
 static void put_row(const struct target *t, int y)
 {
     const struct screen_filter *f = t->films->filter;
     int from = scaled(y, f->height, t->frame->height);
-    size_t at = 3 * row_index(f, from), width = (size_t)f->width;
     const float *share = row_shares(f, from);
 
-    develop_row(t->how, f->width, f->rgb + at, f->bytes);
+    develop_row(t->how, f->shown_width, filtered_row(t, y), f->filtered_bytes);
     if (t->films->is_empty)
-        develop_row(t->how, f->width, f->raw + at, f->bytes + 3 * width);
+        develop_row(t->how, f->width, f->raw + 3 * row_index(f, from),
+                    f->raw_bytes);
     for (int x = 0; x < t->frame->width; x += CHUNK) {
         int left = t->frame->width - x;
 
         put_chunk(t, share, x, y, left < CHUNK ? left : CHUNK);
     }
-}
-
-/* Returns true if the draft has the pixels of the frame, or those of a film
- * that the frame enlarges. */
-static bool fits(const struct film *film, const struct film *draft,
-                 const struct frame *frame)
-{
-    return (draft->width == frame->width ||
-            (draft->width == film->width && film->width < frame->width)) &&
-           (draft->height == frame->height ||
-            (draft->height == film->height && film->height < frame->height));
 }
 
 bool screen_filter_show(struct screen_filter *f, struct film *film,
@@ -329,12 +391,13 @@ bool screen_filter_show(struct screen_filter *f, struct film *film,
                                          give_light};
     struct target target = {&context, how, frame};
 
-    if (!fits(film, surfaces, frame) ||
-        !resize(f, surfaces->width, surfaces->height))
+    if (!fits(film, surfaces, frame) || !resize(f, surfaces, film, frame))
         return false;
     screen_halves_begin(&f->halves);
     context.far = film_features_far(surfaces, FAR_STRIDE);
     filter_run(&f->filter, &source, levels, NULL, f->rgb);
+    if (has_detail(f))
+        screen_detail_find(&f->detail, film, f->rgb, f->seen);
     for (int y = 0; y < f->height; y++)
         row_changes(f, y, how);
     for (int y = 0; y < frame->height; y++)

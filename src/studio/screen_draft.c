@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "studio/screen_draft.h"
 
-/* Pixels of the largest frame that is filtered if its cells have more pixels
- * than half blocks. A larger draft would take long. */
-#define PIXELS_MAX (400 * 240)
+#include "filter/screen_filter.h"
 
 /* A cell of half blocks shows two pixels, one above the other. */
 void screen_draft_expect(struct session *s, const struct cells_rect *fit)
@@ -31,11 +29,9 @@ void screen_draft_fit(struct render_control *control,
     const struct film *young = render_draft(s->render);
 
     screen_draft_expect(s, &screen->fit);
-    if (s->is_filtered &&
-        screen->frame_width * screen->frame_height <= PIXELS_MAX) {
-        s->draft_width = screen->frame_width;
-        s->draft_height = screen->frame_height;
-    }
+    if (s->is_filtered)
+        screen_filter_draft_size(screen->frame_width, screen->frame_height,
+                                 &s->draft_width, &s->draft_height);
     if (control->is_live && !control->is_halted && s->draft_has_surfaces &&
         young && !screen->is_too_small && !is_current(s, young))
         render_control_restart(control);

@@ -2,7 +2,7 @@
 /*
  * screen_draft.h - the size of the draft for a screen
  *
- * The filter needs a draft with the pixels of the frame.
+ * The filter needs a draft of the size that screen_filter.h gives.
  *
  * Threads:   main only
  */

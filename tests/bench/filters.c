@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
  * filters - processor time of the screen's filter in one thread, for a screen
- * of 400x240 pixels: for a draft alone, and for a film of 1024x576 pixels with
- * 2 samples in each. Beside it the time of the frame without the filter.
+ * of 400x240 pixels and for one of 1024x576: for a draft alone, and for a film
+ * of 1024x576 pixels with 2 samples in each. Beside it the time of the frame
+ * without the filter.
  *
  * usage: filters SCENE...
  */
@@ -13,8 +14,6 @@
 #include "filter/screen_filter.h"
 #include "session/session.h"
 
-#define WIDTH  400
-#define HEIGHT 240
 #define ROUNDS 15
 
 /* Processor time of this thread, in milliseconds. */
@@ -62,6 +61,33 @@ static void time_frames(struct session *s, const char *what,
     screen_filter_free(&filter);
 }
 
+/* Times frames of this size. */
+static bool time_size(struct session *s, int width, int height,
+                      struct error *err)
+{
+    struct frame frame = {0};
+
+    if (!frame_init(&frame, width, height, err))
+        return false;
+    printf("  %dx%d\n", width, height);
+    screen_filter_draft_size(width, height, &s->draft_width, &s->draft_height);
+    if (!session_restart(s, (struct render_limits){0}, err))
+        return false;
+    while (render_progress(s->render).samples == 0)
+        render_wait(s->render, 1);
+    render_halt(s->render);
+    film_clear(render_film(s->render));
+    time_frames(s, "draft", &frame);
+    if (!session_restart(s, (struct render_limits){0}, err))
+        return false;
+    while (render_progress(s->render).spp_done < 2)
+        render_wait(s->render, 1);
+    render_halt(s->render);
+    time_frames(s, "film of 2 samples", &frame);
+    frame_free(&frame);
+    return true;
+}
+
 static bool bench(const char *path, struct error *err)
 {
     struct options o = {.scene_path = path,
@@ -69,29 +95,14 @@ static bool bench(const char *path, struct error *err)
                         .height_px = 576,
                         .max_bounces = -1};
     struct session s;
-    struct frame frame = {0};
-    bool ok = session_open(&s, &o, clock_ns(), err) &&
-              frame_init(&frame, WIDTH, HEIGHT, err);
+    bool ok;
 
-    s.draft_width = WIDTH;
-    s.draft_height = HEIGHT;
-    ok = ok && session_restart(&s, (struct render_limits){0}, err);
-    if (ok) {
-        printf("%s\n  milliseconds         without      3      4      5      6 "
-               "levels\n",
-               path);
-        while (render_progress(s.render).samples == 0)
-            render_wait(s.render, 1);
-        render_halt(s.render);
-        film_clear(render_film(s.render));
-        time_frames(&s, "draft", &frame);
-        ok = session_restart(&s, (struct render_limits){0}, err);
-        while (render_progress(s.render).spp_done < 2)
-            render_wait(s.render, 1);
-        render_halt(s.render);
-        time_frames(&s, "film of 2 samples", &frame);
-    }
-    frame_free(&frame);
+    printf("%s\n  milliseconds         without      3      4      5      6 "
+           "levels\n",
+           path);
+    ok = session_open(&s, &o, clock_ns(), err);
+    s.is_filtered = true;
+    ok = ok && time_size(&s, 400, 240, err) && time_size(&s, 1024, 576, err);
     session_close(&s);
     return ok;
 }

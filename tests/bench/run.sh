@@ -184,7 +184,7 @@ bench_screens() {
 # Measures frames of live mode with the filter.
 bench_filters() {
     echo
-    echo 'filters: frames of 400x240 pixels, one thread'
+    echo 'filters: frames of a screen, one thread'
     "$build/bench/filters" scenes/cornell.obj scenes/interior.obj
 }
 
