@@ -350,15 +350,9 @@ static double square_irradiance(const struct receiver *r,
     return sum;
 }
 
-static void add_receiver(struct mesh *m, const struct receiver *r)
+static void add_floor(struct mesh *m, const struct receiver *r)
 {
-    struct vec3 t, b;
-
-    frame_around(r->n, &t, &b);
-    t = v3_scale(t, 0.01f);
-    b = v3_scale(b, 0.01f);
-    mesh_add_quad(m, v3_sub(r->p, t), v3_sub(r->p, b), v3_add(r->p, t),
-                  v3_add(r->p, b), FLOOR);
+    add_receiver(m, r->p, r->n);
     m->materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
 }
 
@@ -369,17 +363,12 @@ static void add_square(struct mesh *m)
     m->materials[LAMP] = lamp_material(2);
 }
 
-static void check_receiver(struct lit_mesh *s, const struct receiver *r,
-                           double irradiance, double systematic)
+static void check_floor(struct lit_mesh *s, const struct receiver *r,
+                        double irradiance, double systematic)
 {
-    struct vec3 t, b;
-    double truth = ALBEDO / M_PI * irradiance;
-
-    frame_around(r->n, &t, &b);
-    check_claim(s, ((struct claim){.eye = v3_add(r->p, v3_scale(v3_add(r->n, t),
-                                                                0.04f)),
+    check_claim(s, ((struct claim){.eye = eye_over(r->p, r->n),
                                    .at = r->p,
-                                   .truth = GREY(truth),
+                                   .truth = GREY(ALBEDO / M_PI * irradiance),
                                    .systematic = systematic,
                                    .paths = 1024}));
 }
@@ -426,7 +415,7 @@ static void lamps_with_images_light_the_floor(void **state)
         const uint32_t corners[2][3] = {{0, 1, 2}, {0, 2, 3}};
         struct lit_mesh s = {0};
 
-        add_receiver(&s.mesh, &receivers[k]);
+        add_floor(&s.mesh, &receivers[k]);
         add_square(&s.mesh);
         for (int t = 0; t < 2; t++)
             memcpy(s.mesh.tris[s.mesh.tri_count - 2 + (uint32_t)t].vt,
@@ -438,9 +427,8 @@ static void lamps_with_images_light_the_floor(void **state)
         s.mesh.world.texels = texels;
         s.mesh.world.linear_of_srgb = decoded;
         lit_mesh_finish(&s);
-        check_receiver(&s, &receivers[k],
-                       square_irradiance(&receivers[k], image_radiance, &p),
-                       1e-4);
+        check_floor(&s, &receivers[k],
+                    square_irradiance(&receivers[k], image_radiance, &p), 1e-4);
         lit_mesh_free(&s);
     }
 }
@@ -494,7 +482,7 @@ static void skies_light_floors_by_the_closed_form(void **state)
                                         0.2 * (sin(TURN) * x + cos(TURN) * z));
         struct lit_mesh s = {0};
 
-        add_receiver(&s.mesh, r);
+        add_floor(&s.mesh, r);
         if (k % 2) {
             add_square(&s.mesh);
             irradiance += square_irradiance(r, lamp_less_sky, NULL);
@@ -509,7 +497,7 @@ static void skies_light_floors_by_the_closed_form(void **state)
         lit_mesh_finish(&s);
         /* The error is (pi / 128)^2 / 8 of the slope between four texels,
          * twice. */
-        check_receiver(&s, r, irradiance, 2e-4);
+        check_floor(&s, r, irradiance, 2e-4);
         lit_mesh_free(&s);
     }
 }
