@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -148,7 +149,7 @@ static void format_bar(char *text, size_t size_bytes, int cols,
 
     format_time(elapsed, p->seconds);
     if (p->seconds_left >= 0)
-        format_time(left, p->seconds_left);
+        format_time(left, ceil(p->seconds_left)); /* 0:00 means done */
     format_spp(spp, p);
     error_text_noise(noise, &error);
     snprintf(speed, sizeof speed, ", %.2f Msamples/s", rate * 1e-6);
