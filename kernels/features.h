@@ -26,11 +26,12 @@ enum feature {
     FEATURE_PRINCIPLED = 8192,  /* MATERIAL_PRINCIPLED */
     FEATURE_ANISOTROPY = 16384, /* surfaces with a grain */
     FEATURE_SHEEN = 32768,
-    FEATURE_POINT_LIGHTS = 65536,       /* point and spot lights */
-    FEATURE_DIRECTIONAL_LIGHTS = 131072 /* the sun is one */
+    FEATURE_POINT_LIGHTS = 65536,        /* point and spot lights */
+    FEATURE_DIRECTIONAL_LIGHTS = 131072, /* the sun is one */
+    FEATURE_ATTENUATION = 262144 /* solids that absorb light: attenuation.h */
 };
 
-#define FEATURES_ALL 262143u
+#define FEATURES_ALL 524287u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

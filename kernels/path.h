@@ -24,6 +24,7 @@
 #define KERNELS_PATH_H
 
 #include "kernels/aov.h"
+#include "kernels/attenuation.h"
 #include "kernels/first_surface.h"
 #include "kernels/guide.h"
 #include "kernels/light.h"
@@ -55,6 +56,7 @@ struct path {
                          delta lobes, with which light samples do not compete */
     struct receiver from;   /* vertex that the ray left, if pdf is above 0 */
     struct guide_cell cell; /* tables of the path guide at that vertex */
+    struct vec3 medium;     /* absorption along the ray; FEATURE_ATTENUATION */
     struct path_sample out;
     struct first_surface surface;
 };
@@ -178,16 +180,18 @@ static inline void path_add_spheres(const struct world *w, struct path *p,
 
     r.t_max = t_max;
     for (uint32_t i = 0; i < w->settings.sphere_count; i++) {
-        float pdf = 0.0f;
+        struct vec3 radiance;
+        float t, pdf = 0.0f;
 
-        if (!sphere_meets(w, i, r))
+        if (!sphere_meets(w, i, r, &t))
             continue;
+        radiance =
+            v3_scale(w->point_lights[i].emission, point_light_part(w, i, r.d));
+        if (HAS(FEATURE_ATTENUATION))
+            radiance = attenuated(radiance, p->medium, t);
         if (p->pdf > 0.0f)
             pdf = sphere_pdf_at(w, &p->from, i);
-        path_add(p,
-                 v3_scale(w->point_lights[i].emission,
-                          point_light_part(w, i, r.d)),
-                 bsdf_mis_weight(w, p->pdf, pdf));
+        path_add(p, radiance, bsdf_mis_weight(w, p->pdf, pdf));
     }
 }
 
@@ -246,12 +250,27 @@ struct path_light {
     struct vec3 radiance;
 };
 
+/* Attenuates light that comes to the surface from a light sample. */
+static inline struct vec3 path_light_attenuated(const struct path *p,
+                                                const struct material *m,
+                                                const struct bsdf *b,
+                                                const struct surface_point *v,
+                                                const struct path_light *l)
+{
+    float distance =
+        l->at.is_near ? v3_length(v3_sub(l->at.p, v->p)) : FLOAT_MAX;
+
+    return attenuated(l->radiance, medium_beyond(m, b, v, l->cosine, p->medium),
+                      distance);
+}
+
 /* Draws a light sample. Returns false if there is none, or if roulette drops
  * its shadow ray. */
 FLATTENED static inline bool
 path_choose_light(const struct world *w, const struct path *p,
-                  const struct bsdf *b, const struct surface_point *v,
-                  struct vec3 wo, uint32_t vertex, struct path_light *l)
+                  const struct material *m, const struct bsdf *b,
+                  const struct surface_point *v, struct vec3 wo,
+                  uint32_t vertex, struct path_light *l)
 {
     struct vec3 wi;
     float pdf;
@@ -276,6 +295,8 @@ path_choose_light(const struct world *w, const struct path *p,
         path_part(p, l->radiance,
                   bsdf_eta_scale(b, wi) * light_mis_weight(w, l->at.pdf, pdf) /
                       l->at.pdf);
+    if (HAS(FEATURE_ATTENUATION))
+        l->radiance = path_light_attenuated(p, m, b, v, l);
     return shadow_survives(p, vertex, &l->radiance);
 }
 
@@ -314,7 +335,7 @@ FLATTENED static inline void path_add_light(const struct world *w,
 /* Samples the next ray from the BSDF, or from the path guide if it has a table
  * here. Returns false if the path is absorbed. */
 static inline bool path_scatter(const struct world *w, struct path *p,
-                                const struct bsdf *b,
+                                const struct material *m, const struct bsdf *b,
                                 const struct surface_point *v, struct vec3 wo,
                                 struct vec2 direction, float choice)
 {
@@ -341,6 +362,8 @@ static inline bool path_scatter(const struct world *w, struct path *p,
     p->beta = v3_mul(p->beta, s.weight);
     p->scale = f_finite(p->scale * s.eta_scale);
     p->pdf = s.is_delta ? 0.0f : s.pdf;
+    if (HAS(FEATURE_ATTENUATION))
+        p->medium = medium_beyond(m, b, v, s.wi.z, p->medium);
     return true;
 }
 
@@ -384,6 +407,7 @@ static inline void path_open(struct path *p, struct ray r,
     p->from.p = r.o;
     p->from.n = r.d;
     p->from.transmits = true;
+    p->medium = v3(0.0f, 0.0f, 0.0f);
     p->out.radiance = v3(0.0f, 0.0f, 0.0f);
     p->out.rays = 1; /* the camera ray */
     p->out.cut = 0;
@@ -406,6 +430,8 @@ static inline bool path_extend(const struct world *w, struct path *p,
     if (HAS(FEATURE_POINT_LIGHTS))
         path_add_spheres(w, p, h->tri == NO_INDEX ? FLOAT_MAX : h->t);
     if (h->tri == NO_INDEX) {
+        if (HAS(FEATURE_ATTENUATION))
+            p->beta = attenuated(p->beta, p->medium, FLOAT_MAX);
         path_add_sky(w, p);
         if (HAS(FEATURE_DIRECTIONAL_LIGHTS))
             path_add_discs(w, p);
@@ -416,6 +442,12 @@ static inline bool path_extend(const struct world *w, struct path *p,
     m = w->materials[w->tris[h->tri].material];
     if (!surface_at(w, &m, p->ray, *h, &v))
         return false;
+    if (HAS(FEATURE_ATTENUATION)) {
+        /* the camera is in a solid if it sees one of its faces from inside */
+        if (vertex == 1 && !v.is_outside)
+            p->medium = m.attenuation;
+        p->beta = attenuated(p->beta, p->medium, h->t);
+    }
     path_add_emission(w, p, &m, h->tri, &v);
     first_surface_light(&p->surface, vertex, p->out.radiance);
     if (vertex >= w->settings.max_vertices) {
@@ -437,10 +469,10 @@ static inline bool path_extend(const struct world *w, struct path *p,
         p->cell = guide_at(w, v.p, v.ng);
     /* The next direction is sampled before the shadow ray is traced: 3 to 6 %
      * less time. The two do not depend on each other. */
-    is_lit = path_choose_light(w, p, &b, &v, wo, vertex, &light);
+    is_lit = path_choose_light(w, p, &m, &b, &v, wo, vertex, &light);
     lobe = path_2d(p, vertex, DIMENSION_BSDF_LOBE);
     goes_on =
-        path_scatter(w, p, &b, &v, wo,
+        path_scatter(w, p, &m, &b, &v, wo,
                      path_2d(p, vertex, DIMENSION_BSDF_DIRECTION), lobe.x) &&
         path_survives(p, vertex, lobe.y);
     if (is_lit)

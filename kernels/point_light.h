@@ -99,14 +99,15 @@ static inline float point_light_pdf(const struct world *w, uint32_t i,
                                 w->point_lights[i].radius));
 }
 
-/* True if the ray meets sphere i before its t_max. */
-static inline bool sphere_meets(const struct world *w, uint32_t i, struct ray r)
+/* Returns true if the ray meets sphere i before its t_max, at *t. */
+static inline bool sphere_meets(const struct world *w, uint32_t i, struct ray r,
+                                float *t)
 {
     bool passes;
-    float t = sphere_distance(v3_sub(w->point_lights[i].p, r.o), r.d,
-                              w->point_lights[i].radius, &passes);
 
-    return !passes && t > 0.0f && t < r.t_max;
+    *t = sphere_distance(v3_sub(w->point_lights[i].p, r.o), r.d,
+                         w->point_lights[i].radius, &passes);
+    return !passes && *t > 0.0f && *t < r.t_max;
 }
 
 #endif

@@ -67,6 +67,7 @@ struct material {
     float anisotropy;  /* 0 to 1; of MATERIAL_PRINCIPLED too */
     struct vec2 grain; /* direction of the wider axis, in units of the tangents
                           along u and v */
+    struct vec3 attenuation; /* absorption in solids: attenuation.h */
     uint32_t normal_texture; /* shading normals in tangent space */
     uint32_t bump_texture;   /* heights in alpha */
     float bump_scale;        /* height of an alpha of 1, in texels */

@@ -183,14 +183,43 @@ static float index_of(const struct mtl_source *s, const struct diagnostics *at)
     return (float)within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX, IOR_DEFAULT, at);
 }
 
+/* Least share of light that is left after Tf_distance, so that absorption is
+ * finite. */
+#define TRANSMITTANCE_MIN 1e-30f
+
+/* Returns the absorption of a channel of which `share` is left after a distance
+ * d. */
+static float absorption(float share, double d)
+{
+    return (float)fmin(-log((double)fmaxf(share, TRANSMITTANCE_MIN)) / d,
+                       (double)FLT_MAX);
+}
+
+/* Sets the absorption of a solid with the colour tf after Tf_distance. Returns
+ * false if the statement is absent or 0. */
+static bool attenuate(struct material *m, struct vec3 tf,
+                      const struct mtl_source *s, const struct diagnostics *at)
+{
+    double d = within(&s->tf_distance, "Tf_distance", 0, DBL_MAX, 0, at);
+
+    if (d == 0)
+        return false;
+    m->attenuation = (struct vec3){absorption(tf.x, d), absorption(tf.y, d),
+                                   absorption(tf.z, d)};
+    return true;
+}
+
 static void make_glass(struct material *m, uint32_t kind,
                        const struct mtl_source *s, const struct diagnostics *at)
 {
     m->kind = kind;
     m->color = reflecting(&s->tf, "Tf", 1, at);
     m->color_texture = mtl_source_map(s, MTL_MAP_KD);
-    if (kind == MATERIAL_GLASS)
+    if (kind == MATERIAL_GLASS) {
         roughen(m, s, at);
+        if (attenuate(m, m->color, s, at))
+            m->color = (struct vec3){1, 1, 1};
+    }
     m->ior = index_of(s, at);
 }
 
@@ -277,11 +306,13 @@ static void make_diffuse(struct material *m, const struct mtl_source *s,
     m->alpha = (float)r;
 }
 
-/* Returns the weight of transmission, which Blender writes as a grey Tf. */
-static double transmission(const struct mtl_source *s, int illum,
-                           const struct diagnostics *at)
+/* Returns the weight of transmission, which Blender writes as a grey Tf. With
+ * Tf_distance, it is the largest channel, and the rest is absorption. */
+static double transmission(struct material *m, const struct mtl_source *s,
+                           int illum, const struct diagnostics *at)
 {
     struct vec3 tf;
+    float top;
 
     if (s->tf.line == 0)
         return 0;
@@ -290,6 +321,9 @@ static double transmission(const struct mtl_source *s, int illum,
             : s->pr.line == 0 || (illum != 2 && illum != 3))
         return 0;
     tf = reflecting(&s->tf, "Tf", 0, at);
+    top = v3_max_component(tf);
+    if (top > 0 && attenuate(m, v3_scale(tf, 1 / top), s, at))
+        return (double)top;
     return (double)(tf.x + tf.y + tf.z) / 3;
 }
 
@@ -338,7 +372,7 @@ static bool make_principled(struct material *m, int illum, bool has_ks,
 
     m->metal_texture = mtl_source_map(s, MTL_MAP_PM);
     m->metalness = (float)metalness(s, illum, at);
-    m->transmission = (float)transmission(s, illum, at);
+    m->transmission = (float)transmission(m, s, illum, at);
     m->coat = (float)unit(&pc, "Pc", at);
     if (m->coat > 0)
         m->coat_alpha = (float)(pcr * pcr);
@@ -430,6 +464,12 @@ struct material material_from_source(const struct mtl_source *s,
                      "%s:%" PRIu64 ": found glass of Ni 1 without a tint: "
                      "surfaces with this material are invisible",
                      path, s->illum.line);
+    if (s->tf_distance.value > 0 && m.kind != MATERIAL_GLASS &&
+        m.transmission == 0)
+        warnings_add(report, "statements without effect",
+                     "%s:%" PRIu64 ": found Tf_distance, which solid glass "
+                     "uses: ignored",
+                     path, s->tf_distance.line);
     m.normal_texture = mtl_source_map(s, MTL_MAP_NORM);
     m.bump_texture = mtl_source_map(s, MTL_MAP_BUMP);
     m.bump_scale = (float)s->bump_scale;

@@ -19,13 +19,17 @@
  *   diffuse      all others; colour Kd, roughness Kd_roughness (default 0)
  * A map multiplies its colour. Roughness alpha is Pr squared; without Pr it is
  * sqrt(2 / (Ns + 2)), or 0 if Ns is absent, 0, or at least 1000. Pr defaults
- * to 1 if there is map_Pr, and Pm to 1 if there is map_Pm.
+ * to 1 if there is map_Pr, and Pm to 1 if there is map_Pm. With Tf_distance,
+ * solid glass has no tint of Tf: Tf is what it leaves of light after this
+ * distance. In a mixture, the weight of glass is the largest channel of Tf
+ * then, and the absorption has the hue of Tf.
  *
  * In files of Blender (enum mtl_dialect), Ks never is a colour of metal; Pm is
  * Ka with illum 3 and 6 if there is no Pm; roughness is 1 - sqrt(Ns / 1000);
  * illum 9, and 6 with d below 1, are no glass; and from 4.0 on Ks scales twice
  * the Fresnel reflectance of Ni, and Pc is 4 times the weight of the coat.
  *
+ * Units:     absorption is per unit of length of the file
  * Threads:   any
  * Errors:    impossible values are replaced, with a warning
  */

@@ -26,6 +26,7 @@ const struct mtl_property mtl_properties[MTL_PROPERTIES] = {
     {"Ps", MEMBER(ps), false},
     {"aniso", MEMBER(aniso), false},
     {"anisor", MEMBER(anisor), false},
+    {"Tf_distance", MEMBER(tf_distance), false},
 };
 
 const char *const mtl_map_keys[MTL_MAPS] = {

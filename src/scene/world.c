@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/world.h"
 
+#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -113,6 +114,13 @@ static bool find_used_materials(struct host_world *host,
     return true;
 }
 
+struct material world_material(const struct scene *scene, struct material m)
+{
+    m.attenuation = v3_min(v3(FLT_MAX, FLT_MAX, FLT_MAX),
+                           v3_scale(m.attenuation, (float)(1 / scene->scale)));
+    return m;
+}
+
 static bool copy_materials(struct host_world *host, const struct scene *scene,
                            struct error *err)
 {
@@ -123,7 +131,7 @@ static bool copy_materials(struct host_world *host, const struct scene *scene,
     if (host->materials == NULL || host->sources == NULL)
         return fail(err, "%s: out of memory for its materials", scene->path);
     for (uint32_t i = 0; i < count; i++) {
-        host->materials[i] = scene->materials[i];
+        host->materials[i] = world_material(scene, scene->materials[i]);
         host->sources[i] = scene->material_origins[i].source;
     }
     host->material_count = count;

@@ -112,7 +112,7 @@ static struct material make_material(const struct material_change *c,
         material_from_source(&c->sources[i], c->scene->path, &report);
 
     warnings_free(&report);
-    return m;
+    return world_material(c->scene, m);
 }
 
 /* Loads the images of a material that comes into use, into a copy of the

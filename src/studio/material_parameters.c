@@ -215,7 +215,8 @@ static void set_roughness(struct owner *o, const struct value *v)
                v->number);
 }
 
-/* Reads the weight of transmission, a grey Tf. It counts beside Pr only. */
+/* Reads the weight of transmission, the mean or the largest channel of Tf. It
+ * counts beside Pr only. */
 static bool get_transmission(const struct owner *o, struct value *v)
 {
     v->number = (double)o->material.transmission;
@@ -225,12 +226,24 @@ static bool get_transmission(const struct owner *o, struct value *v)
 static void set_transmission(struct owner *o, const struct value *v)
 {
     struct mtl_source *s = &o->source;
+    double top = largest(s->tf.rgb);
 
     if (s->pr.line == 0)
         put_number(&s->pr, sqrt((double)o->material.alpha));
     if (s->dialect == MTL_CLASSIC && s->illum.line != 0 && s->illum.value != 3)
         put_number(&s->illum, 2);
-    put_grey(&s->tf, v->number);
+    if (s->tf_distance.value > 0 && top > 0)
+        for (int i = 0; i < 3; i++)
+            s->tf.rgb[i] = decimal_shortened(s->tf.rgb[i] / top * v->number);
+    else
+        put_grey(&s->tf, v->number);
+}
+
+/* Reads the distance after which light in a solid has the tint. */
+static bool get_distance(const struct owner *o, struct value *v)
+{
+    v->number = o->source.tf_distance.value;
+    return is_kind(o, GLASS) || o->material.transmission > 0;
 }
 
 static bool get_specular(const struct owner *o, struct value *v)
@@ -371,6 +384,9 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"transmits", MIXED, VALUE_NUMBER, &scale_unit, .get = get_transmission,
      .set = set_transmission},
     {"index", CLEAR | MIXED, VALUE_NUMBER, &scale_ior, STATEMENT(ni, ior)},
+    {"tint after", GLASS | MIXED, VALUE_NUMBER, &scale_distance,
+     .get = get_distance, .set = set_statement,
+     .member = offsetof(struct mtl_source, tf_distance)},
     {"coat", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      .get = get_coat, .set = set_coat},
     {"coat rough", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(pcr)},

@@ -23,6 +23,8 @@ const struct value_scale scale_ior = {
     1e-6, 1e6, 1, 3, 0.01, 4, .expected = "a number above 0"};
 const struct value_scale scale_emission = {
     0, RADIANCE_MAX, 0.01, 1e4, 0, 4, .zero = "off", .expected = TO_MAX};
+const struct value_scale scale_distance = {
+    0, RADIANCE_MAX, 0.01, 1e4, 0, 4, .zero = "off", .expected = TO_MAX};
 const struct value_scale scale_kelvin = {
     BLACKBODY_LEAST, BLACKBODY_GREATEST, 1000, 20000, 100, 6, .suffix = "K"};
 static const struct value_scale scale_radiance = {

@@ -39,6 +39,7 @@ extern const struct value_scale scale_specular; /* 0 is outside */
 extern const struct value_scale scale_hue;
 extern const struct value_scale scale_ior;
 extern const struct value_scale scale_emission;
+extern const struct value_scale scale_distance;
 extern const struct value_scale scale_kelvin;
 
 struct parameter_row;

@@ -444,6 +444,32 @@ static void statements_weigh_the_lobes(void **state)
     assert_int_equal(m.kind, MATERIAL_METAL);
 }
 
+/* Absorption per unit of length of the file. */
+static void solids_absorb_their_colour(void **state)
+{
+    const double d = 2.5;
+    struct material m =
+        only_material("Tf .5 .25 1\nTf_distance 2.5\nillum 7", 0);
+
+    (void)state;
+    check_color(m.color, 1, 1, 1);
+    check_color(m.attenuation, log(2.0) / d, log(4.0) / d, 0);
+    m = only_material("Kd .7\nKs .5\nPr .5\nTf .4 .2 .1\nTf_distance 2.5", 0);
+    check_close((double)m.transmission, .4, 1e-7);
+    check_color(m.color, .7, .7, .7);
+    check_color(m.attenuation, 0, log(2.0) / d, log(4.0) / d);
+    m = only_material("Tf 0 1 1\nTf_distance 1e-30\nillum 7", 0);
+    assert_true(m.attenuation.x > 1e30f && isfinite(m.attenuation.x));
+    m = only_material("Tf .5\nTf_distance 0\nillum 7", 0);
+    check_color(m.color, .5, .5, .5);
+    check_color(m.attenuation, 0, 0, 0);
+    m = only_material("Tf .5\nTf_distance -1\nillum 7", 1);
+    check_color(m.color, .5, .5, .5);
+    m = only_material("Tf .5\nTf_distance 2\nillum 4", 1);
+    check_color(m.attenuation, 0, 0, 0);
+    only_material("Kd .5\nTf_distance 2", 1);
+}
+
 static void maps_of_numbers_are_data(void **state)
 {
     struct loaded l =
@@ -547,6 +573,7 @@ int main(void)
         cmocka_unit_test(equal_maps_are_shared),
         cmocka_unit_test(maps_of_other_scales_are_not_shared),
         cmocka_unit_test(statements_weigh_the_lobes),
+        cmocka_unit_test(solids_absorb_their_colour),
         cmocka_unit_test(maps_of_numbers_are_data),
         cmocka_unit_test(bump_maps_have_their_scale),
         cmocka_unit_test_setup_teardown(paths_of_other_machines_find_the_file,

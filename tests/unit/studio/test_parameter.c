@@ -213,6 +213,31 @@ static void set_values_reach_the_material(void **state)
     }
 }
 
+/* The tint of a solid stays what it is if it begins to count after a distance,
+ * and the weight of transmission keeps its hue. */
+static void tints_take_a_distance(void **state)
+{
+    struct mtl_source s = mtl_source_empty();
+    const struct value red = {.rgb = {.8, .4, .2}};
+
+    (void)state;
+    s.illum = (struct mtl_number){7, 1};
+    assert_true(get(&s, "tint after", &(struct value){.number = 0}));
+    set(&s, "tint after", &(struct value){.number = 2});
+    set(&s, "tint", &red);
+    assert_true(get_color(&s).rgb[1] == .4);
+    check_close((double)material_of(&s).attenuation.y, -log(.4) / 2, 1e-6);
+    s.illum.value = 2;
+    set(&s, "type", &(struct value){.number = 5});
+    set(&s, "transmits", &(struct value){.number = .5});
+    s.tf = (struct mtl_color){{.8, .4, .2}, 1};
+    set(&s, "transmits", &(struct value){.number = .4});
+    check_close((double)material_of(&s).transmission, .4, 1e-7);
+    check_close((double)material_of(&s).attenuation.y, -log(.5) / 2, 1e-6);
+    set(&s, "tint after", &(struct value){.number = 0});
+    assert_true(v3_is_zero(material_of(&s).attenuation));
+}
+
 struct fixture {
     struct scene scene;
     struct view view;
@@ -427,6 +452,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kinds_keep_the_color),
         cmocka_unit_test(set_values_reach_the_material),
+        cmocka_unit_test(tints_take_a_distance),
         cmocka_unit_test(steps_are_undone),
         cmocka_unit_test(choices_are_cyclic),
         cmocka_unit_test(texts_can_be_typed),
