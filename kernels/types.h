@@ -278,8 +278,8 @@ struct settings {
      * of a directional light */
     float sky_share;
     float light_share; /* of a light of the tree; otherwise there is none */
-    float sky_power;   /* irradiance by half of the sky's mean, for the choice
-                          between the sky and directional lights */
+    float sky_power;   /* importance of the sky beside the irradiance of
+                          directional lights */
 
     /* lengths of the world's arrays */
     uint32_t tri_count;

@@ -9,15 +9,11 @@
 #include "light/daylight.h"
 #include "kernels/vec.h"
 
-/* Points each way by which the covered part of a texel is found. */
-#define POINTS 16
-
 struct painter {
     struct vec3 *texels;
     uint32_t width, height;
     struct daylight sky;
     double sun_sin, sun_cos; /* of the elevation */
-    double sun[3];           /* radiance of a texel inside the disc */
 };
 
 static struct vec3 *row_of(const struct painter *p, uint32_t y)
@@ -41,23 +37,6 @@ static double sun_angle_cos(const struct painter *p, double zenith_sin,
     return zenith_cos * p->sun_sin + zenith_sin * p->sun_cos * cos(azimuth);
 }
 
-/* Returns the part of a texel that the sun's disc covers. */
-static double covered_part(const struct painter *p, uint32_t x, uint32_t y)
-{
-    double edge_cos = cos(angle_rad(SUN_RADIUS_DEG));
-    int count = 0;
-
-    for (int j = 0; j < POINTS; j++) {
-        double angle = zenith_angle(p, y + (j + 0.5) / POINTS);
-        double zenith_sin = sin(angle), zenith_cos = cos(angle);
-
-        for (int i = 0; i < POINTS; i++)
-            count += sun_angle_cos(p, zenith_sin, zenith_cos,
-                                   x + (i + 0.5) / POINTS) >= edge_cos;
-    }
-    return (double)count / (POINTS * POINTS);
-}
-
 /* Solid angle of a texel in the bilinear image: the integral of its tent, which
  * is cut off at the pole. */
 static double tent_angle(const struct painter *p, uint32_t y)
@@ -68,54 +47,6 @@ static double tent_angle(const struct painter *p, uint32_t y)
     if (y == 0)
         return column * (1 - (sin(1.5 * step) - sin(0.5 * step)) / step);
     return column * sin(zenith_angle(p, y + 0.5)) * 2 * (1 - cos(step)) / step;
-}
-
-/* Stores the covered parts of the texels above the horizon in their first
- * channels. Returns the solid angle of the whole disc in the image. */
-static double cover_disc(struct painter *p)
-{
-    double sun_angle = atan2(p->sun_cos, p->sun_sin);
-    double reach = angle_rad(SUN_RADIUS_DEG) + zenith_angle(p, 1);
-    double total = 0;
-
-    for (uint32_t y = 0; y < p->height; y++) {
-        double angle = zenith_angle(p, y + 0.5);
-
-        if (fabs(angle - sun_angle) > reach)
-            continue;
-        for (uint32_t x = 0; x < p->width; x++) {
-            double part;
-
-            if (sun_angle_cos(p, sin(angle), cos(angle), x + 0.5) < cos(reach))
-                continue;
-            part = covered_part(p, x, y);
-            total += part * tent_angle(p, y);
-            if (y < p->height / 2)
-                row_of(p, y)[x].x = (float)part;
-        }
-    }
-    return total;
-}
-
-/* Sets the light of the sun, so that its disc has the right irradiance in the
- * image, and stores the disc. */
-static void place_sun(struct painter *p, double elevation_deg, double turbidity)
-{
-    double angle = 2 * M_PI * (1 - cos(angle_rad(SUN_RADIUS_DEG)));
-    double scale = angle / cover_disc(p);
-
-    daylight_sun(elevation_deg, turbidity, p->sun);
-    for (int i = 0; i < 3; i++)
-        p->sun[i] *= scale;
-}
-
-/* Returns a texel's radiance: that of the sky, and the sun's covered part. */
-static struct vec3 painted(const struct painter *p, const double sky[3],
-                           float part)
-{
-    return v3((float)(sky[0] + (double)part * p->sun[0]),
-              (float)(sky[1] + (double)part * p->sun[1]),
-              (float)(sky[2] + (double)part * p->sun[2]));
 }
 
 /* Paints one row above the horizon. The halves of the sky are mirror images. */
@@ -136,15 +67,16 @@ static void paint_row(void *context, uint32_t y, int worker)
 
         daylight_sky(&p->sky, heights,
                      sun_angle_cos(p, zenith_sin, zenith_cos, x + 0.5), sky);
-        row[x] = painted(p, sky, row[x].x);
-        *mirror = painted(p, sky, mirror->x);
+        row[x] = *mirror = v3((float)sky[0], (float)sky[1], (float)sky[2]);
     }
 }
 
-/* Paints the ground by the irradiance of all above it. */
-static void paint_ground(struct painter *p)
+/* Paints the ground by the irradiance of the sun, which faces it, and of all
+ * above it. */
+static void paint_ground(struct painter *p, const double sun[3])
 {
-    double sum[3] = {0, 0, 0};
+    double sum[3] = {sun[0] * p->sun_sin, sun[1] * p->sun_sin,
+                     sun[2] * p->sun_sin};
     size_t half = (size_t)p->width * (p->height / 2);
     struct vec3 ground;
 
@@ -164,6 +96,22 @@ static void paint_ground(struct painter *p)
         p->texels[i] = ground;
 }
 
+void sun_irradiance(double elevation_deg, double turbidity, double rgb[3])
+{
+    double radius = sin(angle_rad(SUN_RADIUS_DEG));
+    double height = fmin(elevation_deg / SUN_RADIUS_DEG, 1);
+    double angle = 0;
+
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    if (!(elevation_deg > 0))
+        return;
+    daylight_sun(elevation_deg, turbidity, rgb);
+    /* without the circular segment below the horizon */
+    angle = M_PI - acos(height) + height * sqrt(1 - height * height);
+    for (int i = 0; i < 3; i++)
+        rgb[i] *= angle * radius * radius;
+}
+
 struct vec3 *sun_sky_create(uint32_t width, uint32_t height,
                             double sun_elevation_deg, double turbidity,
                             struct pool *pool, struct error *err)
@@ -176,7 +124,9 @@ struct vec3 *sun_sky_create(uint32_t width, uint32_t height,
         .sun_cos = cos(angle_rad(sun_elevation_deg)),
     };
 
-    assert(width == 2 * height && height % 2 == 0);
+    double sun[3];
+
+    assert(width % 2 == 0 && height % 2 == 0);
     if (p.texels == NULL) {
         fail(err, "out of memory for a sky of %ux%u", width, height);
         return NULL;
@@ -184,8 +134,8 @@ struct vec3 *sun_sky_create(uint32_t width, uint32_t height,
     if (!(sun_elevation_deg > 0))
         return p.texels;
     daylight_init(&p.sky, sun_elevation_deg, turbidity);
-    place_sun(&p, sun_elevation_deg, turbidity);
+    sun_irradiance(sun_elevation_deg, turbidity, sun);
     pool_each(pool, height / 2, paint_row, &p);
-    paint_ground(&p);
+    paint_ground(&p, sun);
     return p.texels;
 }

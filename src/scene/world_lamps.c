@@ -9,6 +9,8 @@
 #include "base/geometry.h"
 #include "base/memory.h"
 #include "picture/color.h"
+#include "light/daylight.h"
+#include "light/sun_sky.h"
 
 /* Least radius of a sphere, and greatest distance of any lamp, in normalised
  * units. Squares of both are normal floats; smaller spheres are points. */
@@ -99,6 +101,18 @@ static struct directional_light make_directional(double azimuth_deg,
     };
 }
 
+/* Makes the light of the view's sun, which is above the horizon. */
+static struct directional_light make_sun(const struct lighting *l)
+{
+    double irradiance[3];
+
+    sun_irradiance(l->sun.elevation_deg, l->sun.turbidity, irradiance);
+    for (int i = 0; i < 3; i++)
+        irradiance[i] *= l->sky_strength;
+    return make_directional(l->sun.azimuth_deg, l->sun.elevation_deg,
+                            2 * SUN_RADIUS_DEG, irradiance);
+}
+
 /* Counts and arrays that a view needs. */
 struct made {
     struct point_light *points;
@@ -109,8 +123,11 @@ struct made {
 static bool make_lamps(const struct scene *scene, const struct view *view,
                        struct made *m)
 {
+    const struct sun *sun = &view->lighting.sun;
+
     m->points = alloc_array(view->lamps.count, sizeof *m->points);
-    m->directions = alloc_array(view->lamps.count, sizeof *m->directions);
+    m->directions =
+        alloc_array((size_t)view->lamps.count + 1, sizeof *m->directions);
     if (m->points == NULL || m->directions == NULL)
         return false;
     for (uint32_t i = 0; i < view->lamps.count; i++) {
@@ -125,6 +142,8 @@ static bool make_lamps(const struct scene *scene, const struct view *view,
         else
             m->points[m->point_count++] = make_point(scene, lamp);
     }
+    if (sun->is_on && sun->elevation_deg > 0 && view->lighting.sky_strength > 0)
+        m->directions[m->direction_count++] = make_sun(&view->lighting);
     return true;
 }
 

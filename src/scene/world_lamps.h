@@ -13,8 +13,8 @@
 #include "scene/world.h"
 
 /* Sets the point lights and directional lights of a world to those of the view,
- * and builds the light tree if point lights have changed. Lamps without light
- * are left out. */
+ * of which its sun is one, and builds the light tree if point lights have
+ * changed. Lamps without light are left out. */
 bool world_set_lamps(struct host_world *host, const struct scene *scene,
                      const struct view *view, struct error *err);
 
