@@ -361,6 +361,25 @@ static void surfaces_hide_points(void **state)
     }
 }
 
+/* A sphere behind a screen is not seen. */
+static void surfaces_hide_spheres(void **state)
+{
+    struct point_light l = point_at(v3(0, 1, 0), 2);
+    struct lit_mesh s;
+
+    (void)state;
+    l.radius = 0.3f;
+    open_receiver(&s, &receivers[0]);
+    s.mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, 0);
+    mesh_add_quad(&s.mesh, v3(-1, 0.5f, -1), v3(1, 0.5f, -1), v3(1, 0.5f, 1),
+                  v3(-1, 0.5f, 1), 0);
+    set_points(&s, &l, 1);
+    lit_mesh_finish(&s);
+    check_claim(
+        &s, ((struct claim){.eye = {0, 0.1f, 0}, .at = {0, 1, 0}, .paths = 4}));
+    lit_mesh_free(&s);
+}
+
 /* In a closed box the walls absorb the power of the light, 4 pi I: the mean of
  * the radiance over the walls is known without that of any place. */
 static void boxes_absorb_the_power(void **state)
@@ -455,6 +474,7 @@ int main(void)
         cmocka_unit_test(directions_obey_the_cosine),
         cmocka_unit_test(all_kinds_add_up),
         cmocka_unit_test(surfaces_hide_points),
+        cmocka_unit_test(surfaces_hide_spheres),
         cmocka_unit_test(boxes_absorb_the_power),
         cmocka_unit_test(extreme_lights_are_finite),
     };
