@@ -134,6 +134,9 @@ static bool is_now(const struct edit *e, const struct edit_step *s)
     case STEP_DUPLICATE: return s->value.is_there == now->is_there[s->index];
     case STEP_LIGHTING:
         return lighting_equal(&s->value.lighting, &view->lighting);
+    case STEP_LAMP:
+        return memcmp(s->value.rgb, view->lamps.items[s->index].rgb,
+                      sizeof s->value.rgb) == 0;
     case STEP_POSE: return is_same_pose(&s->value.pose, &view->pose);
     case STEP_SHOT:
         return s->value.shot.is_there == view->has_shot[s->index] &&
@@ -181,6 +184,11 @@ static void exchange(struct edit *e, struct edit_step *s)
         break;
     case STEP_LIGHTING:
         must_render = exchange_lighting(e, &s->value.lighting);
+        break;
+    case STEP_LAMP:
+        for (int i = 0; i < 3; i++)
+            EXCHANGE(double, &view->lamps.items[s->index].rgb[i],
+                     &s->value.rgb[i]);
         break;
     case STEP_POSE: EXCHANGE(struct pose, &view->pose, &s->value.pose); break;
     case STEP_SHOT:
@@ -244,6 +252,16 @@ void edit_lighting(struct edit *e, const struct lighting *lighting)
 {
     struct edit_step step = {.kind = STEP_LIGHTING,
                              .value.lighting = with_own_path(e, lighting)};
+
+    if (!is_now(e, &step))
+        change(e, step);
+}
+
+void edit_lamp(struct edit *e, uint32_t number, const double rgb[3])
+{
+    struct edit_step step = {.kind = STEP_LAMP,
+                             .index = number,
+                             .value.rgb = {rgb[0], rgb[1], rgb[2]}};
 
     if (!is_now(e, &step))
         change(e, step);
@@ -330,6 +348,7 @@ static const char *name_step(struct edit *e, const struct edit_step *s)
     case STEP_DUPLICATE:
         snprintf(text, size, "copy %.60s", e->names[s->index]);
         break;
+    case STEP_LAMP:
     case STEP_LIGHTING: snprintf(text, size, "light"); break;
     case STEP_POSE: snprintf(text, size, "camera"); break;
     case STEP_SHOT: snprintf(text, size, "view %d", (int)s->index + 1); break;

@@ -3,10 +3,10 @@
  * edit.h - the editable state of an open scene, with undo and redo
  *
  * The state has the values of materials, the assignment of materials to
- * objects, duplicated materials, light, exposure and tone, the camera, and
- * numbered views. It exists only here, and every change is made by a function
- * of this file. Changes without edit_end_step() between them are one step: the
- * whole motion of a slider or of a held key is undone at once.
+ * objects, duplicated materials, light, lamps, exposure and tone, the camera,
+ * and numbered views. It exists only here, and every change is made by a
+ * function of this file. Changes without edit_end_step() between them are one
+ * step: the whole motion of a slider or of a held key is undone at once.
  *
  * Units:     those of MTL and view files
  * Ownership: edit_free() frees; scene and view are copied
@@ -65,6 +65,7 @@ void edit_material(struct edit *edit, uint32_t material,
                    const struct mtl_source *source);
 void edit_assign(struct edit *edit, uint32_t object, uint32_t material);
 void edit_lighting(struct edit *edit, const struct lighting *lighting);
+void edit_lamp(struct edit *edit, uint32_t number, const double rgb[3]);
 void edit_pose(struct edit *edit, const struct pose *pose);
 
 /* Stores the current camera as a numbered view, from 0. */
@@ -96,7 +97,8 @@ struct view edit_view(const struct edit *edit);
 /* Returns true if the material is saved as it is. */
 bool edit_is_saved(const struct edit *edit, uint32_t material);
 
-/* Return true if a material, or an assignment or the light, is not saved. */
+/* Return true if a material, or an assignment, a lamp or the light, is not
+ * saved. */
 bool edit_has_unsaved_materials(const struct edit *edit);
 bool edit_has_unsaved_view(const struct edit *edit);
 
@@ -110,12 +112,12 @@ bool edit_simplify_material(struct edit *edit, uint32_t material,
  * comparison. */
 void edit_saved_material(struct edit *edit, uint32_t material);
 
-/* Copies the current light and assignments into a view. */
+/* Copies the current light, lamps and assignments into a view. */
 void edit_to_view(const struct edit *edit, const struct scene *scene,
                   struct view *view);
 
-/* Mark light and assignments of the written view, which are the current ones,
- * or all of that view, as saved. */
+/* Mark light, lamps and assignments of the written view, which are the current
+ * ones, or all of that view, as saved. */
 void edit_saved_lighting(struct edit *edit, const struct view *written);
 void edit_saved_view(struct edit *edit, const struct view *written);
 

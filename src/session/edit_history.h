@@ -27,6 +27,7 @@ enum edit_step_kind {
     STEP_ASSIGN,
     STEP_DUPLICATE,
     STEP_LIGHTING,
+    STEP_LAMP,
     STEP_POSE,
     STEP_SHOT
 };
@@ -39,7 +40,7 @@ struct edit_shot {
 
 struct edit_step {
     enum edit_step_kind kind;
-    uint32_t index; /* of the material, object or numbered view */
+    uint32_t index; /* of the material, object, lamp or numbered view */
     uint32_t group;
     union {
         struct mtl_source *source; /* the step's own; it is larger than other
@@ -47,6 +48,7 @@ struct edit_step {
         uint32_t material;
         bool is_there;
         struct lighting lighting; /* its sky_path is borrowed from the edit */
+        double rgb[3];            /* of a lamp */
         struct pose pose;
         struct edit_shot shot;
     } value;

@@ -154,7 +154,7 @@ static const char *label_of(const struct owner *o, int part)
         {NULL, "hue", "saturation", "value"},
     };
 
-    return part == 0 ? o->row->label : labels[o->target->by_hsv][part];
+    return part == 0 ? parameter_label(o) : labels[o->target->by_hsv][part];
 }
 
 static struct parameter describe(const struct owner *o, const struct value *v,
@@ -193,14 +193,12 @@ int parameters_list(const struct parameter_target *t,
                     struct parameter list[PARAMETERS_MAX])
 {
     struct owner o = parameter_owner(t, edit_shown(t->edit));
-    int row_count, count = 0;
-    const struct parameter_row *rows = parameter_table(t->page, &row_count);
+    int count = 0;
 
-    for (int i = 0; i < row_count; i++) {
+    for (int i = 0; parameter_choose_row(&o, i); i++) {
         struct value v;
-        int parts = rows[i].type == VALUE_COLOR ? PARTS : 1;
+        int parts = o.row->type == VALUE_COLOR ? PARTS : 1;
 
-        o.row = &rows[i];
         if (!parameter_read(&o, &v))
             continue;
         for (int part = 0; part < parts; part++) {
@@ -219,9 +217,8 @@ static struct owner open_parameter(const struct parameter_target *t, int id,
                                    struct value *v)
 {
     struct owner o = parameter_owner(t, &t->edit->now);
-    int count;
 
-    o.row = &parameter_table(t->page, &count)[id / PARTS];
+    parameter_choose_row(&o, id / PARTS);
     parameter_read(&o, v);
     return o;
 }
@@ -236,7 +233,12 @@ static void take_change(struct owner *o, const struct value *v)
         edit_material(t->edit, t->index, &o->source);
         break;
     case PARAMETER_OBJECT: edit_assign(t->edit, t->index, o->assigned); break;
-    case PARAMETER_LIGHT: edit_lighting(t->edit, &o->lighting); break;
+    case PARAMETER_LIGHT:
+        if (o->lamp_number != NO_INDEX)
+            edit_lamp(t->edit, o->lamp_number, o->lamp.rgb);
+        else
+            edit_lighting(t->edit, &o->lighting);
+        break;
     }
 }
 

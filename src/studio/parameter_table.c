@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "studio/parameter_table.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/decimal.h"
@@ -177,6 +178,52 @@ static void set_background(struct owner *o, const struct value *v)
     o->lighting.has_background = true;
 }
 
+/* ---- lamps ---- */
+
+/* Lamps that are listed at most, so that PARAMETERS_MAX is enough. */
+#define LAMPS_LISTED 8
+
+static double strongest(const double rgb[3])
+{
+    return fmax(rgb[0], fmax(rgb[1], rgb[2]));
+}
+
+static bool get_strength(const struct owner *o, struct value *v)
+{
+    v->number = strongest(o->lamp.rgb);
+    return true;
+}
+
+/* Reads the colour of a lamp with a largest channel of 1, white if it is off.
+ */
+static bool get_lamp_color(const struct owner *o, struct value *v)
+{
+    double most = strongest(o->lamp.rgb);
+
+    for (int i = 0; i < 3; i++)
+        v->rgb[i] = most > 0 ? o->lamp.rgb[i] / most : 1;
+    return true;
+}
+
+/* Changes the colour and keeps the strength. */
+static void set_lamp_color(struct owner *o, const struct value *v)
+{
+    double strength = strongest(o->lamp.rgb), most = strongest(v->rgb);
+
+    for (int i = 0; i < 3; i++)
+        o->lamp.rgb[i] =
+            most > 0 ? decimal_shortened(v->rgb[i] / most * strength) : 0;
+}
+
+static void set_strength(struct owner *o, const struct value *v)
+{
+    struct value color = {.number = 0};
+
+    get_lamp_color(o, &color);
+    for (int i = 0; i < 3; i++)
+        o->lamp.rgb[i] = decimal_shortened(color.rgb[i] * v->number);
+}
+
 /* ---- table ---- */
 
 #define LIGHTING(name)                        \
@@ -212,6 +259,14 @@ static const struct parameter_row light_rows[] = {
      .expected = "linear, reinhard or aces"},
 };
 
+/* Rows of each lamp. */
+static const struct parameter_row lamp_rows[] = {
+    {NULL, ALL, VALUE_COLOR, &scale_unit, .get = get_lamp_color,
+     .set = set_lamp_color},
+    {"strength", ALL, VALUE_NUMBER, &scale_emission, .get = get_strength,
+     .set = set_strength},
+};
+
 #define COUNT(rows) ((int)(sizeof rows / sizeof rows[0]))
 
 static const struct {
@@ -223,11 +278,35 @@ static const struct {
     [PARAMETER_LIGHT] = {light_rows, COUNT(light_rows)},
 };
 
-const struct parameter_row *parameter_table(enum parameter_page page,
-                                            int *count)
+bool parameter_choose_row(struct owner *o, int i)
 {
-    *count = tables[page].count;
-    return tables[page].rows;
+    enum parameter_page page = o->target->page;
+    int of_lamps = i - tables[page].count;
+
+    o->lamp_number = NO_INDEX;
+    if (of_lamps < 0) {
+        o->row = &tables[page].rows[i];
+        return true;
+    }
+    if (o->lamps == NULL ||
+        of_lamps / COUNT(lamp_rows) >= (int)o->lamps->count ||
+        of_lamps / COUNT(lamp_rows) >= LAMPS_LISTED)
+        return false;
+    o->row = &lamp_rows[of_lamps % COUNT(lamp_rows)];
+    o->lamp_number = (uint32_t)(of_lamps / COUNT(lamp_rows));
+    o->lamp = o->lamps->items[o->lamp_number];
+    return true;
+}
+
+const char *parameter_label(const struct owner *o)
+{
+    static const char *const kinds[LAMP_KINDS] = {
+        [LAMP_POINT] = "point",
+        [LAMP_SPOT] = "spot",
+        [LAMP_DIRECTIONAL] = "direction",
+    };
+
+    return o->row->label != NULL ? o->row->label : kinds[o->lamp.kind];
 }
 
 struct owner parameter_owner(const struct parameter_target *t,
@@ -242,6 +321,7 @@ struct owner parameter_owner(const struct parameter_target *t,
     case PARAMETER_OBJECT: o.assigned = state->assigned[t->index]; break;
     case PARAMETER_LIGHT:
         o.lighting = state->view.lighting;
+        o.lamps = &state->view.lamps;
         o.kind = o.lighting.sun.is_on          ? SKY_SUN
                  : o.lighting.sky_path != NULL ? SKY_IMAGE
                                                : SKY_CONSTANT;

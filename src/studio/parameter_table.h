@@ -51,10 +51,13 @@ enum sky_kind { SKY_CONSTANT, SKY_IMAGE, SKY_SUN };
 struct owner {
     const struct parameter_target *target;
     const struct parameter_row *row;
-    struct mtl_source source; /* statements of a material */
-    struct material material; /* material made from them */
-    uint32_t assigned;        /* material of an object, or NO_INDEX */
-    struct lighting lighting; /* values of the light; sky_path is lent */
+    struct mtl_source source;  /* statements of a material */
+    struct material material;  /* material made from them */
+    uint32_t assigned;         /* material of an object, or NO_INDEX */
+    struct lighting lighting;  /* values of the light; sky_path is lent */
+    const struct lamps *lamps; /* all lamps of the light, lent */
+    uint32_t lamp_number;      /* of the row's lamp; NO_INDEX: none */
+    struct lamp lamp;
     uint32_t kind; /* enum material_kind; for the light enum sky_kind */
 };
 
@@ -76,8 +79,8 @@ struct value {
 #define ALL 0xffffffffu
 
 struct parameter_row {
-    const char *label;
-    uint32_t kinds; /* bits 1 << owner.kind of the owners that have it */
+    const char *label; /* NULL: the kind of the lamp */
+    uint32_t kinds;    /* bits 1 << owner.kind of the owners that have it */
     enum value_type type;
     const struct value_scale *scale; /* of the number, channels or kelvins */
 
@@ -103,9 +106,12 @@ struct parameter_row {
 #define CHOICES(array) \
     .names = array, .name_count = sizeof array / sizeof array[0]
 
-/* Returns the rows of a page. */
-const struct parameter_row *parameter_table(enum parameter_page page,
-                                            int *count);
+/* Sets owner->row to row i of its page: the table's, and for the light those of
+ * each lamp. Returns false behind the last. */
+bool parameter_choose_row(struct owner *owner, int i);
+
+/* Returns the label of owner->row. */
+const char *parameter_label(const struct owner *owner);
 
 /* Copies the values of the target from a state of the edit. */
 struct owner parameter_owner(const struct parameter_target *target,

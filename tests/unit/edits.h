@@ -43,9 +43,12 @@ static inline int close_scene(void **state)
 
 static inline void open_edit(struct edit *e)
 {
+    struct lamp lamp;
     struct view view;
 
     view_init(&view);
+    lamp_init(&lamp, LAMP_POINT);
+    xcheck(lamps_add(&view.lamps, &lamp));
     edit_init(e, &scene, &view, &report);
     view_free(&view);
 }

@@ -17,6 +17,7 @@ struct snapshot {
     bool is_there[MATERIALS_MAX];
     uint32_t assigned[8];
     struct lighting light;
+    struct lamp lamp;
     const char *sky; /* one of `skies` */
     struct pose pose, shots[VIEW_SHOTS];
     bool has_shot[VIEW_SHOTS];
@@ -45,6 +46,7 @@ static void take(struct snapshot *s, const struct edit *e,
     }
     memcpy(s->assigned, shown->assigned, e->object_count * sizeof *s->assigned);
     s->light = shown->view.lighting;
+    s->lamp = shown->view.lamps.items[0];
     s->sky = sky_of(&s->light);
     s->light.sky_path = NULL;
     s->pose = e->now.view.pose;
@@ -75,6 +77,7 @@ static bool is_same(const struct snapshot *a, const struct snapshot *b)
 {
     return has_same_sources(a, b) && has_same_assigned(a, b) &&
            a->sky == b->sky && lighting_equal(&a->light, &b->light) &&
+           memcmp(&a->lamp, &b->lamp, sizeof a->lamp) == 0 &&
            memcmp(&a->pose, &b->pose, sizeof a->pose) == 0 &&
            memcmp(a->shots, b->shots, sizeof a->shots) == 0 &&
            memcmp(a->has_shot, b->has_shot, sizeof a->has_shot) == 0;
@@ -97,6 +100,7 @@ static bool is_same_picture(const struct edit *e, const struct snapshot *a,
         if (!mtl_source_equal(&a->sources[i], &b->sources[i]))
             return false;
     return a->sky == b->sky && lighting_is_same_light(&a->light, &b->light) &&
+           memcmp(&a->lamp, &b->lamp, sizeof a->lamp) == 0 &&
            memcmp(&a->pose, &b->pose, sizeof a->pose) == 0;
 }
 
@@ -139,11 +143,12 @@ static void change_anything(struct edit *e, char *name, char *thing)
 {
     uint32_t m = any_material(e), object = random_below(e->object_count);
     struct lighting light = e->now.view.lighting;
+    struct lamp lamp = e->now.view.lamps.items[0];
     uint32_t number = random_below(3);
 
     strcpy(name, "light");
     strcpy(thing, "light");
-    switch (random_below(9)) {
+    switch (random_below(10)) {
     case 0:
     case 1:
         sprintf(name, "material %s", e->names[m]);
@@ -178,6 +183,11 @@ static void change_anything(struct edit *e, char *name, char *thing)
         sprintf(name, "view %u", number + 1);
         strcpy(thing, name);
         edit_shot(e, number);
+        break;
+    case 9:
+        strcpy(thing, "lamp");
+        lamp.rgb[1] = value();
+        edit_lamp(e, 0, lamp.rgb);
         break;
     }
 }

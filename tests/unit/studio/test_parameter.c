@@ -255,6 +255,12 @@ static void open_fixture(struct fixture *s)
     put("k.mtl", "newmtl m\nKd .5 .25 .125\nmap_Kd no.png\nnewmtl n\n"
                  "Ke_blackbody 3000 4\n");
     view_init(&s->view);
+    for (int i = 0; i < LAMP_KINDS; i++) {
+        struct lamp lamp;
+
+        lamp_init(&lamp, (enum lamp_kind)i);
+        assert_true(lamps_add(&s->view.lamps, &lamp));
+    }
     check_or_say(scene_load(&s->scene, "k.obj", false, &s->report, &err),
                  err.text);
     edit_init(&s->edit, &s->scene, &s->view, &s->report);
@@ -447,6 +453,69 @@ static void typed_values_reach_the_material(void **state)
     close_fixture(&s);
 }
 
+/* Types a value for a parameter of the light. */
+static void type(struct fixture *s, const char *label, const char *text)
+{
+    struct parameter_target target = target_of(s, PARAMETER_LIGHT, 0, false);
+    struct parameter list[PARAMETERS_MAX];
+    int count = parameters_list(&target, list);
+    struct error err;
+
+    check_or_say(parameter_set_text(&target, find(list, count, label)->id, text,
+                                    &err),
+                 err.text);
+}
+
+static void check_rgb(const double got[3], double r, double g, double b)
+{
+    check_close(got[0], r, 1e-3 * r);
+    check_close(got[1], g, 1e-3 * g);
+    check_close(got[2], b, 1e-3 * b);
+}
+
+/* A colour keeps the strength, and a strength the colour, of its own lamp. */
+static void typed_values_reach_the_lamp(void **state)
+{
+    struct fixture s;
+    const struct lamp *lamps;
+
+    (void)state;
+    open_fixture(&s);
+    lamps = s.edit.now.view.lamps.items;
+    type(&s, "strength", "40"); /* the first one is the point's */
+    type(&s, "point", "1 .5 .25");
+    check_rgb(lamps[LAMP_POINT].rgb, 40, 20, 10);
+    type(&s, "spot", "#0000ff");
+    check_rgb(lamps[LAMP_SPOT].rgb, 0, 0, 1);
+    type(&s, "direction", "0.5 0.25 0");
+    check_rgb(lamps[LAMP_DIRECTIONAL].rgb, 1, 0.5, 0);
+    check_rgb(lamps[LAMP_POINT].rgb, 40, 20, 10);
+    assert_true(edit_has_unsaved_view(&s.edit));
+    for (int i = 0; i < 4; i++) {
+        edit_end_step(&s.edit);
+        edit_undo(&s.edit);
+    }
+    assert_true(lamps_equal(&s.edit.now.view.lamps, &s.view.lamps));
+    close_fixture(&s);
+}
+
+/* More lamps than the list can hold are left out. */
+static void many_lamps_fit_the_list(void **state)
+{
+    struct parameter list[PARAMETERS_MAX];
+    struct parameter_target target;
+    struct fixture s;
+
+    (void)state;
+    open_fixture(&s);
+    for (int i = 0; i < 100; i++)
+        assert_true(
+            lamps_add(&s.edit.now.view.lamps, &s.view.lamps.items[i % 3]));
+    target = target_of(&s, PARAMETER_LIGHT, 0, false);
+    assert_in_range(parameters_list(&target, list), 40, PARAMETERS_MAX);
+    close_fixture(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -457,6 +526,8 @@ int main(void)
         cmocka_unit_test(choices_are_cyclic),
         cmocka_unit_test(texts_can_be_typed),
         cmocka_unit_test(typed_values_reach_the_material),
+        cmocka_unit_test(typed_values_reach_the_lamp),
+        cmocka_unit_test(many_lamps_fit_the_list),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
