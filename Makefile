@@ -349,7 +349,7 @@ bench-cycles: $(B)/glim
 		ROUNDS)),3,$(ROUNDS)) tests/bench/cycles/run.sh
 
 ## stress: runs checks at numerical limits, and others that take minutes;
-##         FILTER=NAME selects one: samples geometry light error filter
+##         FILTER=NAME selects one: samples geometry light error filter blender
 ##         extremes sizes keys rays oclgrind valgrind
 stress: $(B)/glim $(STRESSES) $(B)/unit/terminal/test_tty
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh

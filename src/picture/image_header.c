@@ -6,6 +6,7 @@
 
 #include "picture/image_gif.h"
 #include "picture/image_pnm.h"
+#include "picture/image_psd.h"
 #include "picture/stb.h"
 
 /* Memory of a decoder for tables and rounding, without its pixels. */
@@ -318,6 +319,7 @@ bool image_header(struct image_file *f, struct error *err)
     f->kind = is_png(b)         ? IMAGE_PNG
               : image_pnm_is(f) ? IMAGE_PNM
               : image_gif_is(f) ? IMAGE_GIF
+              : image_psd_is(f) ? IMAGE_PSD
               : is_bmp(b)       ? IMAGE_BMP
               : is_jpeg(b)      ? IMAGE_JPEG
               : is_tga(b)       ? IMAGE_TGA
@@ -329,10 +331,11 @@ bool image_header(struct image_file *f, struct error *err)
     case IMAGE_TGA: return tga_header(f, err);
     case IMAGE_PNM: return image_pnm_header(f, err) && own_decoder(f);
     case IMAGE_GIF: return image_gif_header(f, err) && own_decoder(f);
+    case IMAGE_PSD: return image_psd_header(f, err) && own_decoder(f);
     default: break;
     }
     return fail(err,
                 "%s: found no image that can be read, expected PNG, JPEG, BMP, "
-                "TGA, PNM, GIF, Radiance HDR or PFM",
+                "TGA, PNM, GIF, PSD, Radiance HDR or PFM",
                 f->path);
 }

@@ -12,6 +12,7 @@
 #include "picture/image_gif.h"
 #include "picture/image_header.h"
 #include "picture/image_pnm.h"
+#include "picture/image_psd.h"
 #include "picture/stb.h"
 
 #include "kernels/tone.h"
@@ -38,7 +39,7 @@ static bool is_float(const struct image_file *f)
 /* True for the kinds of 8 bits a channel that stb_image does not decode. */
 static bool is_own(const struct image_file *f)
 {
-    return f->kind == IMAGE_PNM || f->kind == IMAGE_GIF;
+    return f->kind == IMAGE_PNM || f->kind == IMAGE_GIF || f->kind == IMAGE_PSD;
 }
 
 /* ---- opening ---- */
@@ -154,8 +155,11 @@ static void *expect_pixels(const struct image_file *f, void *pixels, int width,
 
 static uint8_t *decode_own(const struct image_file *f, struct error *err)
 {
-    return f->kind == IMAGE_GIF ? image_gif_decode(f, err)
-                                : image_pnm_decode(f, err);
+    switch (f->kind) {
+    case IMAGE_GIF: return image_gif_decode(f, err);
+    case IMAGE_PSD: return image_psd_decode(f, err);
+    default: return image_pnm_decode(f, err);
+    }
 }
 
 /* Returns linear floats of an image of our own decoders. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
  * image_read.h - reads image files: PNG, JPEG, BMP and TGA through stb_image,
- * PNM, GIF, PFM and Radiance HDR by our own code
+ * PNM, GIF, PSD, PFM and Radiance HDR by our own code
  *
  * image_open() reads the header and finds the number of pixels and the memory
  * that they take. It fails if the file is too short for them or if there is not
@@ -33,6 +33,7 @@ enum image_kind {
     IMAGE_JPEG,
     IMAGE_BMP,
     IMAGE_TGA,
+    IMAGE_PSD,
     IMAGE_PNM,
     IMAGE_GIF,
     IMAGE_HDR,

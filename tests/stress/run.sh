@@ -75,22 +75,40 @@ stress_valgrind() {
     done
 }
 
-# Runs a program of rows and counts them. An exit status other than 0, or 1 for
-# failed rows, counts as one more failure.
-rows() { # PROGRAM [ARGUMENT]
-    echo "-- $*"
-    program=$1
+# Runs a command that prints rows and counts them. An exit status other than 0,
+# or 1 for failed rows, counts as one more failure.
+count_rows() { # NAME COMMAND...
+    name=$1
     shift
-    "$build/stress/$program" "$@" >"$work/rows"
+    echo "-- $name"
+    "$@" >"$work/rows"
     status=$?
-    cat "$work/rows"
+    grep -E '^(ok|FAIL|skip|--) ' "$work/rows"
     passed=$((passed + $(grep -c '^ok ' "$work/rows")))
     bad=$(grep -c '^FAIL ' "$work/rows")
     if [ "$status" -gt 1 ] || [ "$status" != 0 ] && [ "$bad" = 0 ]; then
-        echo "FAIL $program: ended with status $status"
+        echo "FAIL $name: ended with status $status"
         bad=$((bad + 1))
     fi
     failed=$((failed + bad))
+}
+
+rows() { # PROGRAM [ARGUMENT]
+    program=$1
+    shift
+    count_rows "$program${1:+ $1}" "$build/stress/$program" "$@"
+}
+
+# Compares materials with Blender's own pictures of them: the installed Blender,
+# and the Python that PEER names if it has Blender as a module.
+stress_blender() {
+    script=tests/stress/blender.py
+    mkdir "$work/blender"
+    missing blender 'the comparison with Blender' ||
+        count_rows blender blender -b --factory-startup -P $script -- \
+            "$build/glim" "$work/blender"
+    [ -n "${PEER:-}" ] || return
+    count_rows "$PEER" "$PEER" $script -- "$build/glim" "$work/blender"
 }
 
 stress_rays() {
@@ -180,7 +198,7 @@ stress_extremes() {
     rows extremes
 }
 
-for name in samples geometry light error filter extremes sizes keys rays oclgrind valgrind; do
+for name in samples geometry light error filter blender extremes sizes keys rays oclgrind valgrind; do
     if wanted "$name"; then
         "stress_$name"
     fi

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_image_kinds.c - PNM and GIF files have the pixels that their
+ * test_image_kinds.c - PNM, GIF and PSD files have the pixels that their
  * specifications give them, and broken ones their message
  *
  * The GIF file is the example of M. Flickinger's "What's In A GIF", which
@@ -171,6 +171,107 @@ static void broken_files_have_their_message(void **state)
           "a.img: found 10 bytes, expected more for 16383x16383 pixels");
 }
 
+/* ---- PSD ---- */
+
+/* Header of a file of 3 x 2 pixels with 3 channels and empty parts. */
+enum {
+    PSD_CHANNELS = 13,
+    PSD_DEPTH = 23,
+    PSD_MODE = 25,
+    PSD_PACKED = 39,
+    PSD_HEADER = 40
+};
+
+static size_t put_psd_header(uint8_t *to)
+{
+    static const uint8_t header[PSD_HEADER] = {'8', 'B', 'P', 'S', 0, 1, 0,
+                                               0,   0,   0,   0,   0, 0, 3,
+                                               0,   0,   0,   2,   0, 0, 0,
+                                               3,   0,   8,   0,   3};
+
+    memcpy(to, header, sizeof header);
+    return sizeof header;
+}
+
+/* Pixel i has the red 10 i, the green 10 i + 1 and the blue 10 i + 2. */
+static void check_psd(const void *bytes, size_t size_bytes)
+{
+    struct image image = read_image(bytes, size_bytes);
+
+    assert_int_equal(image.width, 3);
+    assert_int_equal(image.height, 2);
+    for (int i = 0; i < 6; i++)
+        for (int c = 0; c < 4; c++)
+            assert_int_equal(image.rgba[4 * i + c], c == 3 ? 255 : 10 * i + c);
+    image_free(&image);
+}
+
+static void psd_has_its_pixels(void **state)
+{
+    uint8_t bytes[128];
+    size_t size = put_psd_header(bytes);
+
+    (void)state;
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < 6; i++)
+            bytes[size++] = (uint8_t)(10 * i + c);
+    check_psd(bytes, size);
+    size = put_psd_header(bytes);
+    bytes[PSD_PACKED] = 1;
+    for (int row = 0; row < 6; row++) { /* lengths of the rows */
+        bytes[size++] = 0;
+        bytes[size++] = 4;
+    }
+    for (int c = 0; c < 3; c++)
+        for (int y = 0; y < 2; y++) {
+            bytes[size++] = 2; /* three bytes follow */
+            for (int x = 0; x < 3; x++)
+                bytes[size++] = (uint8_t)(10 * (3 * y + x) + c);
+        }
+    check_psd(bytes, size);
+}
+
+/* Colours are mixed with white: half of red at half of alpha, or nearly. */
+static void psd_loses_the_white(void **state)
+{
+    uint8_t bytes[PSD_HEADER + 4 * 6 * 2] = {0};
+    struct image image;
+
+    (void)state;
+    put_psd_header(bytes);
+    bytes[PSD_CHANNELS] = 4;
+    bytes[PSD_DEPTH] = 16;
+    for (int c = 0; c < 4; c++)
+        for (int i = 0; i < 6; i++)
+            bytes[PSD_HEADER + 2 * (6 * c + i)] = c == 0   ? 255
+                                                  : c == 3 ? 128
+                                                           : 127;
+    image = read_image(bytes, sizeof bytes);
+    assert_int_equal(image.rgba[0], 255);
+    assert_int_equal(image.rgba[1], 0);
+    assert_int_equal(image.rgba[2], 0);
+    assert_int_equal(image.rgba[3], 128);
+    image_free(&image);
+}
+
+static void broken_psd_has_a_message(void **state)
+{
+    static const char another_kind[] =
+        "a.img: found a PSD file of another kind, expected red, green and blue "
+        "of 8 or 16 bits";
+    uint8_t bytes[PSD_HEADER + 18] = {0};
+
+    (void)state;
+    put_psd_header(bytes);
+    fails(bytes, sizeof bytes - 1,
+          "a.img: found 57 bytes, expected more for 3x2 pixels");
+    bytes[PSD_MODE] = 4; /* cyan, magenta, yellow and black */
+    fails(bytes, sizeof bytes, another_kind);
+    bytes[PSD_MODE] = 3;
+    bytes[PSD_CHANNELS] = 0;
+    fails(bytes, sizeof bytes, another_kind);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -179,6 +280,9 @@ int main(void)
         cmocka_unit_test(pnm_has_the_values_of_the_file),
         cmocka_unit_test(linear_values_are_decoded),
         cmocka_unit_test(broken_files_have_their_message),
+        cmocka_unit_test(psd_has_its_pixels),
+        cmocka_unit_test(psd_loses_the_white),
+        cmocka_unit_test(broken_psd_has_a_message),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
