@@ -40,8 +40,13 @@ static inline bool bsdf_is_principled(const struct bsdf *m)
 static inline bool bsdf_is_solid(const struct bsdf *m)
 {
     if (bsdf_is_principled(m))
-        return m->transmission > 0.0f;
+        return m->transmission > 0.0f && m->is_thin == 0;
     return HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS;
+}
+
+static inline bool is_thin_glass(const struct bsdf *m)
+{
+    return HAS(FEATURE_GLASS) && m->kind == MATERIAL_THIN_GLASS;
 }
 
 /* True if all lobes are deltas: f is zero for any light sample. */
@@ -55,14 +60,15 @@ static inline bool bsdf_is_delta(const struct bsdf *m)
         return is_smooth(m) || glass_is_index_matched(m);
     if (HAS(FEATURE_PLASTIC) && m->kind == MATERIAL_PLASTIC)
         return is_smooth(m) && v3_is_zero(m->color);
-    return HAS(FEATURE_GLASS) && m->kind == MATERIAL_THIN_GLASS;
+    return is_thin_glass(m) && is_smooth(m);
 }
 
 /* True if light goes through the surface. */
 static inline bool bsdf_is_glass(const struct bsdf *m)
 {
-    return bsdf_is_solid(m) ||
-           (HAS(FEATURE_GLASS) && m->kind == MATERIAL_THIN_GLASS);
+    if (bsdf_is_principled(m))
+        return m->transmission > 0.0f;
+    return bsdf_is_solid(m) || is_thin_glass(m);
 }
 
 /* True if f is not zero for directions below the surface. */
@@ -70,7 +76,7 @@ static inline bool bsdf_transmits(const struct bsdf *m)
 {
     if (bsdf_is_principled(m))
         return m->transmission > 0.0f && !principled_has_glass_delta(m);
-    return HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS && !bsdf_is_delta(m);
+    return bsdf_is_glass(m) && !bsdf_is_delta(m);
 }
 
 /* Returns f |cosine| without bsdf_eta_scale(); *pdf is the density of
@@ -85,6 +91,8 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
         return principled_terms(m, wo, wi, pdf);
     if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS)
         return glass_terms(m, wo, wi, pdf);
+    if (is_thin_glass(m))
+        return thin_terms(m, wo, wi, pdf);
     if (wi.z < 0.0f)
         return v3(0.0f, 0.0f, 0.0f);
     if (bsdf_is_lambert(m))
@@ -123,7 +131,7 @@ static inline bool bsdf_sample(const struct bsdf *m, struct vec3 wo,
         return plastic_sample(m, wo, u, choice, s);
     if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS)
         return glass_sample(m, wo, u, choice, s);
-    return thin_glass_sample(m, wo, choice, s);
+    return thin_sample(m, wo, u, choice, s);
 }
 
 #endif

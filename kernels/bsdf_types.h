@@ -23,11 +23,12 @@ struct bsdf {
     float metalness, transmission, coat, coat_alpha; /* principled.h */
     struct vec3 sheen;
     float sheen_alpha;
-    float anisotropy; /* of metal and plastic, 0 to 1 along x */
+    float anisotropy; /* of metal, plastic and sheets, 0 to 1 along x */
+    uint32_t is_thin; /* 1: the glass of a mixture is a thin sheet */
 };
 
-/* Returns the microfacets of metal and plastic. The widths have the ratio of
- * Burley 2012, "Physically based shading at Disney", B.1. */
+/* Returns the microfacets of metal, plastic and sheets. The widths have the
+ * ratio of Burley 2012, "Physically based shading at Disney", B.1. */
 static inline struct ggx bsdf_facets(const struct bsdf *m)
 {
     struct ggx g = {m->alpha, 1.0f};

@@ -4,8 +4,8 @@
  *
  * The albedo also depends on the azimuth of the direction. Its tables have the
  * roughness, the stretch, the width of the facets in the plane of the direction
- * and the cosine as axes, and are within 0.6 % of the loss and 1 % of Schlick's
- * part (0.04 % and 0.1 % in the mean). Directions are unit vectors.
+ * and the cosine as axes. They are within 0.6 % of the loss, and within 1 % of
+ * Schlick's part; 0.04 % and 0.1 % in the mean. Directions are unit vectors.
  *
  * Units:     local frame, z along the normal
  */
@@ -104,12 +104,12 @@ static inline struct ggx_albedo stretched_albedo_mean(struct ggx g)
     struct cubic_nodes a =
         cubic_nodes_around(energy_axis_alpha(g.alpha), STRETCHED_MEAN_NODES);
     struct cubic_nodes s = cubic_nodes_around(energy_axis_stretch(g.stretch),
-                                              STRETCHED_STRETCH_NODES);
+                                              STRETCHED_MEAN_STRETCH_NODES);
     struct ggx_albedo e = {0.0f, 0.0f};
 
     for (uint32_t i = 0; i < 16; i++) {
         uint32_t k =
-            (a.first + i / 4) * STRETCHED_STRETCH_NODES + s.first + i % 4;
+            (a.first + i / 4) * STRETCHED_MEAN_STRETCH_NODES + s.first + i % 4;
         float weight = a.w[i / 4] * s.w[i % 4];
 
         e.loss += weight * stretched_mean_losses[k];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * glass.h - solid glass, smooth and rough, and thin sheets
+ * glass.h - solid glass, smooth and rough
  *
  * Exact Fresnel; rough faces after Walter et al. 2007 with visible normals,
  * scaled so that single scattering keeps all light (Turquin 2019, for
@@ -123,19 +123,6 @@ static inline bool glass_sample(const struct bsdf *m, struct vec3 wo,
         return false;
     s->eta_scale = glass_eta_scale(m, wi);
     return true;
-}
-
-/* A sheet without thickness. All reflections between its two faces are summed:
- * R = 2 F / (1 + F). */
-static inline bool thin_glass_sample(const struct bsdf *m, struct vec3 wo,
-                                     float choice, struct bsdf_sample *s)
-{
-    float cos_t;
-    float f = fresnel_dielectric(wo.z, m->eta, &cos_t);
-
-    if (choice * (1.0f + f) < 2.0f * f)
-        return sample_delta(s, v3(-wo.x, -wo.y, wo.z), v3(1.0f, 1.0f, 1.0f));
-    return sample_delta(s, v3_neg(wo), m->color);
 }
 
 #endif

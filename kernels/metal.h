@@ -46,6 +46,14 @@ static inline float multiscatter_pdf(struct vec3 wi, float alpha)
     return b * (1.0f + b) / ((wi.z + b) * (wi.z + b)) * (0.5f / PI);
 }
 
+/* f |cosine| of the multiscatter lobe of white facets. loss_o: the loss of
+ * single scattering at wo. */
+static inline float multiscatter_f(struct vec3 wi, float loss_o, struct ggx g)
+{
+    return loss_o * facets_albedo(wi, g).loss / facets_albedo_mean(g).loss *
+           wi.z * (1.0f / PI);
+}
+
 /* Returns the light that single scattering loses, which is also the probability
  * to sample the multiscatter lobe. */
 static inline float metal_loss(const struct bsdf *m, struct vec3 wo)
@@ -59,16 +67,14 @@ static inline struct vec3 metal_terms(const struct bsdf *m, struct vec3 wo,
 {
     struct vec3 h = half_vector(wo, wi);
     struct ggx g = bsdf_facets(m);
-    float loss_i = facets_albedo(wi, g).loss;
     float loss_mean = facets_albedo_mean(g).loss;
     struct vec3 f = fresnel_schlick_mean(m->color);
     struct vec3 single = v3_scale(fresnel_schlick(m->color, v3_dot(wo, h)),
                                   ggx_reflection(wo, wi, h, g));
-    struct vec3 multiple =
-        v3_scale(v3(multiscatter_color(f.x, loss_mean),
-                    multiscatter_color(f.y, loss_mean),
-                    multiscatter_color(f.z, loss_mean)),
-                 loss_o * loss_i / loss_mean * wi.z * (1.0f / PI));
+    struct vec3 multiple = v3_scale(v3(multiscatter_color(f.x, loss_mean),
+                                       multiscatter_color(f.y, loss_mean),
+                                       multiscatter_color(f.z, loss_mean)),
+                                    multiscatter_f(wi, loss_o, g));
 
     *pdf = (1.0f - loss_o) * ggx_reflection_pdf(wo, h, g) +
            loss_o * multiscatter_pdf(wi, m->alpha);

@@ -3,12 +3,13 @@
  * principled.h - mixtures of metal, plastic and glass under a coat and sheen
  *
  * The base is metal by its metalness; the rest is glass by its transmission,
- * and plastic otherwise. Glass is tinted by the root of the colour at each
- * crossing, so that a pane has the colour. A coat of refractive index 1.5 lies
- * over the base, and sheen over both. What a layer reflects, E(wo), those below
- * lose: they are scaled by 1 - E(wo), as in the surfaces of other renderers
- * (Georgiev et al. 2019, "Autodesk Standard Surface"). That conserves energy;
- * under a coat or sheen the mixture is not reciprocal.
+ * and plastic otherwise. Solid glass is tinted by the root of the colour at
+ * each crossing, so that a pane has the colour, as a thin sheet has. A coat of
+ * refractive index 1.5 lies over the base, and sheen over both. What a layer
+ * reflects, E(wo), those below lose: they are scaled by 1 - E(wo), as in the
+ * surfaces of other renderers (Georgiev et al. 2019, "Autodesk Standard
+ * Surface"). That conserves energy; under a coat or sheen the mixture is not
+ * reciprocal.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
  */
@@ -16,9 +17,9 @@
 #define KERNELS_PRINCIPLED_H
 
 #include "kernels/glass.h"
-#include "kernels/metal.h"
 #include "kernels/plastic.h"
 #include "kernels/sheen.h"
+#include "kernels/thin_glass.h"
 
 /* Reflectance of the coat at normal incidence. */
 #define COAT_F0 0.04f
@@ -58,6 +59,8 @@ static inline struct bsdf principled_glass(const struct bsdf *m)
 {
     struct bsdf glass = *m;
 
+    if (m->is_thin != 0)
+        return glass;
     glass.color = v3(sqrtf(m->color.x), sqrtf(m->color.y), sqrtf(m->color.z));
     return glass;
 }
@@ -119,7 +122,7 @@ static inline struct lobes principled_lobes(const struct bsdf *m,
 
 static inline bool principled_has_glass_delta(const struct bsdf *m)
 {
-    return is_smooth(m) || glass_is_index_matched(m);
+    return is_smooth(m) || (m->is_thin == 0 && glass_is_index_matched(m));
 }
 
 /* True if all lobes are deltas. */
@@ -131,7 +134,7 @@ static inline bool principled_is_delta(const struct bsdf *m)
     if (has_sheen(m) || (m->coat > 0.0f && !is_smooth(&coat)))
         return false;
     if (!is_smooth(m) && (m->metalness > 0.0f || m->transmission < 1.0f ||
-                          !glass_is_index_matched(m)))
+                          !principled_has_glass_delta(m)))
         return false;
     return !(dielectric * (1.0f - m->transmission) > 0.0f) ||
            v3_is_zero(m->color);
@@ -176,7 +179,8 @@ static inline struct vec3 principled_terms_of(const struct bsdf *m,
     if (l->weight[LOBE_GLASS] > 0.0f && !principled_has_glass_delta(m)) {
         struct bsdf glass = principled_glass(m);
 
-        f = glass_terms(&glass, wo, wi, &lobe_pdf);
+        f = m->is_thin != 0 ? thin_terms(&glass, wo, wi, &lobe_pdf)
+                            : glass_terms(&glass, wo, wi, &lobe_pdf);
         principled_add(l, LOBE_GLASS, f, lobe_pdf, &sum, pdf);
     }
     if (wi.z < 0.0f)
@@ -243,7 +247,8 @@ static inline bool principled_sample_lobe(const struct bsdf *m, uint32_t lobe,
         return plastic_sample(m, wo, u, choice, s);
     if (lobe == LOBE_GLASS) {
         part = principled_glass(m);
-        return glass_sample(&part, wo, u, choice, s);
+        return m->is_thin != 0 ? thin_sample(&part, wo, u, choice, s)
+                               : glass_sample(&part, wo, u, choice, s);
     }
     part = principled_coat(m);
     part.color = v3(0.0f, 0.0f, 0.0f); /* plastic without a base */

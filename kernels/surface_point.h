@@ -108,7 +108,7 @@ static inline struct bsdf bsdf_at(const struct world *w,
                                   const struct surface_point *v)
 {
     bool has_maps = HAS(FEATURE_TEXTURES) && v->has_uv;
-    struct bsdf b;
+    struct bsdf b = {0};
 
     b.color = m->color;
     if (has_maps && m->color_texture != NO_INDEX)
@@ -125,7 +125,6 @@ static inline struct bsdf bsdf_at(const struct world *w,
     }
     b.kind = m->kind;
     b.eta = m->ior;
-    b.anisotropy = 0.0f; /* bsdf_facets() reads it for metal and plastic too */
     if (bsdf_is_principled(&b)) {
         b.metalness = m->metalness;
         if (has_maps && m->metal_texture != NO_INDEX)
@@ -136,6 +135,7 @@ static inline struct bsdf bsdf_at(const struct world *w,
         b.anisotropy = m->anisotropy;
         b.sheen = m->sheen;
         b.sheen_alpha = m->sheen_alpha;
+        b.is_thin = m->is_thin;
     }
     if (bsdf_is_solid(&b) && !v->is_outside)
         b.eta = 1.0f / m->ior;

@@ -40,7 +40,7 @@ enum material_kind {
     MATERIAL_METAL,         /* color: reflectance at normal incidence; alpha */
     MATERIAL_PLASTIC,       /* color: albedo of the base; specular; alpha */
     MATERIAL_GLASS,         /* color: tint of each crossing; ior, alpha */
-    MATERIAL_THIN_GLASS,    /* color: tint of each crossing; ior */
+    MATERIAL_THIN_GLASS,    /* color: tint of each crossing; ior, alpha */
     MATERIAL_PRINCIPLED /* mixture of metal, plastic and glass: principled.h */
 };
 
@@ -68,6 +68,7 @@ struct material {
     struct vec2 grain; /* direction of the wider axis, in units of the tangents
                           along u and v */
     struct vec3 attenuation; /* absorption in solids: attenuation.h */
+    uint32_t is_thin; /* 1: glass of MATERIAL_PRINCIPLED is a thin sheet */
     uint32_t normal_texture; /* shading normals in tangent space */
     uint32_t bump_texture;   /* heights in alpha */
     float bump_scale;        /* height of an alpha of 1, in texels */

@@ -195,6 +195,17 @@ static float absorption(float share, double d)
                        (double)FLT_MAX);
 }
 
+/* Returns true if the glass of a mixture is a thin sheet. */
+static bool is_thin(const struct mtl_source *s, const struct diagnostics *at)
+{
+    return unit(&s->tf_thin, "Tf_thin", at) > 0;
+}
+
+static bool has_roughness(const struct mtl_source *s)
+{
+    return s->pr.line != 0 || mtl_source_map(s, MTL_MAP_PR) != NO_INDEX;
+}
+
 /* Sets the absorption of a solid with the colour tf after Tf_distance. Returns
  * false if the statement is absent or 0. */
 static bool attenuate(struct material *m, struct vec3 tf,
@@ -215,11 +226,10 @@ static void make_glass(struct material *m, uint32_t kind,
     m->kind = kind;
     m->color = reflecting(&s->tf, "Tf", 1, at);
     m->color_texture = mtl_source_map(s, MTL_MAP_KD);
-    if (kind == MATERIAL_GLASS) {
+    if (kind == MATERIAL_GLASS && attenuate(m, m->color, s, at))
+        m->color = (struct vec3){1, 1, 1};
+    if (kind == MATERIAL_GLASS || has_roughness(s))
         roughen(m, s, at);
-        if (attenuate(m, m->color, s, at))
-            m->color = (struct vec3){1, 1, 1};
-    }
     m->ior = index_of(s, at);
 }
 
@@ -316,13 +326,14 @@ static double transmission(struct material *m, const struct mtl_source *s,
 
     if (s->tf.line == 0)
         return 0;
-    if (is_of_blender(s)
-            ? s->pr.line == 0 && mtl_source_map(s, MTL_MAP_PR) == NO_INDEX
-            : s->pr.line == 0 || (illum != 2 && illum != 3))
+    if (is_of_blender(s) ? !has_roughness(s)
+                         : s->pr.line == 0 || (illum != 2 && illum != 3))
         return 0;
     tf = reflecting(&s->tf, "Tf", 0, at);
     top = v3_max_component(tf);
-    if (top > 0 && attenuate(m, v3_scale(tf, 1 / top), s, at))
+    m->is_thin = top > 0 && is_thin(s, at);
+    if (top > 0 && m->is_thin == 0 &&
+        attenuate(m, v3_scale(tf, 1 / top), s, at))
         return (double)top;
     return (double)(tf.x + tf.y + tf.z) / 3;
 }
@@ -465,7 +476,7 @@ struct material material_from_source(const struct mtl_source *s,
                      "surfaces with this material are invisible",
                      path, s->illum.line);
     if (s->tf_distance.value > 0 && m.kind != MATERIAL_GLASS &&
-        m.transmission == 0)
+        (m.transmission == 0 || m.is_thin != 0))
         warnings_add(report, "statements without effect",
                      "%s:%" PRIu64 ": found Tf_distance, which solid glass "
                      "uses: ignored",

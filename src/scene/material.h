@@ -21,8 +21,9 @@
  * sqrt(2 / (Ns + 2)), or 0 if Ns is absent, 0, or at least 1000. Pr defaults
  * to 1 if there is map_Pr, and Pm to 1 if there is map_Pm. With Tf_distance,
  * solid glass has no tint of Tf: Tf is what it leaves of light after this
- * distance. In a mixture, the weight of glass is the largest channel of Tf
- * then, and the absorption has the hue of Tf.
+ * distance. Thin glass is rough with Pr or map_Pr only. In a mixture, Tf_thin
+ * above 0 makes its glass a thin sheet; else, with Tf_distance, the weight of
+ * glass is the largest channel of Tf, and absorption has the hue of Tf.
  *
  * In files of Blender (enum mtl_dialect), Ks never is a colour of metal; Pm is
  * Ka with illum 3 and 6 if there is no Pm; roughness is 1 - sqrt(Ns / 1000);

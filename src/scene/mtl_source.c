@@ -27,6 +27,7 @@ const struct mtl_property mtl_properties[MTL_PROPERTIES] = {
     {"aniso", MEMBER(aniso), false},
     {"anisor", MEMBER(anisor), false},
     {"Tf_distance", MEMBER(tf_distance), false},
+    {"Tf_thin", MEMBER(tf_thin), false},
 };
 
 const char *const mtl_map_keys[MTL_MAPS] = {

@@ -239,11 +239,25 @@ static void set_transmission(struct owner *o, const struct value *v)
         put_grey(&s->tf, v->number);
 }
 
+static const char *const body_names[] = {"solid", "sheet"};
+
+static bool get_body(const struct owner *o, struct value *v)
+{
+    v->number = o->material.is_thin;
+    return o->material.transmission > 0;
+}
+
+static void set_body(struct owner *o, const struct value *v)
+{
+    put_number(&o->source.tf_thin, v->number);
+}
+
 /* Reads the distance after which light in a solid has the tint. */
 static bool get_distance(const struct owner *o, struct value *v)
 {
     v->number = o->source.tf_distance.value;
-    return is_kind(o, GLASS) || o->material.transmission > 0;
+    return is_kind(o, GLASS) ||
+           (o->material.transmission > 0 && o->material.is_thin == 0);
 }
 
 static bool get_specular(const struct owner *o, struct value *v)
@@ -374,7 +388,7 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
      .set = set_color},
     {"tint", CLEAR, VALUE_COLOR, &scale_unit, .get = get_color,
      .set = set_color},
-    {"roughness", OPAQUE | GLASS, VALUE_NUMBER, &scale_unit,
+    {"roughness", OPAQUE | CLEAR, VALUE_NUMBER, &scale_unit,
      .get = get_roughness, .set = set_roughness},
     {"specular", PLASTIC, VALUE_NUMBER, &scale_specular, .get = get_specular,
      .set = set_specular},
@@ -384,6 +398,8 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"transmits", MIXED, VALUE_NUMBER, &scale_unit, .get = get_transmission,
      .set = set_transmission},
     {"index", CLEAR | MIXED, VALUE_NUMBER, &scale_ior, STATEMENT(ni, ior)},
+    {"glass is", MIXED, VALUE_CHOICE, NULL, .get = get_body, .set = set_body,
+     CHOICES(body_names)},
     {"tint after", GLASS | MIXED, VALUE_NUMBER, &scale_distance,
      .get = get_distance, .set = set_statement,
      .member = offsetof(struct mtl_source, tf_distance)},

@@ -16,7 +16,9 @@
 #define POINTS 128
 
 /* Azimuths of means, in a quarter of the circle. */
-#define AZIMUTHS 8
+#define AZIMUTHS 6
+
+#define STRETCHED_MEANS (STRETCHED_MEAN_NODES * STRETCHED_MEAN_STRETCH_NODES)
 
 /* Points and weights of Gaussian quadrature in [0, 1]. The points of `tail` are
  * denser near 1, where normals of the caps are far from upright; all losses of
@@ -141,15 +143,16 @@ static struct albedo stretched(const struct gauss *g, double mu, double phi,
             double ix = 2 * o_dot_h * hx / length - x;
             double iy = 2 * o_dot_h * hy / length - y;
             double iz = 2 * o_dot_h * hz / length - mu;
-            double t_i, part;
+            double t_i, part, c;
 
             if (!(iz > 0))
                 continue;
             t_i = sqrt(ax * ax * ix * ix + ay * ay * iy * iy + iz * iz);
             part = g->tail_w[j] / POINTS * iz * (k * mu + t_o) /
                    (mu * t_i + iz * t_o);
+            c = 1 - fmin(o_dot_h, 1);
             e.one += part;
-            e.schlick += part * pow(1 - fmin(o_dot_h, 1), 5);
+            e.schlick += part * c * c * c * c * c;
         }
     return e;
 }
@@ -335,9 +338,9 @@ static void print_means(const struct gauss *g, bool is_schlick)
     printf("\n};\n");
 }
 
-static double stretch_at(int i)
+static double stretch_at(int i, int count)
 {
-    return pow(10, 0.5 * node(i, STRETCHED_STRETCH_NODES));
+    return pow(10, 0.5 * node(i, count));
 }
 
 /* Prints a table of stretched facets. Nodes of a stretch of 1 have one
@@ -350,7 +353,8 @@ static void print_stretched(const struct gauss *g, bool is_shift)
     for (int i = 0; i < planes * in_plane; i++) {
         double alpha = alpha_at(node(i / in_plane / STRETCHED_STRETCH_NODES,
                                      STRETCHED_ALPHA_NODES));
-        double s = stretch_at(i / in_plane % STRETCHED_STRETCH_NODES);
+        double s = stretch_at(i / in_plane % STRETCHED_STRETCH_NODES,
+                              STRETCHED_STRETCH_NODES);
         double t =
             node(i % in_plane / STRETCHED_MU_NODES, STRETCHED_WIDTH_NODES);
         double width = 1 / s + t * (s - 1 / s);
@@ -373,26 +377,34 @@ static void print_stretched(const struct gauss *g, bool is_shift)
     printf("\n};\n");
 }
 
-/* Prints print_means() of stretched facets, also over the azimuth. */
-static void print_stretched_means(const struct gauss *g, bool is_schlick)
+/* Computes the means of print_means() for stretched facets, also over the
+ * azimuth. */
+static void find_stretched_means(const struct gauss *g, struct albedo *means)
 {
-    for (int i = 0; i < STRETCHED_MEAN_NODES * STRETCHED_STRETCH_NODES; i++) {
-        double alpha =
-            alpha_at(node(i / STRETCHED_STRETCH_NODES, STRETCHED_MEAN_NODES));
-        double s = stretch_at(i % STRETCHED_STRETCH_NODES);
+    for (int i = 0; i < STRETCHED_MEANS; i++) {
+        double alpha = alpha_at(
+            node(i / STRETCHED_MEAN_STRETCH_NODES, STRETCHED_MEAN_NODES));
+        double s = stretch_at(i % STRETCHED_MEAN_STRETCH_NODES,
+                              STRETCHED_MEAN_STRETCH_NODES);
         double square = alpha * alpha * (s * s + 1 / s / s) / 2;
-        double sum = 0;
 
         for (int j = 0; j < POINTS * AZIMUTHS; j++) {
             double t = g->x[j / AZIMUTHS];
             double phi = M_PI / 2 * (j % AZIMUTHS + 0.5) / AZIMUTHS;
+            double weight = g->w[j / AZIMUTHS] / AZIMUTHS * 4 * t * t * t;
             struct albedo e = stretched(g, t * t, phi, alpha * s, alpha / s);
 
-            sum += g->w[j / AZIMUTHS] / AZIMUTHS * 4 * t * t * t *
-                   (is_schlick ? e.schlick : (1 - e.one) / square);
+            means[i].one += weight * (1 - e.one) / square;
+            means[i].schlick += weight * e.schlick;
         }
+    }
+}
+
+static void print_stretched_means(const struct albedo *means, bool is_schlick)
+{
+    for (int i = 0; i < STRETCHED_MEANS; i++) {
         print_gap(i, 6);
-        printf("%.7ff,", sum);
+        printf("%.7ff,", is_schlick ? means[i].schlick : means[i].one);
     }
     printf("\n};\n");
 }
@@ -437,6 +449,7 @@ static void print_sheen(const struct gauss *g)
 int main(void)
 {
     static struct gauss g;
+    static struct albedo means[STRETCHED_MEANS];
 
     gauss_init(&g);
     printf("// SPDX-License-Identifier: MIT\n"
@@ -464,6 +477,7 @@ int main(void)
            "#define STRETCHED_STRETCH_NODES %d\n"
            "#define STRETCHED_WIDTH_NODES %d\n#define STRETCHED_MU_NODES %d\n"
            "#define STRETCHED_MEAN_NODES %d\n"
+           "#define STRETCHED_MEAN_STRETCH_NODES %d\n"
            "#define STRETCHED_LOSS_UNIT %.6ff\n"
            "#define STRETCHED_SHIFT_UNIT %.8ff\n"
            "#define STRETCHED_SHIFT_MIN %.2ff\n",
@@ -471,8 +485,8 @@ int main(void)
            GLASS_ALPHA_NODES, GLASS_MU_NODES, SHEEN_ALPHA_NODES, SHEEN_MU_NODES,
            STRETCHED_ALPHA_NODES, STRETCHED_STRETCH_NODES,
            STRETCHED_WIDTH_NODES, STRETCHED_MU_NODES, STRETCHED_MEAN_NODES,
-           (double)STRETCHED_LOSS_UNIT, (double)STRETCHED_SHIFT_UNIT,
-           (double)STRETCHED_SHIFT_MIN);
+           STRETCHED_MEAN_STRETCH_NODES, (double)STRETCHED_LOSS_UNIT,
+           (double)STRETCHED_SHIFT_UNIT, (double)STRETCHED_SHIFT_MIN);
     printf("\n/* 1 - E over ggx_loss_scale(). */");
     print_head("float", "ggx_losses", "GGX_ALPHA_NODES * GGX_MU_NODES");
     print_ggx(&g, false);
@@ -499,12 +513,13 @@ int main(void)
     print_stretched(&g, false);
     print_head("uint16_t", "stretched_shifts", STRETCHED_SIZE);
     print_stretched(&g, true);
+    find_stretched_means(&g, means);
     print_head("float", "stretched_mean_losses",
-               "STRETCHED_MEAN_NODES * STRETCHED_STRETCH_NODES");
-    print_stretched_means(&g, false);
+               "STRETCHED_MEAN_NODES * STRETCHED_MEAN_STRETCH_NODES");
+    print_stretched_means(means, false);
     print_head("float", "stretched_mean_schlicks",
-               "STRETCHED_MEAN_NODES * STRETCHED_STRETCH_NODES");
-    print_stretched_means(&g, true);
+               "STRETCHED_MEAN_NODES * STRETCHED_MEAN_STRETCH_NODES");
+    print_stretched_means(means, true);
     printf("// clang-format on\n\n#endif\n");
     return 0;
 }

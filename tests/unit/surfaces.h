@@ -94,6 +94,22 @@ static inline void at_all_glasses(visit f)
         }
 }
 
+/* Rough sheets of glass. */
+static inline void at_all_sheets(visit f, struct vec3 color)
+{
+    const float indices[] = {1, 1.5f, 2.4f, 1 / 1.33f};
+
+    for (size_t e = 0; e < COUNT(indices); e++)
+        for (size_t a = 0; a < COUNT(alphas); a++) {
+            struct bsdf m = {.color = color,
+                             .alpha = alphas[a],
+                             .eta = indices[e],
+                             .kind = MATERIAL_THIN_GLASS};
+
+            at_all_cosines(f, &m);
+        }
+}
+
 /* Returns a mixture with random parameters. Each of its lobes is absent, or
  * there is nothing else, once in four mixtures. */
 static inline struct bsdf random_mixture(uint64_t *seed)
@@ -114,6 +130,9 @@ static inline struct bsdf random_mixture(uint64_t *seed)
     m.coat_alpha = x[4] < 0.5f ? 0 : 0.005f + (x[4] - 0.5f) * x[4];
     m.eta = x[5] < 0.5f ? 1.2f + x[6] : 1 / (1.2f + x[6]);
     m.specular = v3_scale(m.specular, 4 * x[7]);
+    m.is_thin = x[3] * 10 - floorf(x[3] * 10) < 0.4f;
+    if (m.is_thin != 0)
+        m.eta = f_max(m.eta, 1 / m.eta);
     if (x[6] < 0.4f)
         m.anisotropy = 2.5f * x[6];
     if (x[7] < 0.4f) {

@@ -116,7 +116,7 @@ static void statements_choose_the_kind(void **state)
         {"illum 4\nKd .5\nKs .5\nNs 6\nNi 1", MATERIAL_PLASTIC, .5, .5, 1.5},
         {"illum 9\nKd .5\nNi 1", MATERIAL_DIFFUSE, .5, 0, 1.5},
         {"illum 4\nKd .5\nd 0\nNi 1.3", MATERIAL_THIN_GLASS, 1, 0, 1.3},
-        {"Ni 1000000\nPr .5\nillum 9", MATERIAL_THIN_GLASS, 1, 0, 1e6},
+        {"Ni 1000000\nPr .5\nillum 9", MATERIAL_THIN_GLASS, 1, .25, 1e6},
     };
 
     (void)state;
@@ -470,6 +470,25 @@ static void solids_absorb_their_colour(void **state)
     only_material("Kd .5\nTf_distance 2", 1);
 }
 
+static void sheets_are_rough_if_the_file_says_so(void **state)
+{
+    struct material m = only_material("Tf .5\nNs 20\nillum 4", 0);
+
+    (void)state;
+    check_close((double)m.alpha, 0, 0);
+    m = only_material("Tf .5\nPr .5\nillum 4", 0);
+    assert_int_equal(m.kind, MATERIAL_THIN_GLASS);
+    check_close((double)m.alpha, .25, 0);
+    m = only_material("Kd .7\nKs .5\nPr .5\nTf .4 .2 0\nTf_thin 1", 0);
+    assert_int_equal(m.kind, MATERIAL_PRINCIPLED);
+    assert_int_equal(m.is_thin, 1);
+    check_close((double)m.transmission, .2, 1e-7);
+    m = only_material("Kd .7\nPr .5\nTf .4\nTf_thin 1\nTf_distance 1", 1);
+    check_color(m.attenuation, 0, 0, 0);
+    assert_int_equal(only_material("Kd .7\nTf_thin 1", 0).is_thin, 0);
+    only_material("Kd .7\nPr .5\nTf .4\nTf_thin 7", 1);
+}
+
 static void maps_of_numbers_are_data(void **state)
 {
     struct loaded l =
@@ -574,6 +593,7 @@ int main(void)
         cmocka_unit_test(maps_of_other_scales_are_not_shared),
         cmocka_unit_test(statements_weigh_the_lobes),
         cmocka_unit_test(solids_absorb_their_colour),
+        cmocka_unit_test(sheets_are_rough_if_the_file_says_so),
         cmocka_unit_test(maps_of_numbers_are_data),
         cmocka_unit_test(bump_maps_have_their_scale),
         cmocka_unit_test_setup_teardown(paths_of_other_machines_find_the_file,

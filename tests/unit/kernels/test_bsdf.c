@@ -128,8 +128,10 @@ static void check_reciprocity(const struct bsdf *m, float mu)
             continue;
         there = (double)surface_f(m, wo, wi).x / fabs((double)wi.z);
         if (wi.z < 0) {
-            back.eta = 1 / m->eta;
-            scale = (double)(m->eta * m->eta);
+            if (m->kind == MATERIAL_GLASS) {
+                back.eta = 1 / m->eta;
+                scale = (double)(m->eta * m->eta);
+            }
             again = (double)surface_f(&back, v3(wi.x, wi.y, -wi.z),
                                       v3(wo.x, wo.y, -wo.z))
                         .x;
@@ -157,6 +159,12 @@ static void glass_is_reciprocal_but_for_its_compensation(void **state)
 {
     (void)state;
     at_all_glasses(check_reciprocity);
+}
+
+static void rough_sheets_are_reciprocal(void **state)
+{
+    (void)state;
+    at_all_sheets(check_reciprocity, white);
 }
 
 static void mirrors_and_sheets_have_no_density(void **state)
@@ -240,6 +248,47 @@ static void white_glass_loses_nothing(void **state)
             m.alpha = alphas[a];
             at_all_cosines(check_furnace, &m);
         }
+}
+
+static void white_sheets_lose_nothing(void **state)
+{
+    (void)state;
+    at_all_sheets(check_furnace, white);
+}
+
+/* A hardly rough sheet is a smooth one: light leaves along the mirror direction
+ * and straight on, by the same shares. */
+static void rough_sheets_become_smooth(void **state)
+{
+    const int n = 20000;
+
+    (void)state;
+    for (size_t c = 0; c < 4; c++) {
+        struct bsdf m = {.color = brick,
+                         .alpha = 1e-3f,
+                         .eta = 1.5f,
+                         .kind = MATERIAL_THIN_GLASS};
+        struct vec3 wo = direction(cosines[c]);
+        double f = fresnel_by_angles((double)cosines[c], 1.5);
+        double reflected = 0, transmitted = 0;
+        uint64_t seed = 3;
+
+        for (int i = 0; i < n; i++) {
+            struct vec2 u =
+                v2((float)check_random(&seed), (float)check_random(&seed));
+            struct bsdf_sample s;
+
+            if (!bsdf_sample(&m, wo, u, (float)((i + 0.5) / n), &s))
+                continue;
+            assert_false(s.is_delta);
+            if (fabsf(s.wi.x + wo.x) > 0.02f || fabsf(s.wi.y) > 0.02f)
+                continue;
+            reflected += s.wi.z > 0 ? (double)s.weight.y / n : 0;
+            transmitted += s.wi.z > 0 ? 0 : (double)s.weight.y / n;
+        }
+        check_close(reflected, 2 * f / (1 + f), 0.01);
+        check_close(transmitted, (double)brick.y * (1 - f) / (1 + f), 0.01);
+    }
 }
 
 /* Closed forms of Turquin and Hill with albedos by quadrature: one bounce is F0
@@ -329,6 +378,7 @@ static void nothing_is_ever_nan_or_negative(void **state)
                          .metalness = (float)(k % 3) / 2,
                          .transmission = (float)(k / 3 % 3) / 2,
                          .coat = (float)(k / 9 % 2),
+                         .is_thin = k / 5 % 2,
                          .coat_alpha = widths[(k / 49 + k / 18) % 5]};
         struct vec3 wo = direction(mus[k / 7 % 7]);
         struct vec2 u = v2(edges[i % 4], edges[i / 4 % 4]);
@@ -355,6 +405,9 @@ int main(void)
         cmocka_unit_test(thin_glass_adds_up_its_reflections),
         cmocka_unit_test(reflections_are_reciprocal),
         cmocka_unit_test(glass_is_reciprocal_but_for_its_compensation),
+        cmocka_unit_test(rough_sheets_are_reciprocal),
+        cmocka_unit_test(rough_sheets_become_smooth),
+        cmocka_unit_test(white_sheets_lose_nothing),
         cmocka_unit_test(mirrors_and_sheets_have_no_density),
         cmocka_unit_test(white_reflections_lose_nothing),
         cmocka_unit_test(white_glass_loses_nothing),

@@ -57,12 +57,19 @@ static double long_x(struct vec3 v)
     return r2 < 0.5 ? copysign(sqrt(1 - r2), (double)v.x) : (double)v.x;
 }
 
+/* True if the surface transmits along mirror images of reflections. */
+static bool is_sheet(const struct bsdf *m)
+{
+    return bsdf_transmits(m) && !bsdf_is_solid(m);
+}
+
 static int cell_of(const struct chart *c, const struct bsdf *m, struct vec3 wo,
                    struct vec3 wi)
 {
-    double eta = wi.z < 0 ? (double)m->eta : 1;
+    double eta = wi.z < 0 && !is_sheet(m) ? (double)m->eta : 1;
+    double z = is_sheet(m) ? fabs((double)wi.z) : (double)wi.z;
     double h[3] = {long_x(wo) + eta * long_x(wi), eta * (double)wi.y,
-                   (double)wo.z + eta * (double)wi.z};
+                   (double)wo.z + eta * z};
     double sign = h[2] < 0 ? -1 : 1;
     double phi = atan2(sign * h[1], sign * h[0]) / (2 * M_PI);
     double row = asinh(hypot(h[0], h[1]) / fabs(h[2]) / c->alpha) / c->extent;
@@ -91,10 +98,11 @@ static double chart_point(const struct chart *c, const struct bsdf *m,
 
     if (o_dot_h <= 0)
         return 0;
-    if (!is_crossing) {
+    if (!is_crossing || is_sheet(m)) {
         z = 2 * o_dot_h * h[2] - (double)wo.z;
         *wi = v3((float)(2 * o_dot_h * h[0] - (double)wo.x),
-                 (float)(2 * o_dot_h * h[1] - (double)wo.y), (float)z);
+                 (float)(2 * o_dot_h * h[1] - (double)wo.y),
+                 (float)(is_crossing ? -z : z));
         return z > 0 ? area * 4 * o_dot_h : 0;
     }
     if (!bsdf_is_solid(m) || (1 - o_dot_h * o_dot_h) >= eta * eta)
@@ -194,6 +202,12 @@ static void samples_of_glass_follow_their_density(void **state)
     at_all_glasses(check_density);
 }
 
+static void samples_of_sheets_follow_their_density(void **state)
+{
+    (void)state;
+    at_all_sheets(check_density, brick);
+}
+
 static void samples_of_mixtures_follow_their_density(void **state)
 {
     (void)state;
@@ -205,6 +219,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_of_reflections_follow_their_density),
         cmocka_unit_test(samples_of_glass_follow_their_density),
+        cmocka_unit_test(samples_of_sheets_follow_their_density),
         cmocka_unit_test(samples_of_mixtures_follow_their_density),
     };
 

@@ -34,7 +34,7 @@
       M(material, bump_scale) M(material, transmission) M(material, coat)     \
       M(material, coat_alpha) M(material, sheen) M(material, sheen_alpha)     \
       M(material, anisotropy) M(material, grain)                              \
-      M(material, attenuation)                                                \
+      M(material, attenuation) M(material, is_thin)                           \
     S(texture) M(texture, first) M(texture, width) M(texture, height)         \
       M(texture, has_alpha) M(texture, scale) M(texture, offset)              \
       M(texture, is_clamped) M(texture, is_data)                              \

@@ -188,7 +188,8 @@ static void stretched_facets_keep_all_light(void **state)
                          .kind = MATERIAL_PRINCIPLED};
 
         wo = v3(wo.x * cosf(phi), wo.x * sinf(phi), wo.z);
-        check_close((double)sampled_albedo_from(&m, wo, 150).x, 1, 1.4e-2);
+        check_close((double)sampled_albedo_from(&m, wo, 150).x, 1,
+                    m.anisotropy < 1 ? 5e-3 : 1.2e-2);
     }
 }
 

@@ -203,7 +203,7 @@ static struct vec3 reflected(const struct bsdf *b, struct vec3 wo,
         /* y is up there, and z in a BSDF's frame. Radiance inside glass is its
          * index squared times that outside. */
         double g = fabs((double)wi.y) / d2 * area / (side * side) *
-                   (wi.y < 0 ? pow((double)b->eta, -2) : 1);
+                   (wi.y < 0 && bsdf_is_solid(b) ? pow((double)b->eta, -2) : 1);
         float pdf;
         struct vec3 f = bsdf_terms(b, wo, v3(wi.x, wi.z, wi.y), &pdf);
 
@@ -224,7 +224,7 @@ static void all_surfaces_shine_as_they_scatter(void **state)
     } kinds[] = {{MATERIAL_DIFFUSE, 0},    {MATERIAL_ROUGH_DIFFUSE, 0.7f},
                  {MATERIAL_METAL, 0.5f},   {MATERIAL_PLASTIC, 0},
                  {MATERIAL_PLASTIC, 0.4f}, {MATERIAL_GLASS, 0.7f},
-                 {MATERIAL_GLASS, 1}};
+                 {MATERIAL_GLASS, 1},      {MATERIAL_THIN_GLASS, 0.5f}};
     const struct sheet lamps[2] = {{-0.7f, 0.3f, 0.05f, 0.7f, 0.5f},
                                    {-0.5f, 0.2f, 0.05f, 0.4f, -0.4f}};
 
@@ -247,7 +247,9 @@ static void all_surfaces_shine_as_they_scatter(void **state)
                           .specular = floor.specular,
                           .alpha = floor.alpha,
                           .kind = floor.kind,
-                          .eta = wo.z > 0 ? 1.5f : 1 / 1.5f};
+                          .eta = wo.z > 0 || floor.kind == MATERIAL_THIN_GLASS
+                                     ? 1.5f
+                                     : 1 / 1.5f};
         for (int i = 0; i < 2; i++) {
             struct sheet seen = lamps[i];
 

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+/*
+ * thin_glass.h - sheets of glass without thickness, smooth and rough
+ *
+ * All reflections between the two faces are summed: R = 2 F / (1 + F). Light is
+ * not refracted, so that the transmitted lobe of a rough sheet is the mirror
+ * image of its reflected lobe below the surface. Light that single scattering
+ * loses is reflected and transmitted by lobes after Kulla and Conty 2017, in
+ * the proportion of the mean R. Reciprocal; a white sheet keeps all light.
+ *
+ * Units:     local frame of bsdf_types.h; f comes times |cosine|
+ */
+#ifndef KERNELS_THIN_GLASS_H
+#define KERNELS_THIN_GLASS_H
+
+#include "kernels/metal.h"
+
+/* Reflectance of a sheet whose faces reflect f. */
+static inline float thin_reflectance(float f)
+{
+    return 2.0f * f / (1.0f + f);
+}
+
+/* The same at the hemispherical mean of Fresnel's f, by the fits of Kulla and
+ * Conty 2017. */
+static inline float thin_reflectance_mean(float eta)
+{
+    float f =
+        eta < 1.0f
+            ? 0.997118f + eta * (0.1014f - eta * (0.965241f + 0.130607f * eta))
+            : (eta - 1.0f) / (4.08567f + 1.00071f * eta);
+
+    return thin_reflectance(f_min(f_max(f, 0.0f), 1.0f));
+}
+
+static inline float thin_facet_reflectance(const struct bsdf *m, struct vec3 wo,
+                                           struct vec3 h)
+{
+    float cos_t;
+
+    return thin_reflectance(fresnel_dielectric(v3_dot(wo, h), m->eta, &cos_t));
+}
+
+static inline struct vec3 thin_terms(const struct bsdf *m, struct vec3 wo,
+                                     struct vec3 wi, float *pdf)
+{
+    struct ggx g = bsdf_facets(m);
+    struct vec3 up = v3(wi.x, wi.y, fabsf(wi.z));
+    struct vec3 h = half_vector(wo, up);
+    float loss_o = facets_albedo(wo, g).loss;
+    float single = thin_facet_reflectance(m, wo, h);
+    float multiple = thin_reflectance_mean(m->eta);
+    struct vec3 tint = v3(1.0f, 1.0f, 1.0f);
+
+    if (wi.z < 0.0f) {
+        single = 1.0f - single;
+        multiple = 1.0f - multiple;
+        tint = m->color;
+    }
+    *pdf = (1.0f - loss_o) * single * ggx_reflection_pdf(wo, h, g) +
+           loss_o * multiple * multiscatter_pdf(up, m->alpha);
+    return v3_scale(tint, single * ggx_reflection(wo, up, h, g) +
+                              multiple * multiscatter_f(up, loss_o, g));
+}
+
+/* Chooses the side of a sheet that reflects r. Returns false if the sample is
+ * rejected. */
+static inline bool thin_choose_side(float r, float choice, struct vec3 *wi)
+{
+    if (!(wi->z > COSINE_MIN))
+        return false;
+    if (!(choice < r))
+        wi->z = -wi->z;
+    return true;
+}
+
+static inline bool thin_sample_rough(const struct bsdf *m, struct vec3 wo,
+                                     struct vec2 u, float choice,
+                                     struct bsdf_sample *s)
+{
+    struct ggx g = bsdf_facets(m);
+    float loss_o = facets_albedo(wo, g).loss;
+    struct vec3 wi, f;
+    float r, pdf;
+
+    if (choice < loss_o) {
+        choice /= loss_o;
+        wi = multiscatter_direction(m->alpha, u);
+        r = thin_reflectance_mean(m->eta);
+    } else {
+        choice = (choice - loss_o) / (1.0f - loss_o);
+        wi = ggx_reflect(wo, g, u);
+        r = thin_facet_reflectance(m, wo, half_vector(wo, wi));
+    }
+    if (!thin_choose_side(r, choice, &wi))
+        return false;
+    f = thin_terms(m, wo, wi, &pdf);
+    return sample_density(s, wi, f, pdf);
+}
+
+static inline bool thin_sample(const struct bsdf *m, struct vec3 wo,
+                               struct vec2 u, float choice,
+                               struct bsdf_sample *s)
+{
+    float cos_t;
+    float f;
+
+    if (!is_smooth(m))
+        return thin_sample_rough(m, wo, u, choice, s);
+    f = fresnel_dielectric(wo.z, m->eta, &cos_t);
+    if (choice * (1.0f + f) < 2.0f * f)
+        return sample_delta(s, v3(-wo.x, -wo.y, wo.z), v3(1.0f, 1.0f, 1.0f));
+    return sample_delta(s, v3_neg(wo), m->color);
+}
+
+#endif
