@@ -113,7 +113,7 @@ struct mtl_color mtl_source_light(const struct mtl_source *s)
 
 double mtl_source_full_coat(const struct mtl_source *s)
 {
-    return s->dialect == MTL_BLENDER_4 ? 4 : 1;
+    return s->dialect != MTL_CLASSIC ? 4 : 1;
 }
 
 bool mtl_source_is_mirror(const struct mtl_source *s)

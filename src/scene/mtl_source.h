@@ -85,7 +85,8 @@ bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b);
 /* Returns the texture of a map, or NO_INDEX if it is absent or switched off. */
 uint32_t mtl_source_map(const struct mtl_source *source, enum mtl_map map);
 
-/* Returns the Pc of a coat of weight 1. */
+/* Returns the Pc of a coat of weight 1. Blender writes its clearcoat, of which
+ * Cycles uses a quarter, and from 4.0 on four times the coat's weight. */
 double mtl_source_full_coat(const struct mtl_source *source);
 
 /* True if the statements ask for a mirror whose colour is Ks. */
