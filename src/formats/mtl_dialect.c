@@ -35,8 +35,10 @@ static double version_of(struct word word)
     return (double)major + (minor < 10 ? 0.1 * minor : 0.01 * minor);
 }
 
-/* Reads a comment. Returns true if it decides the dialect. */
-static bool read_comment(struct lexer lex, struct mtl_dialect_found *found)
+/* Reads a comment. Returns true if it decides the dialect. *is_script is set
+ * for the exporter before 3.1, which names no version. */
+static bool read_comment(struct lexer lex, struct mtl_dialect_found *found,
+                         bool *is_script)
 {
     struct word program, version;
     double number;
@@ -48,8 +50,10 @@ static bool read_comment(struct lexer lex, struct mtl_dialect_found *found)
         return true;
     if (!word_is(program, "Blender"))
         return false;
-    if (word_is(version, "MTL"))
+    if (word_is(version, "MTL")) {
+        *is_script = true;
         return true;
+    }
     number = version_of(version);
     if (number < BLENDER_FIRST || !word_is(lexer_word(&lex), "MTL"))
         return number > 0;
@@ -60,10 +64,12 @@ static bool read_comment(struct lexer lex, struct mtl_dialect_found *found)
 }
 
 /* Reads the comments before the first statement. */
-static bool read_comments(struct lexer *lex, struct mtl_dialect_found *found)
+static bool read_comments(struct lexer *lex, struct mtl_dialect_found *found,
+                          bool *is_script)
 {
     while (lex->p < lex->end && lexer_at_line_end(lex)) {
-        if (lex->p < lex->end && *lex->p == '#' && read_comment(*lex, found))
+        if (lex->p < lex->end && *lex->p == '#' &&
+            read_comment(*lex, found, is_script))
             return true;
         lexer_next_line(lex);
     }
@@ -166,28 +172,48 @@ static void read_statement(struct pattern *p, struct lexer *lex)
     }
 }
 
-static enum mtl_dialect read_order(struct lexer lex)
+/* Reads the order of all statements. Returns false if it is not Blender's. */
+static bool read_order(struct pattern *p, struct lexer lex)
 {
-    struct pattern p = {.block = {0, -1}};
-
-    for (; lex.p < lex.end && !p.is_broken; lexer_next_line(&lex))
+    *p = (struct pattern){.block = {0, -1}};
+    for (; lex.p < lex.end && !p->is_broken; lexer_next_line(&lex))
         if (!lexer_at_line_end(&lex))
-            read_statement(&p, &lex);
-    end_block(&p);
-    if (p.is_broken || p.old_indices + p.new_indices == 0)
+            read_statement(p, &lex);
+    end_block(p);
+    return !p->is_broken;
+}
+
+static enum mtl_dialect dialect_of_order(struct lexer lex)
+{
+    struct pattern p;
+
+    if (!read_order(&p, lex) || p.old_indices + p.new_indices == 0)
         return MTL_CLASSIC;
     return p.old_indices > p.new_indices && !p.has_strong_coat ? MTL_BLENDER_3
                                                                : MTL_BLENDER_4;
+}
+
+/* Returns the dialect of a file without a version. Blender 2.8 to 3.0 wrote the
+ * same meanings as 3.1, and its usual index of refraction; 2.7 did not. */
+static enum mtl_dialect dialect_of_script(struct lexer lex)
+{
+    struct pattern p;
+
+    return read_order(&p, lex) && p.old_indices > 0 ? MTL_BLENDER_3
+                                                    : MTL_CLASSIC;
 }
 
 struct mtl_dialect_found mtl_dialect_find(const char *text, size_t size_bytes)
 {
     struct mtl_dialect_found found = {.dialect = MTL_CLASSIC};
     struct lexer lex;
+    bool is_script = false;
 
     lexer_init(&lex, text, size_bytes);
-    if (!read_comments(&lex, &found))
-        found.dialect = read_order(lex);
+    if (!read_comments(&lex, &found, &is_script))
+        found.dialect = dialect_of_order(lex);
+    else if (is_script)
+        found.dialect = dialect_of_script(lex);
     return found;
 }
 

@@ -237,6 +237,13 @@ static void lost_lines_do_not_matter(void **state)
     "Kd 0.800000 0.300000 0.100000\nKs 0.500000 0.500000 0.500000\n" \
     "Ke 0.000000 0.000000 0.000000\nNi 1.500000\nd 1.000000\nillum 2\n"
 
+/* What the exporter of Blender 2.8 to 3.0 writes of gold. */
+#define SCRIPT                                                         \
+    "# Blender MTL File: 'None'\n# Material Count: 1\n\nnewmtl gold\n" \
+    "Ns 639.999995\nKa 1.000000 1.000000 1.000000\n"                   \
+    "Kd 1.000000 0.700000 0.200000\nKs 0.500000 0.500000 0.500000\n"   \
+    "Ke 0.000000 0.000000 0.000000\nNi 1.450000\nd 1.000000\nillum 3"
+
 static void first_comments_choose_the_dialect(void **state)
 {
     static const struct {
@@ -253,6 +260,8 @@ static void first_comments_choose_the_dialect(void **state)
         {"# Blender 2.93.4 MTL File\n" BLOCK, MTL_CLASSIC},
         {"# Blender MTL File: 'None'\n# Material Count: 1\n" BLOCK,
          MTL_CLASSIC},
+        {SCRIPT, MTL_BLENDER_3},
+        {SCRIPT "\nKd 1 1 1\n", MTL_CLASSIC},
         {"# Wavefront MTL File\n" BLOCK, MTL_CLASSIC},
         {"newmtl m\n# Blender 4.2.0 MTL File: 'x'\n", MTL_CLASSIC},
         {"# Blender\n", MTL_CLASSIC},
