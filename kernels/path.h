@@ -30,6 +30,7 @@
 #include "kernels/light.h"
 #include "kernels/path_types.h"
 #include "kernels/roulette.h"
+#include "kernels/sphere_walk.h"
 #include "kernels/camera_sample.h"
 #include "kernels/surface_point.h"
 
@@ -172,26 +173,45 @@ static inline void path_add_discs(const struct world *w, struct path *p)
     }
 }
 
+/* Adds sphere i if the ray, which is the path's, meets it. */
+static inline void path_add_sphere(const struct world *w, struct path *p,
+                                   uint32_t i, struct ray r)
+{
+    struct vec3 radiance;
+    float t, pdf = 0.0f;
+
+    if (!sphere_meets(w, i, r, &t))
+        return;
+    radiance =
+        v3_scale(w->point_lights[i].emission, point_light_part(w, i, r.d));
+    if (HAS(FEATURE_ATTENUATION))
+        radiance = attenuated(radiance, p->medium, t);
+    if (p->pdf > 0.0f)
+        pdf = sphere_pdf_at(w, &p->from, i);
+    path_add(p, radiance, bsdf_mis_weight(w, p->pdf, pdf));
+}
+
 /* Adds the spheres that the path's ray meets on its way. They hide nothing. */
 static inline void path_add_spheres(const struct world *w, struct path *p,
                                     float t_max)
 {
     struct ray r = p->ray;
+    struct sphere_walk walk;
+    uint32_t light;
 
     r.t_max = t_max;
-    for (uint32_t i = 0; i < w->settings.sphere_count; i++) {
-        struct vec3 radiance;
-        float t, pdf = 0.0f;
+    if (w->settings.sphere_count == 0)
+        return;
+    if (light_tree_count(w) == 1) {
+        path_add_sphere(w, p, 0, r);
+        return;
+    }
+    sphere_walk_begin(&walk, w, r);
+    while ((light = sphere_walk_next(&walk, w, r)) != NO_INDEX) {
+        uint32_t i = light - w->settings.light_count;
 
-        if (!sphere_meets(w, i, r, &t))
-            continue;
-        radiance =
-            v3_scale(w->point_lights[i].emission, point_light_part(w, i, r.d));
-        if (HAS(FEATURE_ATTENUATION))
-            radiance = attenuated(radiance, p->medium, t);
-        if (p->pdf > 0.0f)
-            pdf = sphere_pdf_at(w, &p->from, i);
-        path_add(p, radiance, bsdf_mis_weight(w, p->pdf, pdf));
+        if (light >= w->settings.light_count && i < w->settings.sphere_count)
+            path_add_sphere(w, p, i, r);
     }
 }
 

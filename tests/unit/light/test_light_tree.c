@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "kernels/light_tree.h"
+#include "kernels/sphere_walk.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -395,6 +396,65 @@ static void many_points_add_up(void **state)
     discard(&m, &lights);
 }
 
+/* The walk of a ray finds all spheres that it meets, and no light twice. */
+static void rays_find_all_spheres(void **state)
+{
+    const uint32_t counts[] = {2, 9, 600};
+    uint64_t seed = 51;
+    uint32_t met = 0, visited = 0;
+
+    (void)state;
+    for (size_t k = 0; k < 3; k++) {
+        struct point_light points[600];
+        struct mesh m = {0};
+        struct lights lights;
+
+        fill_points(points, counts[k], &seed);
+        for (uint32_t i = 0; i < counts[k]; i += 5) {
+            points[i].radius = between(&seed, 2e-6, 1e-4);
+            points[i].emission = v3(1e8f, 1e8f, 1e8f);
+        }
+        add_lamps(&m, 50, 0.1, &seed);
+        m.world.point_lights = points;
+        m.world.settings.point_light_count = counts[k];
+        finish(&m, &lights);
+        for (int n = 0; n < 5000; n++) {
+            /* every second ray is aimed at a sphere */
+            struct ray r = {v3_scale(point_between(&seed, -1, 1),
+                                     n % 3 == 0 ? 50 : 1),
+                            any_direction(&seed), FLOAT_MAX, 0, 0};
+            const struct point_light *aim =
+                &lights.point_lights[(uint32_t)n % lights.sphere_count];
+            uint8_t found[650] = {0};
+            struct sphere_walk walk;
+            uint32_t light;
+
+            if (n % 2 == 0)
+                r.d =
+                    v3_unit(v3_sub(v3_add(aim->p, v3_scale(any_direction(&seed),
+                                                           aim->radius)),
+                                   r.o));
+            if (n % 4 < 2)
+                r.t_max = between(&seed, 0, 2);
+            sphere_walk_begin(&walk, &m.world, r);
+            while ((light = sphere_walk_next(&walk, &m.world, r)) != NO_INDEX) {
+                assert_int_equal(found[light]++, 0);
+                visited++;
+            }
+            for (uint32_t i = 0; i < lights.sphere_count; i++) {
+                float t;
+                bool meets = sphere_meets(&m.world, i, r, &t);
+
+                assert_true(found[50 + i] == 1 || !meets);
+                met += meets;
+            }
+        }
+        discard(&m, &lights);
+    }
+    assert_in_range(met, 2000, 1000000);
+    assert_in_range(visited, met, 200000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -407,6 +467,7 @@ int main(void)
         cmocka_unit_test(tree_prefers_the_near_lights),
         cmocka_unit_test(trees_hold_points_and_lamps),
         cmocka_unit_test(many_points_add_up),
+        cmocka_unit_test(rays_find_all_spheres),
         cmocka_unit_test(deep_trees_fit_into_the_path_s_bits),
     };
 
