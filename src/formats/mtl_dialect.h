@@ -4,9 +4,10 @@
  * have
  *
  * Blender names itself and its version in the first line. Where that line was
- * lost, the order of its statements and their six decimals show it. Blender's
- * exporters without a version, before 3.1, wrote classic statements. The
- * comment "# Wavefront MTL File" makes a file classic whatever it looks like.
+ * lost, the order of its statements and their six decimals show it. Versions
+ * 2.8 to 3.0 name no version but wrote the same; before 2.8 statements were
+ * classic. The comment "# Wavefront MTL File" makes a file classic whatever it
+ * looks like.
  *
  * Threads:   any
  */
