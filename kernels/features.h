@@ -28,10 +28,11 @@ enum feature {
     FEATURE_SHEEN = 32768,
     FEATURE_POINT_LIGHTS = 65536,        /* point and spot lights */
     FEATURE_DIRECTIONAL_LIGHTS = 131072, /* the sun is one */
-    FEATURE_ATTENUATION = 262144 /* solids that absorb light: attenuation.h */
+    FEATURE_ATTENUATION = 262144, /* solids that absorb light: attenuation.h */
+    FEATURE_VERTEX_COLORS = 524288
 };
 
-#define FEATURES_ALL 524287u
+#define FEATURES_ALL 1048575u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

@@ -16,7 +16,8 @@ __kernel void trace_paths(
     __global struct first_surface *surfaces,
     __global const struct settings *settings,
     __global const struct vec3 *positions, __global const struct vec3 *normals,
-    __global const struct vec2 *uvs, __global const struct tri *tris,
+    __global const struct vec2 *uvs, __global const struct vec3 *colors,
+    __global const struct tri *tris,
     __global const struct material *materials,
     __global const struct texture *textures, __global const uint *texels,
     __global const float *linear_of_srgb,
@@ -36,12 +37,17 @@ __kernel void trace_paths(
         return;
     samples[i].rays = 0;
     if (*cancel == 0 && starts[i].ray.t_max > 0.0f) {
-        struct world w = {
-            *settings,      positions,  normals,      uvs,
-            tris,           materials,  textures,     texels,
-            linear_of_srgb, sky_texels, nodes,        leaf_tris,
-            lights,         tri_lights, light_nodes,  sky_cdf,
-            guide_cells,    guide_cdf,  point_lights, directional_lights};
+        struct world w = {*settings,     positions,
+                          normals,       uvs,
+                          colors,        tris,
+                          materials,     textures,
+                          texels,        linear_of_srgb,
+                          sky_texels,    nodes,
+                          leaf_tris,     lights,
+                          tri_lights,    light_nodes,
+                          sky_cdf,       guide_cells,
+                          guide_cdf,     point_lights,
+                          directional_lights};
 
         struct first_surface surface;
 

@@ -19,6 +19,7 @@ struct surface_point {
     struct vec3 ng;    /* unit, on the eye's side */
     struct vec3 n;     /* unit shading normal, wo.n > 0 */
     struct vec2 uv;
+    struct vec3 color; /* of the vertices; if has_vertex_colors() */
     bool has_uv;
     bool is_outside;  /* the eye is on the side of the normal by the winding */
     bool is_lifted;   /* moved off its face by surface_lift() */
@@ -68,6 +69,20 @@ static inline void surface_turn_frame(const struct world *w, struct vec2 grain,
     v->b = v3_cross(v->n, v->t);
 }
 
+static inline bool has_vertex_colors(const struct world *w)
+{
+    return HAS(FEATURE_VERTEX_COLORS) && w->settings.color_count > 0u;
+}
+
+/* Returns the colour of the vertices at a hit. */
+static inline struct vec3 vertex_color(const struct world *w, struct tri t,
+                                       struct hit h)
+{
+    return v3_add(v3_add(v3_scale(w->colors[t.v[0]], h.b0),
+                         v3_scale(w->colors[t.v[1]], h.b1)),
+                  v3_scale(w->colors[t.v[2]], h.b2));
+}
+
 /* Fills *v with the surface at hit h of ray r. m is the triangle's material.
  * Returns false for a triangle without a normal. No scene has one, but without
  * this branch compilers order what follows so that scenes of several materials
@@ -95,6 +110,8 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     v->uv = v2(0.0f, 0.0f);
     if (v->has_uv)
         v->uv = uv_at(w, t, h);
+    if (has_vertex_colors(w))
+        v->color = vertex_color(w, t, h);
     if (HAS(FEATURE_BUMPS) && v->has_uv && has_bumps(m))
         v->n = bumped_normal(w, m, t, v->uv, v->n, v->ng, wo);
     frame_around(v->n, &v->t, &v->b);
@@ -113,6 +130,8 @@ static inline struct bsdf bsdf_at(const struct world *w,
     b.color = m->color;
     if (has_maps && m->color_texture != NO_INDEX)
         b.color = v3_mul(b.color, texture_at(w, m->color_texture, v->uv).color);
+    if (has_vertex_colors(w))
+        b.color = v3_mul(b.color, v->color);
     b.specular = m->specular;
     if (has_maps && m->specular_texture != NO_INDEX)
         b.specular =

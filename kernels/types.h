@@ -287,6 +287,7 @@ struct settings {
     uint32_t position_count;
     uint32_t normal_count;
     uint32_t uv_count;
+    uint32_t color_count; /* of vertices */
     uint32_t material_count;
     uint32_t texture_count;
     uint32_t texel_count;
@@ -307,6 +308,7 @@ struct world {
     GLOBAL const struct vec3 *positions;
     GLOBAL const struct vec3 *normals;
     GLOBAL const struct vec2 *uvs;
+    GLOBAL const struct vec3 *colors; /* of vertices; NULL: none */
     GLOBAL const struct tri *tris;
     GLOBAL const struct material *materials;
     GLOBAL const struct texture *textures;

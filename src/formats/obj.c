@@ -15,6 +15,7 @@
 #include "formats/asset_path.h"
 #include "formats/faces.h"
 #include "formats/mtl.h"
+#include "formats/vertex_colors.h"
 #include "formats/text_file.h"
 
 /* Bytes searched for a NUL. Text has none; most binary files have one early. */
@@ -31,7 +32,7 @@ struct parser {
     struct error *err;
     struct lexer lex;
     uint64_t statement_count, unknown_count;
-    size_t position_capacity, normal_capacity, uv_capacity;
+    size_t position_capacity, normal_capacity, uv_capacity, color_capacity;
     struct name_table objects;
     struct name_table
         materials; /* names in usemtl; number 0 is "", before the first */
@@ -41,7 +42,6 @@ struct parser {
     struct faces faces;
     uint32_t object, material;
     bool has_objects; /* there was an o statement: g is only a group */
-    bool has_colors;  /* a colour of a vertex was reported */
 };
 
 static bool out_of_memory(const struct parser *p)
@@ -51,7 +51,7 @@ static bool out_of_memory(const struct parser *p)
 }
 
 /* Reads `least` to `most` numbers; values that are not given stay as they are.
- * The rest of the line (weights, colours) is ignored. */
+ * The rest of the line is ignored. */
 static bool read_numbers(struct parser *p, const char *key, int least, int most,
                          double *values)
 {
@@ -80,21 +80,20 @@ static bool grow(struct parser *p, void **array, size_t *capacity,
            out_of_memory(p);
 }
 
-/* Reports a colour after the coordinates, once for each file. A single number
- * there is a weight. */
-static void look_for_color(struct parser *p)
+/* Reads what is behind the coordinates: a weight, which is ignored, a colour,
+ * or both. */
+static bool read_color(struct parser *p)
 {
-    double ignored;
+    double numbers[4];
     int count = 0;
 
-    while (!lexer_at_line_end(&p->lex) && lexer_number(&p->lex, &ignored))
+    while (count < 4 && !lexer_at_line_end(&p->lex) &&
+           lexer_number(&p->lex, &numbers[count]))
         count++;
-    p->has_colors = count >= 3;
-    if (p->has_colors)
-        warnings_add(p->report, "vertices with colours",
-                     "%s:%" PRIu64
-                     ": found the colour of a vertex, which glim does not use",
-                     p->path, p->lex.line);
+    return count < 3 ||
+           vertex_colors_put(p->scene, &p->color_capacity,
+                             numbers + count - 3) ||
+           out_of_memory(p);
 }
 
 static bool read_position(struct parser *p)
@@ -111,9 +110,7 @@ static bool read_position(struct parser *p)
     memcpy(scene->file_positions + 3 * (size_t)scene->position_count, xyz,
            sizeof xyz);
     scene->position_count++;
-    if (!p->has_colors && !lexer_at_line_end(&p->lex))
-        look_for_color(p);
-    return true;
+    return lexer_at_line_end(&p->lex) || read_color(p);
 }
 
 static bool read_normal(struct parser *p)
@@ -409,6 +406,8 @@ static bool parse_lines(struct parser *p)
                     "%s: not an OBJ file: found no vertex and %" PRIu64
                     " unknown statements",
                     p->path, p->unknown_count);
+    if (!vertex_colors_finish(p->scene, &p->color_capacity))
+        return out_of_memory(p);
     return resolve_materials(p);
 }
 

@@ -43,6 +43,8 @@ struct scene {
     uint32_t normal_count;
     struct vec2 *uvs;
     uint32_t uv_count;
+    struct vec3 *colors; /* linear, of each vertex; NULL: the file has none */
+    uint32_t color_count;
 
     struct tri *tris;
     uint32_t *tri_faces;   /* number of the triangle's face, from 0 */

@@ -148,6 +148,7 @@ bool world_init(struct host_world *host, const struct scene *scene,
         world_renew(host, (enum world_part)i);
     for (int i = 0; i < 256; i++)
         host->linear_of_srgb[i] = (float)color_decoded(i / 255.0);
+    host->has_vertex_colors = scene->color_count > 0;
     if (!find_used_materials(host, scene, err) ||
         !copy_materials(host, scene, err) ||
         !textures_load(host, scene, report, err))
@@ -259,6 +260,7 @@ struct world world_arrays(const struct host_world *host,
         .positions = scene->positions,
         .normals = scene->normals,
         .uvs = scene->uvs,
+        .colors = scene->colors,
         .tris = world_tris(host, scene),
         .materials = host->materials,
         .textures = host->textures,
@@ -273,6 +275,7 @@ struct world world_arrays(const struct host_world *host,
                 .position_count = scene->position_count,
                 .normal_count = scene->normal_count,
                 .uv_count = scene->uv_count,
+                .color_count = scene->color_count,
                 .material_count = host->material_count,
                 .texture_count = scene->texture_count,
                 .texel_count = (uint32_t)host->texel_count,
@@ -292,6 +295,8 @@ uint32_t world_features(const struct host_world *host)
         features |= FEATURE_POINT_LIGHTS;
     if (host->directional_light_count > 0)
         features |= FEATURE_DIRECTIONAL_LIGHTS;
+    if (host->has_vertex_colors)
+        features |= FEATURE_VERTEX_COLORS;
     for (uint32_t i = 0; i < host->material_count; i++)
         if (host->material_is_used[i])
             features |= material_features(&host->materials[i], host->textures);

@@ -62,7 +62,8 @@ struct host_world {
     struct material *materials;
     struct mtl_source *sources; /* statements of the materials */
     bool *material_is_used;     /* true if a triangle uses the material */
-    uint32_t material_count;    /* materials of the scene and of edits */
+    bool has_vertex_colors;
+    uint32_t material_count; /* materials of the scene and of edits */
 
     struct texture *textures; /* textures of the scene, with texels */
     bool *texture_is_tried;   /* loading was tried */

@@ -162,18 +162,39 @@ static void unknown_statements_are_warned_of(void **state)
     unload(&l);
 }
 
-/* A fourth number of a vertex is a weight and gives no warning; a colour gives
- * one. */
-static void vertex_colors_are_warned_of(void **state)
+static void check_color(const char *text, uint32_t vertex, double r, double g,
+                        double b)
 {
-    static const char said[] =
-        "a.obj:1: found the colour of a vertex, which glim does not use";
+    struct loaded l = load_good(text, 1);
+    struct vec3 c = l.scene.colors[vertex];
+
+    assert_int_equal(l.report.entry_count, 0);
+    assert_int_equal(l.scene.color_count, 3);
+    check_close((double)c.x, r, 1e-6);
+    check_close((double)c.y, g, 1e-6);
+    check_close((double)c.z, b, 1e-6);
+    unload(&l);
+}
+
+/* A fourth number of a vertex is a weight; three more are a colour in sRGB, in
+ * which 0.5 is 0.2140411 (IEC 61966-2-1). */
+static void vertices_have_colors(void **state)
+{
+    static const char shades[] =
+        "v 0 0 0\nv 1 0 0 0 .5 1\nv 0 1 0 1 1 1 1\nf 1 2 3\n";
+    static const char bytes[] =
+        "v 0 0 0 0 127.5 255\nv 1 0 0 1 nan -3\nv 0 1 0 1e9 0 0\nf 1 2 3\n";
+    struct loaded l =
+        load_good("v 0 0 0 1\nv 1 0 0 1 # a b c\nv 0 1 0 1\nf 1 2 3\n", 1);
 
     (void)state;
-    check_clean("v 0 0 0 1\nv 1 0 0 1 # a b c\nv 0 1 0 1\nf 1 2 3\n", 1);
-    check_warned("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n", 1,
-                 said, 1);
-    check_warned("v 0 0 0 1 .5 .5 .5\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 1, said, 1);
+    assert_null(l.scene.colors);
+    unload(&l);
+    check_color(shades, 0, 1, 1, 1);
+    check_color(shades, 1, 0, 0.2140411, 1);
+    check_color(shades, 2, 1, 1, 1);
+    check_color(bytes, 0, 0, 0.2140411, 1);
+    check_color(bytes, 2, 1, 0, 0);
 }
 
 static void free_form_surfaces_are_warned_of(void **state)
@@ -197,7 +218,7 @@ int main(void)
         cmocka_unit_test(long_lines_are_read),
         cmocka_unit_test(other_files_are_refused),
         cmocka_unit_test(unknown_statements_are_warned_of),
-        cmocka_unit_test(vertex_colors_are_warned_of),
+        cmocka_unit_test(vertices_have_colors),
         cmocka_unit_test(free_form_surfaces_are_warned_of),
     };
 

@@ -72,6 +72,7 @@
       M(settings, sphere_count) M(settings, directional_light_count)          \
       M(settings, tri_count) M(settings, position_count)                      \
       M(settings, normal_count) M(settings, uv_count)                         \
+      M(settings, color_count)                                                \
       M(settings, material_count) M(settings, texture_count)                  \
       M(settings, texel_count) M(settings, light_count)                       \
       M(settings, light_node_count) M(settings, sky_cdf_count)                \

@@ -412,6 +412,42 @@ static int remove_files(void **state)
     return leave_empty_folder(state);
 }
 
+/* Colours of vertices are mixed linearly over a triangle, and multiply the
+ * colour of the material. */
+static void vertices_have_colors(void **state)
+{
+    static const struct vec3 colors[3] = {{0.9f, 0.1f, 0.2f},
+                                          {0.1f, 0.8f, 0.3f},
+                                          {0.2f, 0.3f, 0.7f}};
+    struct loaded l;
+
+    (void)state;
+    load(&l, "Kd .5 1 .25");
+    l.world.colors = colors;
+    l.world.settings.color_count = 3;
+    for (int i = 0; i < 16; i++) {
+        struct hit h = {.b1 = 0.06f * (float)i, .b2 = 0.002f * (float)(i * i)};
+        struct ray r = {.o = {0, 0, 1}, .d = {0, 0, -1}};
+        struct surface_point at;
+        struct bsdf b;
+        double c[3];
+
+        h.b0 = 1 - h.b1 - h.b2;
+        assert_true(surface_at(&l.world, &l.material, r, h, &at));
+        b = bsdf_at(&l.world, &l.material, &at);
+        c[0] = 0.5 *
+               (0.9 * (double)h.b0 + 0.1 * (double)h.b1 + 0.2 * (double)h.b2);
+        c[1] = 1.0 *
+               (0.1 * (double)h.b0 + 0.8 * (double)h.b1 + 0.3 * (double)h.b2);
+        c[2] = 0.25 *
+               (0.2 * (double)h.b0 + 0.3 * (double)h.b1 + 0.7 * (double)h.b2);
+        check_close((double)b.color.x, c[0], 1e-6);
+        check_close((double)b.color.y, c[1], 1e-6);
+        check_close((double)b.color.z, c[2], 1e-6);
+    }
+    unload(&l);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -427,6 +463,7 @@ int main(void)
         cmocka_unit_test(normal_maps_turn_the_normal),
         cmocka_unit_test(bump_maps_tilt_by_their_slope),
         cmocka_unit_test(bent_normals_reflect_upwards),
+        cmocka_unit_test(vertices_have_colors),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_files);
