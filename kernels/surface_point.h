@@ -120,6 +120,37 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     return true;
 }
 
+/* Returns the number of a map at a surface point, 1 if there is none. */
+static inline float map_number_at(const struct world *w,
+                                  const struct surface_point *v,
+                                  uint32_t texture)
+{
+    return HAS(FEATURE_TEXTURES) && v->has_uv && texture != NO_INDEX
+               ? texture_at(w, texture, v->uv).alpha
+               : 1.0f;
+}
+
+/* Fills the members of a BSDF that mixtures have. */
+static inline void principled_at(const struct world *w,
+                                 const struct material *m,
+                                 const struct surface_point *v, struct bsdf *b)
+{
+    float roughness = map_number_at(w, v, m->coat_alpha_texture);
+
+    b->metalness = m->metalness * map_number_at(w, v, m->metal_texture);
+    b->transmission =
+        m->transmission * map_number_at(w, v, m->transmission_texture);
+    b->coat = m->coat * map_number_at(w, v, m->coat_texture);
+    b->coat_alpha = m->coat_alpha * roughness * roughness;
+    b->anisotropy = m->anisotropy;
+    b->sheen = m->sheen;
+    if (HAS(FEATURE_TEXTURES) && v->has_uv && m->sheen_texture != NO_INDEX)
+        b->sheen =
+            v3_mul(b->sheen, texture_at(w, m->sheen_texture, v->uv).color);
+    b->sheen_alpha = m->sheen_alpha;
+    b->is_thin = m->is_thin;
+}
+
 static inline struct bsdf bsdf_at(const struct world *w,
                                   const struct material *m,
                                   const struct surface_point *v)
@@ -144,18 +175,8 @@ static inline struct bsdf bsdf_at(const struct world *w,
     }
     b.kind = m->kind;
     b.eta = m->ior;
-    if (bsdf_is_principled(&b)) {
-        b.metalness = m->metalness;
-        if (has_maps && m->metal_texture != NO_INDEX)
-            b.metalness *= texture_at(w, m->metal_texture, v->uv).alpha;
-        b.transmission = m->transmission;
-        b.coat = m->coat;
-        b.coat_alpha = m->coat_alpha;
-        b.anisotropy = m->anisotropy;
-        b.sheen = m->sheen;
-        b.sheen_alpha = m->sheen_alpha;
-        b.is_thin = m->is_thin;
-    }
+    if (bsdf_is_principled(&b))
+        principled_at(w, m, v, &b);
     if (bsdf_is_solid(&b) && !v->is_outside)
         b.eta = 1.0f / m->ior;
     return b;

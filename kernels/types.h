@@ -68,6 +68,9 @@ struct material {
     struct vec2 grain; /* direction of the wider axis, in units of the tangents
                           along u and v */
     struct vec3 attenuation; /* absorption in solids: attenuation.h */
+    /* these multiply weights and, squared, coat_alpha; NO_INDEX: none */
+    uint32_t transmission_texture, coat_texture, coat_alpha_texture;
+    uint32_t sheen_texture; /* multiplies sheen; NO_INDEX: none */
     uint32_t is_thin; /* 1: glass of MATERIAL_PRINCIPLED is a thin sheet */
     uint32_t normal_texture; /* shading normals in tangent space */
     uint32_t bump_texture;   /* heights in alpha */

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/statement.h"
 #include "kernels/light.h"
 
 /* Least Ns that gives a perfect mirror: exporters write 1000 for mirrors.
@@ -19,11 +20,6 @@
 #define IOR_DEFAULT 1.5
 #define IOR_MAX     1e6
 
-struct diagnostics {
-    const char *path;
-    struct warnings *report;
-};
-
 struct material material_default(void)
 {
     struct material m = {
@@ -36,6 +32,10 @@ struct material material_default(void)
         .alpha_texture = NO_INDEX,
         .metal_texture = NO_INDEX,
         .opacity_texture = NO_INDEX,
+        .transmission_texture = NO_INDEX,
+        .coat_texture = NO_INDEX,
+        .coat_alpha_texture = NO_INDEX,
+        .sheen_texture = NO_INDEX,
         .normal_texture = NO_INDEX,
         .bump_texture = NO_INDEX,
         .bump_scale = 1,
@@ -49,85 +49,12 @@ struct material material_default(void)
 void material_maps(const struct material *m, uint32_t maps[MATERIAL_MAPS])
 {
     const uint32_t all[MATERIAL_MAPS] = {
-        m->color_texture,  m->emission_texture, m->specular_texture,
-        m->alpha_texture,  m->metal_texture,    m->opacity_texture,
-        m->normal_texture, m->bump_texture};
+        m->color_texture,  m->emission_texture,   m->specular_texture,
+        m->alpha_texture,  m->metal_texture,      m->opacity_texture,
+        m->normal_texture, m->bump_texture,       m->transmission_texture,
+        m->coat_texture,   m->coat_alpha_texture, m->sheen_texture};
 
     memcpy(maps, all, sizeof all);
-}
-
-static double unit_clamped(double x)
-{
-    if (!(x > 0))
-        return 0;
-    return x < 1 ? x : 1;
-}
-
-/* Returns a reflectance with each channel clamped to [0, 1], with a warning, or
- * `missing` in all channels if the file does not give it. */
-static struct vec3 reflecting(const struct mtl_color *c, const char *key,
-                              float missing, const struct diagnostics *at)
-{
-    double rgb[3];
-    bool is_clamped = false;
-
-    if (c->line == 0)
-        return (struct vec3){missing, missing, missing};
-    for (int i = 0; i < 3; i++) {
-        rgb[i] = unit_clamped(c->rgb[i]);
-        is_clamped |= !(rgb[i] == c->rgb[i]);
-    }
-    if (is_clamped)
-        warnings_add(at->report, "colours outside 0 to 1",
-                     "%s:%" PRIu64
-                     ": found %s %g %g %g, expected numbers from 0 "
-                     "to 1: clamped",
-                     at->path, c->line, key, c->rgb[0], c->rgb[1], c->rgb[2]);
-    return (struct vec3){(float)rgb[0], (float)rgb[1], (float)rgb[2]};
-}
-
-static struct vec3 emission(const struct mtl_color *c,
-                            const struct diagnostics *at)
-{
-    float rgb[3] = {0, 0, 0};
-    bool is_changed = false;
-
-    for (int i = 0; i < 3 && c->line != 0; i++) {
-        if (c->rgb[i] >= 0 && c->rgb[i] <= (double)FLT_MAX)
-            rgb[i] = (float)c->rgb[i];
-        else
-            is_changed = true;
-    }
-    if (is_changed)
-        warnings_add(at->report, "radiances out of range",
-                     "%s:%" PRIu64 ": found Ke %g %g %g, expected numbers of "
-                     "at least 0: others taken as 0",
-                     at->path, c->line, c->rgb[0], c->rgb[1], c->rgb[2]);
-    return (struct vec3){rgb[0], rgb[1], rgb[2]};
-}
-
-/* Returns the number if it is in [lo, hi], else `missing`; a number out of
- * range is reported. */
-static double within(const struct mtl_number *n, const char *key, double lo,
-                     double hi, double missing, const struct diagnostics *at)
-{
-    if (n->line == 0)
-        return missing;
-    if (n->value >= lo && n->value <= hi)
-        return n->value;
-    warnings_add(at->report, "material values out of range",
-                 "%s:%" PRIu64
-                 ": found %s %g, expected a number from %g to %g: "
-                 "taken as %g",
-                 at->path, n->line, key, n->value, lo, hi, missing);
-    return missing;
-}
-
-/* Returns a number from 0 to 1; others are clamped, with a warning. */
-static double unit(const struct mtl_number *n, const char *key,
-                   const struct diagnostics *at)
-{
-    return within(n, key, 0, 1, unit_clamped(n->value), at);
 }
 
 static bool is_of_blender(const struct mtl_source *s)
@@ -135,12 +62,13 @@ static bool is_of_blender(const struct mtl_source *s)
     return s->dialect != MTL_CLASSIC;
 }
 
-static double alpha(const struct mtl_source *s, const struct diagnostics *at)
+static double alpha(const struct mtl_source *s,
+                    const struct statement_place *at)
 {
-    double ns = within(&s->ns, "Ns", 0, DBL_MAX, 0, at);
+    double ns = statement_within(&s->ns, "Ns", 0, DBL_MAX, 0, at);
 
     if (s->pr.line != 0) {
-        double pr = unit(&s->pr, "Pr", at);
+        double pr = statement_unit(&s->pr, "Pr", at);
 
         return pr * pr;
     }
@@ -155,32 +83,38 @@ static double alpha(const struct mtl_source *s, const struct diagnostics *at)
 }
 
 static void roughen(struct material *m, const struct mtl_source *s,
-                    const struct diagnostics *at)
+                    const struct statement_place *at)
 {
     m->alpha = (float)alpha(s, at);
     m->alpha_texture = mtl_source_map(s, MTL_MAP_PR);
 }
 
 /* Returns the opacity of d, or without d that of Tr. */
-static double opacity(const struct mtl_source *s, const struct diagnostics *at)
+static double opacity(const struct mtl_source *s,
+                      const struct statement_place *at)
 {
     if (s->d.line != 0)
-        return within(&s->d, "d", 0, 1,
-                      isnan(s->d.value) ? 1 : unit_clamped(s->d.value), at);
-    return 1 - unit(&s->tr, "Tr", at);
+        return statement_within(&s->d, "d", 0, 1,
+                                isnan(s->d.value)
+                                    ? 1
+                                    : statement_clamped(s->d.value),
+                                at);
+    return 1 - statement_unit(&s->tr, "Tr", at);
 }
 
 static int illumination(const struct mtl_source *s,
-                        const struct diagnostics *at)
+                        const struct statement_place *at)
 {
-    double illum = within(&s->illum, "illum", 0, 10, 2, at);
+    double illum = statement_within(&s->illum, "illum", 0, 10, 2, at);
 
     return (int)illum;
 }
 
-static float index_of(const struct mtl_source *s, const struct diagnostics *at)
+static float index_of(const struct mtl_source *s,
+                      const struct statement_place *at)
 {
-    return (float)within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX, IOR_DEFAULT, at);
+    return (float)statement_within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX,
+                                   IOR_DEFAULT, at);
 }
 
 /* Least share of light that is left after Tf_distance, so that absorption is
@@ -196,9 +130,10 @@ static float absorption(float share, double d)
 }
 
 /* Returns true if the glass of a mixture is a thin sheet. */
-static bool is_thin(const struct mtl_source *s, const struct diagnostics *at)
+static bool is_thin(const struct mtl_source *s,
+                    const struct statement_place *at)
 {
-    return unit(&s->tf_thin, "Tf_thin", at) > 0;
+    return statement_unit(&s->tf_thin, "Tf_thin", at) > 0;
 }
 
 static bool has_roughness(const struct mtl_source *s)
@@ -209,9 +144,11 @@ static bool has_roughness(const struct mtl_source *s)
 /* Sets the absorption of a solid with the colour tf after Tf_distance. Returns
  * false if the statement is absent or 0. */
 static bool attenuate(struct material *m, struct vec3 tf,
-                      const struct mtl_source *s, const struct diagnostics *at)
+                      const struct mtl_source *s,
+                      const struct statement_place *at)
 {
-    double d = within(&s->tf_distance, "Tf_distance", 0, DBL_MAX, 0, at);
+    double d =
+        statement_within(&s->tf_distance, "Tf_distance", 0, DBL_MAX, 0, at);
 
     if (d == 0)
         return false;
@@ -221,10 +158,11 @@ static bool attenuate(struct material *m, struct vec3 tf,
 }
 
 static void make_glass(struct material *m, uint32_t kind,
-                       const struct mtl_source *s, const struct diagnostics *at)
+                       const struct mtl_source *s,
+                       const struct statement_place *at)
 {
     m->kind = kind;
-    m->color = reflecting(&s->tf, "Tf", 1, at);
+    m->color = statement_reflectance(&s->tf, "Tf", 1, at);
     m->color_texture = mtl_source_map(s, MTL_MAP_KD);
     if (kind == MATERIAL_GLASS && attenuate(m, m->color, s, at))
         m->color = (struct vec3){1, 1, 1};
@@ -281,7 +219,7 @@ static bool is_black(const struct vec3 *c)
 /* Returns the reflectance of plastic whose Ks is 1. From Blender 4.0 on, Ks 0.5
  * is the Fresnel reflectance of Ni. */
 static float full_specular(const struct mtl_source *s,
-                           const struct diagnostics *at)
+                           const struct statement_place *at)
 {
     float ni = index_of(s, at);
     float r = (ni - 1) / (ni + 1);
@@ -291,7 +229,7 @@ static float full_specular(const struct mtl_source *s,
 
 static void make_plastic(struct material *m, const struct vec3 *ks,
                          const struct mtl_source *s,
-                         const struct diagnostics *at)
+                         const struct statement_place *at)
 {
     float full = full_specular(s, at);
     bool is_map_alone = is_of_blender(s) && s->ks.line == 0;
@@ -306,9 +244,9 @@ static void make_plastic(struct material *m, const struct vec3 *ks,
 }
 
 static void make_diffuse(struct material *m, const struct mtl_source *s,
-                         const struct diagnostics *at)
+                         const struct statement_place *at)
 {
-    double r = unit(&s->kd_roughness, "Kd_roughness", at);
+    double r = statement_unit(&s->kd_roughness, "Kd_roughness", at);
 
     if (r < ROUGH_LEAST)
         return;
@@ -319,17 +257,18 @@ static void make_diffuse(struct material *m, const struct mtl_source *s,
 /* Returns the weight of transmission, which Blender writes as a grey Tf. With
  * Tf_distance, it is the largest channel, and the rest is absorption. */
 static double transmission(struct material *m, const struct mtl_source *s,
-                           int illum, const struct diagnostics *at)
+                           int illum, const struct statement_place *at)
 {
     struct vec3 tf;
     float top;
 
-    if (s->tf.line == 0)
+    if (s->tf.line == 0 && mtl_source_map(s, MTL_MAP_TF) == NO_INDEX)
         return 0;
     if (is_of_blender(s) ? !has_roughness(s)
                          : s->pr.line == 0 || (illum != 2 && illum != 3))
         return 0;
-    tf = reflecting(&s->tf, "Tf", 0, at);
+    m->transmission_texture = mtl_source_map(s, MTL_MAP_TF);
+    tf = statement_reflectance(&s->tf, "Tf", 1, at);
     top = v3_max_component(tf);
     m->is_thin = top > 0 && is_thin(s, at);
     if (top > 0 && m->is_thin == 0 &&
@@ -341,13 +280,14 @@ static double transmission(struct material *m, const struct mtl_source *s,
 /* Returns the weight of metal. Without the extension, Blender writes it as Ka,
  * which is 1 for other materials. */
 static double metalness(const struct mtl_source *s, int illum,
-                        const struct diagnostics *at)
+                        const struct statement_place *at)
 {
     bool has_map = mtl_source_map(s, MTL_MAP_PM) != NO_INDEX;
-    double ka = s->ka.line != 0 ? unit_clamped(s->ka.rgb[0]) : 1;
+    double ka = s->ka.line != 0 ? statement_clamped(s->ka.rgb[0]) : 1;
 
     if (s->pm.line != 0 || !is_of_blender(s))
-        return s->pm.line == 0 && has_map ? 1 : unit(&s->pm, "Pm", at);
+        return s->pm.line == 0 && has_map ? 1
+                                          : statement_unit(&s->pm, "Pm", at);
     if (has_map || illum == 3 || illum == 6)
         return has_map ? 1 : ka;
     return illum == 1 && ka < 1 ? ka : 0; /* Ks is 0 */
@@ -357,15 +297,16 @@ static double metalness(const struct mtl_source *s, int illum,
 #define SHEEN_ROUGHNESS 0.5f
 
 static void set_sheen_and_grain(struct material *m, const struct mtl_source *s,
-                                const struct diagnostics *at)
+                                const struct statement_place *at)
 {
-    float ps = (float)unit(&s->ps, "Ps", at);
+    float ps = (float)statement_weight(s, &s->ps, "Ps", MTL_MAP_PS, at);
     double turn = s->anisor.line != 0 ? s->anisor.value : 0;
 
     m->sheen = (struct vec3){ps, ps, ps};
+    m->sheen_texture = mtl_source_map(s, MTL_MAP_PS);
     if (ps > 0)
         m->sheen_alpha = SHEEN_ROUGHNESS * SHEEN_ROUGHNESS;
-    m->anisotropy = (float)unit(&s->aniso, "aniso", at);
+    m->anisotropy = (float)statement_unit(&s->aniso, "aniso", at);
     if (m->anisotropy > 0 && isfinite(turn)) {
         turn = 2 * M_PI * (turn - floor(turn));
         m->grain = (struct vec2){(float)cos(turn), (float)sin(turn)};
@@ -376,17 +317,20 @@ static void set_sheen_and_grain(struct material *m, const struct mtl_source *s,
  * is not one. A grain needs highlights: metal, or Ks (has_ks). */
 static bool make_principled(struct material *m, int illum, bool has_ks,
                             const struct mtl_source *s,
-                            const struct diagnostics *at)
+                            const struct statement_place *at)
 {
     struct mtl_number pc = {s->pc.value / mtl_source_full_coat(s), s->pc.line};
-    double pcr = unit(&s->pcr, "Pcr", at);
+    double pcr = statement_weight(s, &s->pcr, "Pcr", MTL_MAP_PCR, at);
 
     m->metal_texture = mtl_source_map(s, MTL_MAP_PM);
     m->metalness = (float)metalness(s, illum, at);
     m->transmission = (float)transmission(m, s, illum, at);
-    m->coat = (float)unit(&pc, "Pc", at);
-    if (m->coat > 0)
+    m->coat = (float)statement_weight(s, &pc, "Pc", MTL_MAP_PC, at);
+    m->coat_texture = mtl_source_map(s, MTL_MAP_PC);
+    if (m->coat > 0) {
         m->coat_alpha = (float)(pcr * pcr);
+        m->coat_alpha_texture = mtl_source_map(s, MTL_MAP_PCR);
+    }
     set_sheen_and_grain(m, s, at);
     if (m->metalness == 0 && !has_ks)
         m->anisotropy = 0;
@@ -397,11 +341,11 @@ static bool make_principled(struct material *m, int illum, bool has_ks,
 
 static void make_opaque(struct material *m, int illum,
                         const struct mtl_source *s,
-                        const struct diagnostics *at)
+                        const struct statement_place *at)
 {
     uint32_t map_kd = mtl_source_map(s, MTL_MAP_KD);
     uint32_t map_ks = mtl_source_map(s, MTL_MAP_KS);
-    struct vec3 ks = reflecting(&s->ks, "Ks", 0, at);
+    struct vec3 ks = statement_reflectance(&s->ks, "Ks", 0, at);
     bool has_ks = !is_black(&ks) || map_ks != NO_INDEX;
     bool is_principled = make_principled(m, illum, has_ks, s, at);
 
@@ -415,7 +359,8 @@ static void make_opaque(struct material *m, int illum,
                      s->d.line != 0 ? s->d.value : s->tr.value);
     m->opacity_texture = mtl_source_map(s, MTL_MAP_D);
     m->color =
-        reflecting(&s->kd, "Kd", map_kd != NO_INDEX ? 0 : MATERIAL_GREY, at);
+        statement_reflectance(&s->kd, "Kd",
+                              map_kd != NO_INDEX ? 0 : MATERIAL_GREY, at);
     m->color_texture = map_kd;
     if (m->metalness == 1 && !is_principled) {
         m->kind = MATERIAL_METAL;
@@ -439,13 +384,16 @@ static void make_opaque(struct material *m, int illum,
 
 /* Reports a map that this kind of material does not use. */
 static void check_map(const struct mtl_source *s, enum mtl_map which,
-                      const struct material *m, const struct diagnostics *at)
+                      const struct material *m,
+                      const struct statement_place *at)
 {
     uint32_t map = mtl_source_map(s, which);
 
     if (map != NO_INDEX && map != m->color_texture &&
         map != m->specular_texture && map != m->alpha_texture &&
-        map != m->metal_texture && map != m->opacity_texture)
+        map != m->metal_texture && map != m->opacity_texture &&
+        map != m->transmission_texture && map != m->coat_texture &&
+        map != m->coat_alpha_texture && map != m->sheen_texture)
         warnings_add(at->report, "maps that their material does not use",
                      "%s: found %s, which this material does not use: ignored",
                      at->path, mtl_map_keys[which]);
@@ -454,9 +402,12 @@ static void check_map(const struct mtl_source *s, enum mtl_map which,
 struct material material_from_source(const struct mtl_source *s,
                                      const char *path, struct warnings *report)
 {
-    static const enum mtl_map kind_maps[] = {MTL_MAP_KD, MTL_MAP_KS, MTL_MAP_PR,
-                                             MTL_MAP_PM, MTL_MAP_D};
-    struct diagnostics at = {path, report};
+    static const enum mtl_map kind_maps[] = {MTL_MAP_KD, MTL_MAP_KS,
+                                             MTL_MAP_PR, MTL_MAP_PM,
+                                             MTL_MAP_D,  MTL_MAP_TF,
+                                             MTL_MAP_PC, MTL_MAP_PCR,
+                                             MTL_MAP_PS};
+    struct statement_place at = {path, report};
     struct material m = material_default();
     struct mtl_color light = mtl_source_light(s);
     int illum = illumination(s, &at);
@@ -484,7 +435,7 @@ struct material material_from_source(const struct mtl_source *s,
     m.normal_texture = mtl_source_map(s, MTL_MAP_NORM);
     m.bump_texture = mtl_source_map(s, MTL_MAP_BUMP);
     m.bump_scale = (float)s->bump_scale;
-    m.emission = emission(&light, &at);
+    m.emission = statement_radiance(&light, &at);
     m.emission_texture = mtl_source_map(s, MTL_MAP_KE);
     return m;
 }

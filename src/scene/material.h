@@ -7,23 +7,24 @@
  *   glass        illum 6 or 7; colour Tf times map_Kd
  *   thin glass   illum 4 or 9, unless Tf is white or absent and d is below 1 or
  *                Ni is 1; colour Tf times map_Kd
- *   principled   Pm between 0 and 1, map_Pm, Pc, Ps or aniso above 0, or Tf
- *                that is not black beside Pr: a mixture of metal of colour Kd
- *                (weight Pm times map_Pm), glass (mean of Tf) and plastic,
- * under a coat (weight Pc, roughness Pcr) and grey sheen (Ps); aniso stretches
- * highlights along u, turned by anisor of a turn metal        Pm 1; colour Kd
- *   metal        illum 3 or 5 with map_Ks or with Ks that is not black;
+ *   principled   Pm between 0 and 1, map_Pm, Pc, Ps or aniso above 0, map_Pc,
+ *                map_Ps, or map_Tf or Tf that is not black beside Pr: a mixture
+ * of metal of colour Kd (weight Pm times map_Pm), glass (mean of Tf) and
+ * plastic, under a coat (weight Pc, roughness Pcr) and grey sheen (Ps); aniso
+ * stretches highlights along u, turned by anisor of a turn metal        Pm 1;
+ * colour Kd metal        illum 3 or 5 with map_Ks or with Ks that is not black;
  *                colour Ks
  *   plastic      map_Ks, or Ks that is not black: diffuse of colour Kd under a
  *                clear surface of reflectance MATERIAL_SPECULAR times Ks
  *   diffuse      all others; colour Kd, roughness Kd_roughness (default 0)
  * A map multiplies its colour. Roughness alpha is Pr squared; without Pr it is
  * sqrt(2 / (Ns + 2)), or 0 if Ns is absent, 0, or at least 1000. Pr defaults
- * to 1 if there is map_Pr, and Pm to 1 if there is map_Pm. With Tf_distance,
- * solid glass has no tint of Tf: Tf is what it leaves of light after this
- * distance. Thin glass is rough with Pr or map_Pr only. In a mixture, Tf_thin
- * above 0 makes its glass a thin sheet; else, with Tf_distance, the weight of
- * glass is the largest channel of Tf, and absorption has the hue of Tf.
+ * to 1 if there is map_Pr; Pm, Pc, Pcr, Ps and Tf to 1 likewise. With
+ * Tf_distance, solid glass has no tint of Tf: Tf is what it leaves of light
+ * after this distance. Thin glass is rough with Pr or map_Pr only. In a
+ * mixture, Tf_thin above 0 makes its glass a thin sheet; else, with
+ * Tf_distance, the weight of glass is the largest channel of Tf, and absorption
+ * has the hue of Tf.
  *
  * In files of Blender (enum mtl_dialect), Ks never is a colour of metal; Pm is
  * Ka with illum 3 and 6 if there is no Pm; roughness is 1 - sqrt(Ns / 1000);
@@ -49,7 +50,7 @@
 #define MATERIAL_GREY 0.8f
 
 /* Maps of a material. */
-#define MATERIAL_MAPS 8
+#define MATERIAL_MAPS 12
 
 struct material material_default(void);
 

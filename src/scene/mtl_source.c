@@ -31,10 +31,12 @@ const struct mtl_property mtl_properties[MTL_PROPERTIES] = {
 };
 
 const char *const mtl_map_keys[MTL_MAPS] = {
-    [MTL_MAP_KD] = "map_Kd", [MTL_MAP_KS] = "map_Ks",
-    [MTL_MAP_KE] = "map_Ke", [MTL_MAP_PR] = "map_Pr",
-    [MTL_MAP_PM] = "map_Pm", [MTL_MAP_D] = "map_d",
-    [MTL_MAP_NORM] = "norm", [MTL_MAP_BUMP] = "map_Bump",
+    [MTL_MAP_KD] = "map_Kd",   [MTL_MAP_KS] = "map_Ks",
+    [MTL_MAP_KE] = "map_Ke",   [MTL_MAP_PR] = "map_Pr",
+    [MTL_MAP_PM] = "map_Pm",   [MTL_MAP_D] = "map_d",
+    [MTL_MAP_TF] = "map_Tf",   [MTL_MAP_PC] = "map_Pc",
+    [MTL_MAP_PCR] = "map_Pcr", [MTL_MAP_PS] = "map_Ps",
+    [MTL_MAP_NORM] = "norm",   [MTL_MAP_BUMP] = "map_Bump",
 };
 
 struct mtl_source mtl_source_empty(void)

@@ -32,6 +32,10 @@ enum mtl_map {
     MTL_MAP_PR,
     MTL_MAP_PM,
     MTL_MAP_D,
+    MTL_MAP_TF,
+    MTL_MAP_PC,
+    MTL_MAP_PCR,
+    MTL_MAP_PS,
     MTL_MAP_NORM,
     MTL_MAP_BUMP,
     MTL_MAPS

@@ -372,6 +372,13 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
     resolve_data_map(host, &m->alpha_texture);
     if (resolve_data_map(host, &m->metal_texture))
         m->metalness = 0;
+    if (resolve_data_map(host, &m->transmission_texture))
+        m->transmission = 0;
+    if (resolve_data_map(host, &m->coat_texture))
+        m->coat = 0;
+    resolve_data_map(host, &m->coat_alpha_texture);
+    if (resolve_data_map(host, &m->sheen_texture))
+        m->sheen = (struct vec3){0, 0, 0};
     resolve_data_map(host, &m->opacity_texture);
     resolve_data_map(host, &m->normal_texture);
     resolve_bump_map(host, scene, m, report);

@@ -177,14 +177,15 @@ static void keep_sheet(struct mtl_source *s)
 static void set_kind(struct owner *o, const struct value *v)
 {
     uint32_t bits = kind_bits[(size_t)v->number];
+    static const enum mtl_map kind_maps[] = {MTL_MAP_KS, MTL_MAP_PM, MTL_MAP_TF,
+                                             MTL_MAP_PC, MTL_MAP_PS};
     struct mtl_source *s = &o->source;
     struct value color;
 
     get_color(o, &color);
-    if (s->maps[MTL_MAP_KS] != NO_INDEX)
-        s->maps_off |= 1u << MTL_MAP_KS;
-    if (s->maps[MTL_MAP_PM] != NO_INDEX)
-        s->maps_off |= 1u << MTL_MAP_PM;
+    for (size_t i = 0; i < sizeof kind_maps / sizeof *kind_maps; i++)
+        if (s->maps[kind_maps[i]] != NO_INDEX)
+            s->maps_off |= 1u << kind_maps[i];
     if ((bits & OPAQUE) != 0) {
         set_opaque(s, bits, color.rgb);
         return;
@@ -422,6 +423,10 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"map_Pr", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PR)},
     {"map_Pm", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PM)},
     {"map_d", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_D)},
+    {"map_Tf", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_TF)},
+    {"map_Pc", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PC)},
+    {"map_Pcr", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PCR)},
+    {"map_Ps", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PS)},
     {"norm", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_NORM)},
     {"map_Bump", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_BUMP)},
 };

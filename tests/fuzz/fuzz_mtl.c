@@ -37,6 +37,8 @@ static void check_material(const struct scene *scene, const struct material *m)
     require(m->transmission >= 0 && m->transmission <= 1, "transmission");
     require(m->coat >= 0 && m->coat <= 1, "coat");
     require(m->coat_alpha >= 0 && m->coat_alpha <= 1, "roughness of the coat");
+    require(m->sheen.x >= 0 && m->sheen.x <= 1, "sheen");
+    require(is_light(m->attenuation), "absorption");
     require(is_texture(scene, m->color_texture) &&
                 is_texture(scene, m->emission_texture) &&
                 is_texture(scene, m->specular_texture) &&
@@ -44,7 +46,11 @@ static void check_material(const struct scene *scene, const struct material *m)
                 is_texture(scene, m->metal_texture) &&
                 is_texture(scene, m->opacity_texture) &&
                 is_texture(scene, m->normal_texture) &&
-                is_texture(scene, m->bump_texture),
+                is_texture(scene, m->bump_texture) &&
+                is_texture(scene, m->transmission_texture) &&
+                is_texture(scene, m->coat_texture) &&
+                is_texture(scene, m->coat_alpha_texture) &&
+                is_texture(scene, m->sheen_texture),
             "textures");
 }
 

@@ -13,7 +13,7 @@
 #define EDITS_MAX 16
 
 /* Number of textures in a material. */
-#define MAPS 8
+#define MAPS MATERIAL_MAPS
 
 static const uint32_t *const *maps_of(const struct material *m)
 {
@@ -27,6 +27,10 @@ static const uint32_t *const *maps_of(const struct material *m)
     maps[5] = &m->opacity_texture;
     maps[6] = &m->normal_texture;
     maps[7] = &m->bump_texture;
+    maps[8] = &m->transmission_texture;
+    maps[9] = &m->coat_texture;
+    maps[10] = &m->coat_alpha_texture;
+    maps[11] = &m->sheen_texture;
     return maps;
 }
 

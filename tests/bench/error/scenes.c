@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
  * scenes - writes special scenes that are not shipped, to measure the limits of
- * light sampling: plates lamps2000 sun balls; and one to compare with other
- * renderers, whose glass has flat sides only: glass_box
+ * light sampling: plates lamps2000 sun balls; some with a layer or a glass of
+ * the principled surface: coat sheen grain absorbing frosted; and one to
+ * compare with other renderers, whose glass has flat sides only: glass_box
  *
  * usage: scenes FOLDER
  */
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -216,6 +218,49 @@ static void make_balls(void)
                              "res 600 600\n");
 }
 
+/* Writes a ball, or a pane before a wall, of this surface under a lamp. */
+static void make_surface(const char *name, const char *statements, bool is_pane)
+{
+    struct mesh m = mesh_open(folder, name, "One surface under a lamp.");
+    char *mtl = xformat("newmtl white\nKd .73 .72 .7\nillum 1\n"
+                        "newmtl lamp\nKd 0 0 0\nKe 22 20 17\n"
+                        "newmtl surface\n%s",
+                        statements);
+    char *mtl_name = xformat("%s.mtl", name);
+    char *view_name = xformat("%s.view", name);
+
+    mesh_object(&m, "floor", "white");
+    mesh_quad(&m, at(-4, 0, 4), at(4, 0, 4), at(4, 0, -2), at(-4, 0, -2), 1, 1);
+    mesh_quad(&m, at(-4, 0, -2), at(4, 0, -2), at(4, 4, -2), at(-4, 4, -2), 1,
+              1);
+    mesh_object(&m, "lamp", "lamp");
+    mesh_quad(&m, at(-.4, 2.99, -.4), at(.4, 2.99, -.4), at(.4, 2.99, .4),
+              at(-.4, 2.99, .4), 1, 1);
+    mesh_object(&m, "surface", "surface");
+    if (is_pane)
+        mesh_quad(&m, at(-1, .001, .8), at(1, .001, .8), at(1, 1.6, .8),
+                  at(-1, 1.6, .8), 1, 1);
+    else
+        mesh_sphere(&m, at(0, .801, 0), .8, 8);
+    mesh_close(&m);
+    write_text(mtl_name, mtl);
+    write_text(view_name, "eye 0 1.5 6.5\nat 0 1 0\nup 0 1 0\nfovy 32\n"
+                          "res 600 600\nbackground .1 .1 .1\n");
+    free(view_name);
+    free(mtl_name);
+    free(mtl);
+}
+
+static void make_surfaces(void)
+{
+    make_surface("coat", "Kd .6 .1 .05\nKs .5\nPr .5\nPc 1\nPcr .1\n", false);
+    make_surface("sheen", "Kd .1 .1 .3\nPs 1\n", false);
+    make_surface("grain", "Kd .9 .8 .6\nPm 1\nPr .4\naniso .8\n", false);
+    make_surface("absorbing", "illum 7\nNi 1.5\nTf .3 .7 .5\nTf_distance .5\n",
+                 false);
+    make_surface("frosted", "illum 4\nNi 1.5\nTf .9 .95 1\nPr .4\n", true);
+}
+
 static void make_glass_box(void)
 {
     struct mesh m =
@@ -261,6 +306,7 @@ int main(int argc, char **argv)
     make_lamps2000();
     make_sun();
     make_balls();
+    make_surfaces();
     make_glass_box();
     return 0;
 }

@@ -489,6 +489,35 @@ static void sheets_are_rough_if_the_file_says_so(void **state)
     only_material("Kd .7\nPr .5\nTf .4\nTf_thin 7", 1);
 }
 
+/* A lost map takes its layer with it; maps that nothing uses are named. */
+static void maps_weigh_the_layers(void **state)
+{
+    struct loaded l = load("newmtl a\nmap_Pc c.png\nmap_Pcr r.png\n"
+                           "newmtl b\nmap_Ps s.png\nPs .5\n"
+                           "newmtl c\nPr .5\nmap_Tf t.png\n"
+                           "newmtl d\nmap_Tf t.png\nmap_Pcr r.png\n");
+    const struct material *m = l.scene.materials;
+
+    (void)state;
+    assert_true(l.ok);
+    for (int i = 1; i <= 3; i++)
+        assert_int_equal(m[i].kind, MATERIAL_PRINCIPLED);
+    assert_int_equal(m[1].coat_texture, 0);
+    assert_int_equal(m[1].coat_alpha_texture, 1);
+    check_close((double)m[1].coat, 1, 0);
+    check_close((double)m[1].coat_alpha, 1, 0);
+    assert_int_equal(m[2].sheen_texture, 2);
+    check_close((double)m[2].sheen.x, .5, 0);
+    assert_int_equal(m[3].transmission_texture, 3);
+    check_close((double)m[3].transmission, 1, 0);
+    assert_int_equal(l.scene.textures[3].is_data, 1);
+    assert_int_equal(m[4].kind, MATERIAL_DIFFUSE);
+    assert_int_equal(m[4].transmission_texture, NO_INDEX);
+    assert_int_equal(l.report.entry_count, 1);
+    assert_int_equal(l.report.entries[0].count, 2);
+    unload(&l);
+}
+
 static void maps_of_numbers_are_data(void **state)
 {
     struct loaded l =
@@ -594,6 +623,7 @@ int main(void)
         cmocka_unit_test(statements_weigh_the_lobes),
         cmocka_unit_test(solids_absorb_their_colour),
         cmocka_unit_test(sheets_are_rough_if_the_file_says_so),
+        cmocka_unit_test(maps_weigh_the_layers),
         cmocka_unit_test(maps_of_numbers_are_data),
         cmocka_unit_test(bump_maps_have_their_scale),
         cmocka_unit_test_setup_teardown(paths_of_other_machines_find_the_file,

@@ -56,6 +56,13 @@ static void switch_bumps(struct mtl_source *s)
     s->maps_off ^= 1u << MTL_MAP_BUMP;
 }
 
+static void absorb(struct mtl_source *s)
+{
+    s->tf_distance = number(2.5);
+    s->tf_thin = number(0);
+    s->maps_off ^= 1u << MTL_MAP_PC;
+}
+
 static void keep(struct mtl_source *s)
 {
     (void)s;
@@ -91,6 +98,8 @@ static void only_changed_statements_are_written(void **state)
         {"newmtl a b\nKd 0\nnewmtl m\nKa 0 # C:\\x\\\nPs 1\n", redden,
          "newmtl a b\nKd 0\nnewmtl m\nKa 0 # C:\\x\\\nPs 1\nKd 1 0.5 0.25\n"},
         {"newmtl m\nNs 30\n", roughen, "newmtl m\nNs 30\nPr 0.5\n"},
+        {"newmtl m\nTf_thin 1\nmap_Pc a.png\n", absorb,
+         "newmtl m\nTf_thin 0\nTf_distance 2.5\n#map_Pc a.png\n"},
         {"newmtl m\nd -halo 0.5\n", fade, "newmtl m\nd -halo 0.25\n"},
         {"newmtl m\nTr 0.5\n", fade, "newmtl m\nTr 0.5\nd 0.25\n"},
         /* Either statement gives light. */

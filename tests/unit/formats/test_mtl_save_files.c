@@ -62,6 +62,8 @@ static struct mtl_source changed(const struct mtl_source *from)
     change_number(&s.pc, 1);
     change_number(&s.pcr, 1);
     change_number(&s.kd_roughness, 1);
+    change_number(&s.tf_distance, 9);
+    change_number(&s.tf_thin, 1);
     change_number(&s.kelvin, 9000);
     s.luminance = s.kelvin.line != 0 ? number(random_unit() * 50)
                                      : (struct mtl_number){.line = 0};
@@ -130,6 +132,10 @@ static void check_same(const struct scene *got, uint32_t g,
     b.opacity_texture = a.opacity_texture;
     b.normal_texture = a.normal_texture;
     b.bump_texture = a.bump_texture;
+    b.transmission_texture = a.transmission_texture;
+    b.coat_texture = a.coat_texture;
+    b.coat_alpha_texture = a.coat_alpha_texture;
+    b.sheen_texture = a.sheen_texture;
     if (memcmp(&a, &b, sizeof a) != 0)
         print_error("%s: material %s\n", path, got->material_names[g]);
     assert_memory_equal(&a, &b, sizeof a);

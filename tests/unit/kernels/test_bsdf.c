@@ -184,6 +184,23 @@ static void mirrors_and_sheets_have_no_density(void **state)
     }
 }
 
+/* F90 is 50 F0 for weak faces (Lagarde and de Rousiers 2014, 3.1). */
+static void weak_faces_stay_weak_at_grazing_angles(void **state)
+{
+    struct bsdf m = {.specular = {0.01f, 0.01f, 0.01f},
+                     .eta = 1,
+                     .kind = MATERIAL_PLASTIC};
+
+    (void)state;
+    for (size_t c = 0; c < COUNT(cosines); c++) {
+        struct bsdf_sample s;
+
+        assert_true(bsdf_sample(&m, direction(cosines[c]), v2(0, 0), 0, &s));
+        check_close((double)s.weight.x,
+                    0.01 + 0.49 * pow(1 - (double)cosines[c], 5), 1e-6);
+    }
+}
+
 static double albedo(const struct bsdf *m, float mu)
 {
     return (double)sampled_albedo(m, mu, 300).z;
@@ -409,6 +426,7 @@ int main(void)
         cmocka_unit_test(rough_sheets_become_smooth),
         cmocka_unit_test(white_sheets_lose_nothing),
         cmocka_unit_test(mirrors_and_sheets_have_no_density),
+        cmocka_unit_test(weak_faces_stay_weak_at_grazing_angles),
         cmocka_unit_test(white_reflections_lose_nothing),
         cmocka_unit_test(white_glass_loses_nothing),
         cmocka_unit_test(coloured_metal_has_its_albedo),

@@ -35,6 +35,8 @@
       M(material, coat_alpha) M(material, sheen) M(material, sheen_alpha)     \
       M(material, anisotropy) M(material, grain)                              \
       M(material, attenuation) M(material, is_thin)                           \
+      M(material, transmission_texture) M(material, coat_texture)             \
+      M(material, coat_alpha_texture) M(material, sheen_texture)              \
     S(texture) M(texture, first) M(texture, width) M(texture, height)         \
       M(texture, has_alpha) M(texture, scale) M(texture, offset)              \
       M(texture, is_clamped) M(texture, is_data)                              \

@@ -295,6 +295,38 @@ static void metal_is_mixed_by_its_map(void **state)
     unload(&l);
 }
 
+/* The texels of the map are 0.2 and 0.8. */
+static void layers_are_weighed_by_their_maps(void **state)
+{
+    struct loaded l;
+    struct bsdf b;
+
+    (void)state;
+    write_image("two.tga", 2, 1, 3, two);
+    load(&l, "Kd .3\nKs .5\nPr .5\nTf .5\nPc .6\nPcr .5\nPs .4\n"
+             "map_Pc two.tga\nmap_Pcr two.tga\nmap_Ps two.tga\n"
+             "map_Tf two.tga");
+    b = surface(&l, 0.75f, 0.5f);
+    check_close((double)b.coat, 0.48, 1e-6);
+    check_close((double)b.coat_alpha, 0.25 * 0.64, 1e-6);
+    check_close((double)b.sheen.y, 0.32, 1e-6);
+    check_close((double)b.transmission, 0.4, 1e-6);
+    b = surface(&l, 0.25f, 0.5f);
+    check_close((double)b.coat, 0.12, 1e-6);
+    check_close((double)b.coat_alpha, 0.25 * 0.04, 1e-6);
+    unload(&l);
+    /* without the statements their numbers are 1 */
+    load(&l, "Kd .3\nPr .5\nmap_Pc two.tga\nmap_Pcr two.tga\n"
+             "map_Ps two.tga\nmap_Tf two.tga");
+    b = surface(&l, 0.75f, 0.5f);
+    assert_int_equal(b.kind, MATERIAL_PRINCIPLED);
+    check_close((double)b.coat, 0.8, 1e-6);
+    check_close((double)b.coat_alpha, 0.64, 1e-6);
+    check_close((double)b.sheen.x, 0.8, 1e-6);
+    check_close((double)b.transmission, 0.8, 1e-6);
+    unload(&l);
+}
+
 static void maps_are_the_share_of_stopped_rays(void **state)
 {
     const uint8_t leaf[8] = {9, 9, 9, 0, 9, 9, 9, 255};
@@ -459,6 +491,7 @@ int main(void)
         cmocka_unit_test(many_images_are_read),
         cmocka_unit_test(roughness_is_multiplied),
         cmocka_unit_test(metal_is_mixed_by_its_map),
+        cmocka_unit_test(layers_are_weighed_by_their_maps),
         cmocka_unit_test(maps_are_the_share_of_stopped_rays),
         cmocka_unit_test(normal_maps_turn_the_normal),
         cmocka_unit_test(bump_maps_tilt_by_their_slope),
