@@ -60,7 +60,7 @@ static inline bool bsdf_is_delta(const struct bsdf *m)
         return is_smooth(m) || glass_is_index_matched(m);
     if (HAS(FEATURE_PLASTIC) && m->kind == MATERIAL_PLASTIC)
         return is_smooth(m) && v3_is_zero(m->color);
-    return is_thin_glass(m) && is_smooth(m);
+    return is_thin_glass(m) && (!HAS(FEATURE_ROUGH_SHEETS) || is_smooth(m));
 }
 
 /* True if light goes through the surface. */
@@ -91,7 +91,7 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
         return principled_terms(m, wo, wi, pdf);
     if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS)
         return glass_terms(m, wo, wi, pdf);
-    if (is_thin_glass(m))
+    if (HAS(FEATURE_ROUGH_SHEETS) && is_thin_glass(m))
         return thin_terms(m, wo, wi, pdf);
     if (wi.z < 0.0f)
         return v3(0.0f, 0.0f, 0.0f);

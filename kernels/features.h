@@ -29,10 +29,11 @@ enum feature {
     FEATURE_POINT_LIGHTS = 65536,        /* point and spot lights */
     FEATURE_DIRECTIONAL_LIGHTS = 131072, /* the sun is one */
     FEATURE_ATTENUATION = 262144, /* solids that absorb light: attenuation.h */
-    FEATURE_VERTEX_COLORS = 524288
+    FEATURE_VERTEX_COLORS = 524288,
+    FEATURE_ROUGH_SHEETS = 1048576 /* rough thin glass */
 };
 
-#define FEATURES_ALL 1048575u
+#define FEATURES_ALL 2097151u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

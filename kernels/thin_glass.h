@@ -105,7 +105,7 @@ static inline bool thin_sample(const struct bsdf *m, struct vec3 wo,
     float cos_t;
     float f;
 
-    if (!is_smooth(m))
+    if (HAS(FEATURE_ROUGH_SHEETS) && !is_smooth(m))
         return thin_sample_rough(m, wo, u, choice, s);
     f = fresnel_dielectric(wo.z, m->eta, &cos_t);
     if (choice * (1.0f + f) < 2.0f * f)

@@ -48,6 +48,9 @@ uint32_t material_features(const struct material *m,
         features |= FEATURE_ATTENUATION;
     if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
         features |= FEATURE_GLASS;
+    if (m->is_thin != 0 ||
+        (m->kind == MATERIAL_THIN_GLASS && m->alpha >= ALPHA_SMOOTH))
+        features |= FEATURE_ROUGH_SHEETS;
     if (m->kind == MATERIAL_PLASTIC)
         features |= FEATURE_PLASTIC;
     if (m->kind == MATERIAL_ROUGH_DIFFUSE)

@@ -99,7 +99,7 @@ static void only_changed_statements_are_written(void **state)
          "newmtl a b\nKd 0\nnewmtl m\nKa 0 # C:\\x\\\nPs 1\nKd 1 0.5 0.25\n"},
         {"newmtl m\nNs 30\n", roughen, "newmtl m\nNs 30\nPr 0.5\n"},
         {"newmtl m\nTf_thin 1\nmap_Pc a.png\n", absorb,
-         "newmtl m\nTf_thin 0\nTf_distance 2.5\n#map_Pc a.png\n"},
+         "newmtl m\nTf_thin 0\n#map_Pc a.png\nTf_distance 2.5\n"},
         {"newmtl m\nd -halo 0.5\n", fade, "newmtl m\nd -halo 0.25\n"},
         {"newmtl m\nTr 0.5\n", fade, "newmtl m\nTr 0.5\nd 0.25\n"},
         /* Either statement gives light. */
