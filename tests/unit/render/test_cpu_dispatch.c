@@ -83,13 +83,14 @@ static int compare_builds(const char *scene, const struct cpu_kernel *whole)
     const struct cpu_kernel *builds[BUILDS_MAX] = {whole};
     struct session s;
     struct error err;
+    uint32_t features;
     int count = 1;
 
     check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
+    features = world_features(&s.world);
     render(&s, FEATURES_ALL & ~(uint32_t)FEATURE_COVERAGE, want);
     for (uint32_t more = 0; more <= FEATURES_ALL; more++) {
-        const struct cpu_kernel *p =
-            cpu_kernel_fit(whole, world_features(&s.world) | more);
+        const struct cpu_kernel *p = cpu_kernel_fit(whole, features | more);
 
         if (!is_new(p, builds, &count))
             continue;
