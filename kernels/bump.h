@@ -101,7 +101,10 @@ static inline struct vec3 bumped_normal(const struct world *w,
     if (m->normal_texture != NO_INDEX) {
         struct vec3 c = texture_at(w, m->normal_texture, uv).color;
 
-        slope = v3(2.0f * c.x - 1.0f, 2.0f * c.y - 1.0f, 2.0f * c.z - 1.0f);
+        float s = m->normal_strength;
+
+        slope = v3(s * (2.0f * c.x - 1.0f), s * (2.0f * c.y - 1.0f),
+                   s * (2.0f * c.z - 1.0f) + (1.0f - s));
     }
     if (m->bump_texture != NO_INDEX) {
         struct vec2 s = height_slopes(w, m, uv);

@@ -75,6 +75,7 @@ struct material {
     uint32_t normal_texture; /* shading normals in tangent space */
     uint32_t bump_texture;   /* heights in alpha */
     float bump_scale;        /* height of an alpha of 1, in texels */
+    float normal_strength;   /* 0: the map of normals has no effect; 1: all */
 };
 
 /* Roughness below which a microfacet lobe is a delta lobe. */

@@ -39,6 +39,7 @@ struct material material_default(void)
         .normal_texture = NO_INDEX,
         .bump_texture = NO_INDEX,
         .bump_scale = 1,
+        .normal_strength = 1,
         .opacity = 1,
         .grain = {1, 0},
     };

@@ -323,8 +323,10 @@ static void resolve_bump_map(const struct host_world *host,
         !is_normal_map(host, &host->textures[map]))
         return;
     m->bump_texture = NO_INDEX;
-    if (m->normal_texture == NO_INDEX)
+    if (m->normal_texture == NO_INDEX) {
         m->normal_texture = map;
+        m->normal_strength = m->bump_scale;
+    }
     warnings_add(report, "normal maps in map_Bump",
                  "%s:%" PRIu64 ": found a map of normals, expected heights: "
                  "used as norm",

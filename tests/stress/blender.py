@@ -62,6 +62,8 @@ MATERIALS = [
                "Roughness": 1.0, "Alpha": 0.3}, "", "", DIFFUSE),
     ("normal_map", {"Base Color": RED, "Specular IOR Level": 0.0,
                     "Roughness": 1.0}, "", "", DIFFUSE),
+    ("half_normal_map", {"Base Color": GOLD, "Metallic": 1.0,
+                         "Roughness": 0.4}, "", "", ""),
     ("coat", {"Base Color": RED, "Specular IOR Level": 0.0, "Roughness": 1.0,
               "Coat Weight": 0.7, "Coat Roughness": 0.1}, LOST, "", DIFFUSE),
     ("sheen", {"Base Color": RED, "Specular IOR Level": 0.0, "Roughness": 1.0,
@@ -104,11 +106,12 @@ def principled(name, values, folder):
     if hasattr(shader, "distribution"):
         shader.distribution = "MULTI_GGX"  # conserves energy, as glim
     set_sockets(shader, values)
-    if name == "normal_map":
+    if "normal_map" in name:
         image = nodes.new("ShaderNodeTexImage")
         image.image = waves(os.path.join(folder, "waves.png"))
         bump = nodes.new("ShaderNodeNormalMap")
         links.new(image.outputs["Color"], bump.inputs["Color"])
+        bump.inputs["Strength"].default_value = 0.5 if "half" in name else 1
         links.new(bump.outputs["Normal"], shader.inputs["Normal"])
     return material
 

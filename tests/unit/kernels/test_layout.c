@@ -31,7 +31,8 @@
       M(material, alpha_texture) M(material, metal_texture)                   \
       M(material, opacity_texture) M(material, metalness)                     \
       M(material, normal_texture) M(material, bump_texture)                   \
-      M(material, bump_scale) M(material, transmission) M(material, coat)     \
+      M(material, bump_scale) M(material, normal_strength)                    \
+      M(material, transmission) M(material, coat)                             \
       M(material, coat_alpha) M(material, sheen) M(material, sheen_alpha)     \
       M(material, anisotropy) M(material, grain)                              \
       M(material, attenuation) M(material, is_thin)                           \

@@ -383,6 +383,11 @@ static void normal_maps_turn_the_normal(void **state)
     load(&l, "Kd 1\nnorm two.tga");
     check_direction(bumped(&l, 0.5f, 0.5f, up), 85. / 255, -51. / 255,
                     187. / 255);
+    /* Half of its strength is half way to the normal of the face. */
+    l.material.normal_strength = 0.5f;
+    check_direction(bumped(&l, 0.5f, 0.5f, up), 85. / 255, -51. / 255,
+                    187. / 255 + 1);
+    l.material.normal_strength = 1;
     /* If u increases to the left, x is reversed. */
     l.scene.uvs[1].x = -1;
     check_direction(bumped(&l, 0.5f, 0.5f, up), -85. / 255, -51. / 255,
