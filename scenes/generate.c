@@ -452,6 +452,53 @@ static void make_lights200(void)
                "background .04 .05 .08\n");
 }
 
+/* --- principled ----------------------------------------------------------- */
+
+/* A row of balls: statements of its material, of which one grows from 0 to 1.
+ */
+static const struct {
+    const char *name, *fixed, *growing;
+} lobes[] = {
+    {"anisotropy", "Kd .85 .83 .8\nPm 1\nPr .45", "aniso"},
+    {"transmission", "Kd .75 .9 .8\nPr .05\nNi 1.5\nillum 2", "Tf"},
+    {"sheen", "Kd .12 .06 .2\nKd_roughness 1", "Ps"},
+    {"coat", "Kd .6 .06 .04\nKd_roughness 1\nPcr .03", "Pc"},
+    {"metal", "Kd 1 .78 .34\nPm 1", "Pr"},
+};
+
+static void make_principled(void)
+{
+    struct mesh m = mesh_open(folder, "principled",
+                              "Five balls of each lobe, from 0 to 1.");
+    char mtl[4096] = "newmtl floor\nKd .35 .35 .37\n"
+                     "newmtl lamp\nKd 0 0 0\nKe 9 8.6 8\n";
+    size_t used = strlen(mtl);
+
+    mesh_object(&m, "floor", "floor");
+    mesh_quad(&m, at(-9, 0, 7), at(9, 0, 7), at(9, 0, -9), at(-9, 0, -9), 1, 1);
+    mesh_object(&m, "lamp", "lamp");
+    mesh_quad(&m, at(-5, 7, -2), at(-2, 7, -2), at(-2, 7, 1), at(-5, 7, 1), 1,
+              1);
+    for (int i = 0; i < 5 * COUNT(lobes); i++) {
+        int row = i / 5, column = i % 5;
+        double grown = column / 4.0;
+        char name[32];
+
+        snprintf(name, sizeof name, "%s%d", lobes[row].name, column);
+        /* a single number for Tf is grey */
+        used += (size_t)snprintf(mtl + used, sizeof mtl - used,
+                                 "newmtl %s\n%s\n%s %g\n", name,
+                                 lobes[row].fixed, lobes[row].growing, grown);
+        mesh_object(&m, name, name);
+        mesh_sphere(&m, at(1.3 * (column - 2), .5501, 1.5 * (row - 2)), .55, 6);
+    }
+    mesh_close(&m);
+    write_text("principled", "mtl", mtl);
+    write_text("principled", "view",
+               "eye 0 6.5 8.5\nat 0 .2 0\nup 0 1 0\nfovy 36\nres 1024 768\n"
+               "background .5 .55 .6\n");
+}
+
 int main(int argc, char **argv)
 {
     if (argc != 2) {
@@ -465,6 +512,7 @@ int main(int argc, char **argv)
     make_interior();
     make_skylit();
     make_lights200();
+    make_principled();
     images_write(folder);
     return 0;
 }

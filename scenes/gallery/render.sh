@@ -21,5 +21,6 @@ render glass_mirror 320 700
 render interior 320 700
 render skylit 320 300
 render lights200 320 500
+render principled 480 400
 "$glim" -b -w 400 --show normals -o scenes/gallery/normals.png \
     scenes/materials.obj
