@@ -38,6 +38,7 @@ OLD_NAMES = {
 }
 
 LOST = "classic files lack it"
+BENT = "Cycles loses what bent normals send below the surface"
 DIFFUSE = "Cycles before 4 has Disney's diffuse light"
 RED, GOLD, WHITE = (0.8, 0.3, 0.1, 1), (1, 0.7, 0.2, 1), (1, 1, 1, 1)
 
@@ -61,9 +62,9 @@ MATERIALS = [
     ("alpha", {"Base Color": RED, "Specular IOR Level": 0.0,
                "Roughness": 1.0, "Alpha": 0.3}, "", "", DIFFUSE),
     ("normal_map", {"Base Color": RED, "Specular IOR Level": 0.0,
-                    "Roughness": 1.0}, "", "", DIFFUSE),
-    ("half_normal_map", {"Base Color": GOLD, "Metallic": 1.0,
-                         "Roughness": 0.4}, "", "", ""),
+                    "Roughness": 1.0}, BENT, BENT, DIFFUSE),
+    ("half_normal_map", {"Base Color": RED, "Specular IOR Level": 0.0,
+                         "Roughness": 1.0}, BENT, BENT, DIFFUSE),
     ("coat", {"Base Color": RED, "Specular IOR Level": 0.0, "Roughness": 1.0,
               "Coat Weight": 0.7, "Coat Roughness": 0.1}, LOST, "", DIFFUSE),
     ("sheen", {"Base Color": RED, "Specular IOR Level": 0.0, "Roughness": 1.0,
