@@ -245,9 +245,10 @@ def compare(name, mode, reason, ours, theirs, mask):
     floor, _, _ = difference(ours, theirs, mask, -1)
     worst = max(ball, floor)
     word = "ok" if reason or worst <= TOLERANCE else "FAIL"
-    print("%s blender %s, %s: ball %s, Cycles %s: differs by %.1f %%, floor by "
-          "%.1f %%%s" % (word, name, mode, triple(a), triple(b), 100 * ball,
-                         100 * floor, reason and " (" + reason + ")"),
+    print("%s Blender %s %s, %s: ball %s, Cycles %s: differs by %.1f %%, floor by "
+          "%.1f %%%s" % (word, bpy.app.version_string.split()[0], name, mode,
+                         triple(a), triple(b), 100 * ball, 100 * floor,
+                         reason and " (" + reason + ")"),
           flush=True)
     return word == "ok"
 

@@ -2,8 +2,9 @@
 /*
  * scenes - writes special scenes that are not shipped, to measure the limits of
  * light sampling: plates lamps2000 sun balls; some with a layer or a glass of
- * the principled surface: coat sheen grain absorbing frosted; and one to
- * compare with other renderers, whose glass has flat sides only: glass_box
+ * the principled surface: coat sheen grain absorbing frosted; and two to
+ * compare with other renderers: glass_box, whose glass has flat sides only, and
+ * door_room
  *
  * usage: scenes FOLDER
  */
@@ -295,6 +296,53 @@ static void make_glass_box(void)
                                  "max_bounces 64\n");
 }
 
+/* Two rooms, of which the left one has a lamp. A gap in the wall between them,
+ * at x = -2, is as wide as that of a door ajar. */
+static void make_door_room(void)
+{
+    const double x0 = -5, x1 = 2, top = 3, back = -2, front = 2.2;
+    struct mesh m =
+        mesh_open(folder, "door_room", "A room lit through a door ajar.");
+
+    mesh_object(&m, "room", "white");
+    mesh_quad(&m, at(x0, 0, front), at(x1, 0, front), at(x1, 0, back),
+              at(x0, 0, back), 1, 1);
+    mesh_quad(&m, at(x0, top, back), at(x1, top, back), at(x1, top, front),
+              at(x0, top, front), 1, 1);
+    mesh_quad(&m, at(x0, 0, back), at(x1, 0, back), at(x1, top, back),
+              at(x0, top, back), 1, 1);
+    mesh_quad(&m, at(x1, 0, front), at(x0, 0, front), at(x0, top, front),
+              at(x1, top, front), 1, 1);
+    mesh_quad(&m, at(x0, 0, front), at(x0, 0, back), at(x0, top, back),
+              at(x0, top, front), 1, 1);
+    mesh_object(&m, "right", "green");
+    mesh_quad(&m, at(x1, 0, back), at(x1, 0, front), at(x1, top, front),
+              at(x1, top, back), 1, 1);
+    mesh_object(&m, "wall", "red");
+    mesh_quad(&m, at(-2, 0, -.9), at(-2, 0, back), at(-2, top, back),
+              at(-2, top, -.9), 1, 1);
+    mesh_quad(&m, at(-2, 0, front), at(-2, 0, -.6), at(-2, top, -.6),
+              at(-2, top, front), 1, 1);
+    mesh_quad(&m, at(-2, 2.2, -.6), at(-2, 2.2, -.9), at(-2, top, -.9),
+              at(-2, top, -.6), 1, 1);
+    mesh_object(&m, "blocks", "white");
+    mesh_box(&m, at(.7, .001, -1.1), at(.8, 1.6, .8), 17);
+    mesh_box(&m, at(-.5, .001, -.5), at(.7, .7, .7), -20);
+    mesh_object(&m, "lamp", "lamp");
+    mesh_quad(&m, at(-4, 2.99, -1), at(-3, 2.99, -1), at(-3, 2.99, 0),
+              at(-4, 2.99, 0), 1, 1);
+    mesh_close(&m);
+    write_text("door_room.mtl", "newmtl white\nKd .73 .72 .7\nillum 1\n"
+                                "newmtl red\nKd .6 .2 .15\nillum 1\n"
+                                "newmtl green\nKd .3 .5 .3\nillum 1\n"
+                                "newmtl lamp\nKd 0 0 0\nKe 60 55 45\n"
+                                "illum 1\n");
+    write_text("door_room.view",
+               "eye .5 1.6 2.1\nat 0 1 -1\nup 0 1 0\nfovy 60\n"
+               "res 256 256\nbackground 0 0 0\n"
+               "max_bounces 64\n");
+}
+
 int main(int argc, char **argv)
 {
     if (argc != 2) {
@@ -308,5 +356,6 @@ int main(int argc, char **argv)
     make_balls();
     make_surfaces();
     make_glass_box();
+    make_door_room();
     return 0;
 }

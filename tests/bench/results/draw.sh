@@ -204,6 +204,10 @@ table_oidn() {
     plain oidn
 }
 
+table_blender() {
+    plain blender
+}
+
 table_calibration() {
     plain calibration
 }

@@ -8,10 +8,11 @@
 # file stays.
 #
 # BUILD is the folder of the program. FILTER selects a section. Optional:
-# PEER       a Python that has bpy, Blender as a module (sections peers)
+# PEER       a Python that has bpy, Blender as a module (sections peers and
+#            blender)
 # OIDN       a Python that has pyoidn and numpy (section oidn)
 # STRESS_LOG output of an earlier `make stress` (sections stress, calibration,
-#            filter), else the checks run, which takes up to an hour
+#            filter, blender), else the checks run, which takes up to an hour
 set -eu
 cd "$(dirname "$0")/../../.."
 build=${BUILD:-build/release}
@@ -25,7 +26,7 @@ mkdir -p "$results" "$cache"
 
 shipped='cornell materials glass_mirror interior skylit lights200'
 sections='samples cores frames triangles features convergence peers oidn stress'
-sections="$sections calibration filter adaptive"
+sections="$sections calibration filter adaptive blender"
 
 say() {
     echo "results: $*"
@@ -219,14 +220,17 @@ measure_convergence() {
 }
 
 # Sets obj, camera and reference to the files of a scene that all renderers
-# read alike. glass_box is ours, so glim makes its reference.
+# read alike. glass_box and door_room are ours, so glim makes their references.
 find_scene() { # SCENE
     local folder=$shared/scenes-bench/$1
 
     obj=$folder/$1.obj
     camera=$folder/camera.txt
     reference=$folder/reference.pfm
-    [ "$1" = glass_box ] || return 0
+    case $1 in
+    glass_box | door_room) ;;
+    *) return 0 ;;
+    esac
     folder=build/bench-error/scenes
     obj=$folder/$1.obj
     camera=$folder/$1.view
@@ -265,7 +269,7 @@ measure_peers() {
     }
     [ -n "${PEER:-}" ] || say 'peers: without Cycles, since PEER is not set'
     : >"$work/cycles"
-    for scene in cornell many_lights sky glass_box; do
+    for scene in cornell many_lights sky glass_box door_room; do
         find_scene $scene
         for n in 2 4 8 16 32 64 128 256; do
             glim_row $scene $n 'glim'
@@ -347,6 +351,13 @@ measure_filter() {
     stress_log filter
     sed -n 's#^\(ok\|FAIL\) filter: scenes/\([a-z_0-9]*\).obj, \([0-9]*\) spp: relMSE \([0-9.e+-]*\), filtered \([0-9.e+-]*\), own \([0-9.e+-]*\);.*#\2,\3,\4,\5,\6#p' "$log" |
         save filter 'scene,samples per pixel,relMSE raw,filtered,own error of the reference'
+}
+
+measure_blender() {
+    stress_log blender
+    sed -En 's/^(ok|FAIL) //
+        s/^Blender ([0-9.]+)[^,]* ([a-z_]+), ([a-z ]+): ball ([0-9. ]+), Cycles ([0-9. ]+): differs by ([0-9.]+ %), floor by ([0-9.]+ %)( \((.*)\))?$/\2,\3,\1,\4,\5,\6,\7,\9/p' "$log" |
+        save blender 'material,export,Blender,ball by glim,by Cycles,ball differs,floor differs,why'
 }
 
 machine=$(machine)
