@@ -72,7 +72,7 @@ MATERIALS = [
      "Cycles has other fits of sheen", ""),
     ("aniso", {"Base Color": GOLD, "Metallic": 1.0, "Roughness": 0.5,
                "Anisotropic": 0.8}, LOST,
-     "Cycles loses 8 % of a white furnace's light at stretched facets", ""),
+     "Cycles 5 loses 8 % of a white furnace's light at stretched facets", ""),
 ]
 
 
