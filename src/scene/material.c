@@ -234,12 +234,12 @@ static void make_plastic(struct material *m, const struct vec3 *ks,
 {
     float full = full_specular(s, at);
     bool is_map_alone = is_of_blender(s) && s->ks.line == 0;
+    struct vec3 level = is_map_alone ? (struct vec3){1, 1, 1} : *ks;
 
     m->kind = MATERIAL_PLASTIC;
-    m->specular = is_map_alone ? (struct vec3){full, full, full}
-                               : (struct vec3){fminf(ks->x * full, 1),
-                                               fminf(ks->y * full, 1),
-                                               fminf(ks->z * full, 1)};
+    m->specular =
+        (struct vec3){fminf(level.x * full, 1), fminf(level.y * full, 1),
+                      fminf(level.z * full, 1)};
     m->specular_texture = mtl_source_map(s, MTL_MAP_KS);
     roughen(m, s, at);
 }

@@ -4,6 +4,7 @@
  * material is the one that the panel showed. The first byte is the number of
  * edits, three bytes are an edit, and the rest is the file.
  */
+#include "base/lexer.h"
 #include "scene/material.h"
 #include "formats/mtl.h"
 #include "session/session_save.h"
@@ -161,7 +162,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct error err = {""};
     char *path, *mtl, *image;
 
-    if (size < begin)
+    /* text in UTF-16 is refused, so that there is no file to save to */
+    if (size < begin ||
+        lexer_is_utf16((const char *)data + begin, size - begin))
         return 0;
     path = fuzz_put("a.obj", obj, strlen(obj));
     mtl = fuzz_put("a.mtl", data + begin, size - begin);

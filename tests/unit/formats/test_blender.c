@@ -317,6 +317,11 @@ static void statements_mean_what_the_exporter_writes(void **state)
     check_close((double)m.metalness, .25, 0);
     m = one(MTL_BLENDER_4, "Ns 250\nKa 1\nKd .5\nKs 0\nillum 1");
     assert_int_equal(m.kind, MATERIAL_DIFFUSE);
+    /* no specular level, and an index that reflects more than half */
+    m = one(MTL_BLENDER_4, "Ns 250\nKa 1\nKd .5\nNi 14\nillum 2");
+    assert_true(m.specular.x <= 1);
+    m = one(MTL_BLENDER_4, "Ns 250\nKa 1\nKd .5\nKs .5\nNi 14\nillum 2");
+    check_close((double)m.specular.x, 13. * 13 / 15 / 15, 1e-6);
     /* a map of metal; roughness at its ends */
     m = one(MTL_BLENDER_3, "Ns 0\nKa 1\nKd .5\nKs .5\nillum 2\nmap_refl m.png");
     assert_int_equal(m.kind, MATERIAL_PRINCIPLED);
