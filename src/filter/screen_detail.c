@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "picture/area.h"
 
 /* Variance of a pixel that has samples in one half only. */
 #define UNKNOWN_VARIANCE 1e30f
@@ -26,8 +27,8 @@ void screen_detail_free(struct screen_detail *d)
 
 static void take_planes(struct screen_detail *d, size_t high, size_t low)
 {
-    d->high = d->memory;
-    d->filtered = d->high + 3 * high;
+    d->detail = d->memory;
+    d->filtered = d->detail + 3 * high;
     d->low = d->filtered + 4 * low;
     d->count = d->low + 4 * low;
     d->noise = d->count + low;
@@ -35,8 +36,7 @@ static void take_planes(struct screen_detail *d, size_t high, size_t low)
     d->weight = d->energy + low;
     d->between = d->weight + low;
     d->row = d->between + 4 * (size_t)d->low_width;
-    d->detail = d->row + 4 * (size_t)d->width;
-    d->weights = d->detail + 3 * (size_t)d->width;
+    d->weights = d->row + 4 * (size_t)d->width;
 }
 
 bool screen_detail_init(struct screen_detail *d, int width, int height,
@@ -45,7 +45,7 @@ bool screen_detail_init(struct screen_detail *d, int width, int height,
 {
     size_t high = (size_t)width * (size_t)height;
     size_t low = (size_t)low_width * (size_t)low_height;
-    size_t rows = 8 * (size_t)width + 4 * (size_t)low_width;
+    size_t rows = 5 * (size_t)width + 4 * (size_t)low_width;
 
     *d = (struct screen_detail){
         .width = width,
@@ -153,16 +153,22 @@ static float variance_of(const struct screen_halves *h, int x)
  * result. */
 static size_t low_pixel(const struct screen_detail *d, int x, int y)
 {
-    int64_t row = (2 * (int64_t)y + 1) * d->low_height / (2 * d->height);
-    int64_t column = (2 * (int64_t)x + 1) * d->low_width / (2 * d->width);
+    int row = area_cell(y, d->low_height, d->height);
+    int column = area_cell(x, d->low_width, d->width);
 
     return (size_t)row * (size_t)d->low_width + (size_t)column;
 }
 
-/* Adds row y of the film to means and noise. */
+/* Returns row y of the film's detail. */
+static float *detail_row(const struct screen_detail *d, int y)
+{
+    return d->detail + 3 * (size_t)y * (size_t)d->width;
+}
+
+/* Adds row y of the film to means and noise, and keeps its pixels. */
 static void add_row(struct screen_detail *d, struct film *film, int y)
 {
-    float *high = d->high + 3 * (size_t)y * (size_t)d->width;
+    float *high = detail_row(d, y);
 
     screen_halves_row(&d->halves, film, NULL, y);
     memcpy(high, d->halves.raw, 3 * (size_t)d->width * sizeof *high);
@@ -195,27 +201,18 @@ static void find_low(struct screen_detail *d, struct film *film,
     }
 }
 
-/* Computes the detail of row y. */
+/* Makes the pixels of row y the detail in them, and adds its energy. */
 static void find_detail(struct screen_detail *d, int y)
 {
-    const float *high = d->high + 3 * (size_t)y * (size_t)d->width;
+    float *detail = detail_row(d, y);
 
     enlarge_weighted(d, d->low, y);
     for (int i = 0; i < 3 * d->width; i++)
-        d->detail[i] = high[i] - d->row[i];
-}
-
-static void find_energy(struct screen_detail *d)
-{
-    for (int y = 0; y < d->height; y++) {
-        const float *detail = d->detail;
-
-        find_detail(d, y);
-        for (int x = 0; x < d->width; x++, detail += 3)
-            d->energy[low_pixel(d, x, y)] += detail[0] * detail[0] +
-                                             detail[1] * detail[1] +
-                                             detail[2] * detail[2];
-    }
+        detail[i] -= d->row[i];
+    for (int x = 0; x < d->width; x++, detail += 3)
+        d->energy[low_pixel(d, x, y)] += detail[0] * detail[0] +
+                                         detail[1] * detail[1] +
+                                         detail[2] * detail[2];
 }
 
 /* Returns the sum over 3x3 pixels, fewer at the edges. */
@@ -255,19 +252,20 @@ void screen_detail_find(struct screen_detail *d, struct film *film,
     if (!d->has_detail)
         return;
     find_low(d, film, seen);
-    find_energy(d);
+    for (int y = 0; y < d->height; y++)
+        find_detail(d, y);
     find_weights(d);
 }
 
 const float *screen_detail_row(struct screen_detail *d, int y)
 {
-    if (d->has_detail)
-        find_detail(d, y);
+    const float *detail = detail_row(d, y);
+
     enlarge_weighted(d, d->filtered, y);
     if (!d->has_detail)
         return d->row;
     enlarge(d, d->weight, 1, y, d->weights);
     for (int i = 0; i < 3 * d->width; i++)
-        d->row[i] = fmaxf(d->row[i] + d->weights[i / 3] * d->detail[i], 0.0f);
+        d->row[i] = fmaxf(d->row[i] + d->weights[i / 3] * detail[i], 0.0f);
     return d->row;
 }

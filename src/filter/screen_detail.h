@@ -25,7 +25,7 @@ struct screen_detail {
     int low_width, low_height; /* of the filtered picture */
     bool has_detail;           /* the film has samples in both halves */
     float *memory;
-    float *high; /* the film's pixels, 3 numbers each */
+    float *detail; /* of the film's pixels, 3 numbers each */
     /* for each pixel of the filtered picture; 4 numbers are red, green and blue
      * times a weight, and the weight, which is the share of light that is not
      * seen */
@@ -38,7 +38,6 @@ struct screen_detail {
     /* rows */
     float *between; /* of a picture, between two rows; 4 numbers each */
     float *row;     /* of the result; room for 4 numbers each */
-    float *detail;  /* of the result; 3 numbers each */
     float *weights; /* of the result */
 };
 

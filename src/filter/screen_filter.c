@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "filter/film_features.h"
+#include "picture/area.h"
 
 /* Added to the normal of pixels with seen light: no others are averaged with
  * them. */
@@ -285,14 +286,6 @@ static const float *row_shares(const struct screen_filter *f, int y)
     return f->shares;
 }
 
-/* Returns the pixel of a picture of `size` that shows pixel i of a frame. */
-static int scaled(int i, int size, int frame_size)
-{
-    return size == frame_size
-               ? i
-               : (int)((2 * (int64_t)i + 1) * size / (2 * (int64_t)frame_size));
-}
-
 /* A frame to be filled. */
 struct target {
     const struct films *films;
@@ -315,7 +308,8 @@ static void put_raw(const struct target *t, int x, int y, int count)
     }
     for (int i = x; i < x + count; i++, to += 3)
         memcpy(to,
-               f->raw_bytes + 3 * (size_t)scaled(i, f->width, t->frame->width),
+               f->raw_bytes +
+                   3 * (size_t)area_cell(i, f->width, t->frame->width),
                3);
 }
 
@@ -338,13 +332,13 @@ static void put_chunk(const struct target *t, const float *share, int first,
     float least = 1.0f;
 
     for (int i = 0; i < count; i++) {
-        shares[i] = share[scaled(first + i, f->width, width)];
+        shares[i] = share[area_cell(first + i, f->width, width)];
         least = f_min(least, shares[i]);
     }
     if (least < 1.0f)
         put_raw(t, first, y, count);
     for (int i = 0; i < count; i++, to += 3) {
-        int from = scaled(first + i, f->shown_width, width);
+        int from = area_cell(first + i, f->shown_width, width);
         const uint8_t *filtered = f->filtered_bytes + 3 * (size_t)from;
 
         if (shares[i] >= 1.0f)
@@ -358,7 +352,7 @@ static void put_chunk(const struct target *t, const float *share, int first,
 static const float *filtered_row(const struct target *t, int y)
 {
     struct screen_filter *f = t->films->filter;
-    int from = scaled(y, f->shown_height, t->frame->height);
+    int from = area_cell(y, f->shown_height, t->frame->height);
 
     return has_detail(f) ? screen_detail_row(&f->detail, from)
                          : f->rgb + 3 * row_index(f, from);
@@ -367,7 +361,7 @@ static const float *filtered_row(const struct target *t, int y)
 static void put_row(const struct target *t, int y)
 {
     const struct screen_filter *f = t->films->filter;
-    int from = scaled(y, f->height, t->frame->height);
+    int from = area_cell(y, f->height, t->frame->height);
     const float *share = row_shares(f, from);
 
     develop_row(t->how, f->shown_width, filtered_row(t, y), f->filtered_bytes);

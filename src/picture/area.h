@@ -16,6 +16,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* Returns the cell of a grid of `from` cells that contains the middle of cell i
+ * of a grid of `to` cells. */
+static inline int area_cell(int i, int from, int to)
+{
+    return from == to ? i
+                      : (int)((2 * (int64_t)i + 1) * from / (2 * (int64_t)to));
+}
+
 struct area_walk {
     int from, to; /* cells of `from` and `to` that contain the next piece */
     int64_t at, last;
