@@ -4,6 +4,7 @@
 #include <limits.h>
 #include <string.h>
 
+#include "picture/image_bytes.h"
 #include "picture/image_gif.h"
 #include "picture/image_pnm.h"
 #include "picture/image_psd.h"
@@ -20,45 +21,9 @@
  * and after conversion, or 3 channels of one byte and of two. */
 #define DECODED_BYTES 9
 
-struct bytes {
-    const unsigned char *data;
-    size_t size;
-};
-
-static struct bytes bytes_of(const struct image_file *f)
-{
-    return (struct bytes){(const unsigned char *)f->data, f->size_bytes};
-}
-
 static uint64_t pixels_of(const struct image_file *f)
 {
     return (uint64_t)f->width * (uint64_t)f->height;
-}
-
-/* Read numbers of 1, 2 and 4 bytes at an offset. Bytes behind the end are 0. */
-static uint32_t byte_at(struct bytes b, size_t at)
-{
-    return at < b.size ? b.data[at] : 0;
-}
-
-static uint32_t big16(struct bytes b, size_t at)
-{
-    return byte_at(b, at) << 8 | byte_at(b, at + 1);
-}
-
-static uint32_t big32(struct bytes b, size_t at)
-{
-    return big16(b, at) << 16 | big16(b, at + 2);
-}
-
-static uint32_t little16(struct bytes b, size_t at)
-{
-    return byte_at(b, at) | byte_at(b, at + 1) << 8;
-}
-
-static uint32_t little32(struct bytes b, size_t at)
-{
-    return little16(b, at) | little16(b, at + 2) << 16;
 }
 
 static uint64_t ceil_div(uint64_t n, uint64_t by)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "picture/image_bytes.h"
 #include "picture/image_header.h"
 
 /* Offsets in the header, all numbers with the highest byte first. Behind it are
@@ -26,24 +27,9 @@ bool image_psd_is(const struct image_file *f)
     return f->size_bytes >= HEADER_BYTES && memcmp(f->data, "8BPS\0\1", 6) == 0;
 }
 
-static uint32_t byte_at(const struct image_file *f, size_t at)
-{
-    return at < f->size_bytes ? (unsigned char)f->data[at] : 0;
-}
-
-static uint32_t big16(const struct image_file *f, size_t at)
-{
-    return byte_at(f, at) << 8 | byte_at(f, at + 1);
-}
-
-static uint32_t big32(const struct image_file *f, size_t at)
-{
-    return big16(f, at) << 16 | big16(f, at + 2);
-}
-
 static bool is_packed(const struct image_file *f)
 {
-    return big16(f, f->pixels_at) != 0;
+    return big16(bytes_of(f), f->pixels_at) != 0;
 }
 
 static size_t value_bytes(const struct image_file *f)
@@ -75,18 +61,20 @@ static int clamped_int(uint32_t n)
 
 bool image_psd_header(struct image_file *f, struct error *err)
 {
-    uint32_t channels = big16(f, CHANNELS), depth = big16(f, DEPTH);
+    uint32_t channels = big16(bytes_of(f), CHANNELS),
+             depth = big16(bytes_of(f), DEPTH);
     size_t at = HEADER_BYTES;
 
-    f->width = clamped_int(big32(f, WIDTH));
-    f->height = clamped_int(big32(f, HEIGHT));
+    f->width = clamped_int(big32(bytes_of(f), WIDTH));
+    f->height = clamped_int(big32(bytes_of(f), HEIGHT));
     if (!image_expect_limits(f, err))
         return false;
     for (int i = 0; i < PART_COUNT && at < f->size_bytes; i++)
-        at += 4 + (size_t)big32(f, at);
+        at += 4 + (size_t)big32(bytes_of(f), at);
     f->pixels_at = at;
-    if (big16(f, MODE) != MODE_RGB || channels < 3 || channels > CHANNELS_MAX ||
-        (depth != 8 && depth != 16) || big16(f, at) > 1)
+    if (big16(bytes_of(f), MODE) != MODE_RGB || channels < 3 ||
+        channels > CHANNELS_MAX || (depth != 8 && depth != 16) ||
+        big16(bytes_of(f), at) > 1)
         return fail(err,
                     "%s: found a PSD file of another kind, expected red, green "
                     "and blue of 8 or 16 bits",
@@ -106,7 +94,8 @@ static bool unpack(const struct image_file *f, size_t *at, size_t count,
                    uint8_t *to)
 {
     while (count > 0) {
-        size_t n = byte_at(f, *at), length = n < 128 ? n + 1 : 257 - n;
+        size_t n = byte_at(bytes_of(f), *at),
+               length = n < 128 ? n + 1 : 257 - n;
 
         if (n == 128) { /* nothing */
             if (++*at >= f->size_bytes)
@@ -118,7 +107,7 @@ static bool unpack(const struct image_file *f, size_t *at, size_t count,
         if (n < 128)
             memcpy(to, f->data + *at + 1, length);
         else
-            memset(to, (int)byte_at(f, *at + 1), length);
+            memset(to, (int)byte_at(bytes_of(f), *at + 1), length);
         *at += 1 + (n < 128 ? length : 1);
         to += length;
         count -= length;
