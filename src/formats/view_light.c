@@ -94,8 +94,9 @@ static bool read_numbers(struct view_reader *r, const struct light_key *k,
 /* Returns the next word of the line, empty at its end. */
 static struct word next_word(struct view_reader *r)
 {
-    return lexer_at_line_end(r->lex) ? (struct word){.length = 0}
-                                     : lexer_word(r->lex);
+    struct word none = {.length = 0};
+
+    return lexer_at_line_end(r->lex) ? none : lexer_word(r->lex);
 }
 
 static bool check_spot(const struct view_reader *r, const struct lamp *lamp,

@@ -139,10 +139,10 @@ void world_take_shape(struct host_world *host, struct host_world *from);
 /* Gives a part a new version, after its arrays have changed. */
 void world_renew(struct host_world *host, enum world_part part);
 
-/* Returns the triangles with the materials that are rendered. */
 /* Returns a material of the scene with lengths in normalised units. */
 struct material world_material(const struct scene *scene, struct material m);
 
+/* Returns the triangles with the materials that are rendered. */
 const struct tri *world_tris(const struct host_world *host,
                              const struct scene *scene);
 
