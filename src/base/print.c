@@ -91,8 +91,9 @@ void print_lines(FILE *to, const char *text)
         size_t length = strcspn(text, "\n");
         char *line = strndup(text, length);
 
-        for (char *tab = line; tab && (tab = strchr(tab, '\t')) != NULL;)
-            *tab = ' ';
+        for (size_t i = 0; line && i < length; i++)
+            if (line[i] == '\t')
+                line[i] = ' ';
         if (line)
             print_line(to, "%s", line);
         else
