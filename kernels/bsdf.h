@@ -84,6 +84,8 @@ static inline bool bsdf_transmits(const struct bsdf *m)
 static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
                                      struct vec3 wi, float *pdf)
 {
+    struct facet_albedos e;
+
     *pdf = 0.0f;
     if (!(wo.z > COSINE_MIN && fabsf(wi.z) > COSINE_MIN) || bsdf_is_delta(m))
         return v3(0.0f, 0.0f, 0.0f);
@@ -91,17 +93,20 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
         return principled_terms(m, wo, wi, pdf);
     if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS)
         return glass_terms(m, wo, wi, pdf);
-    if (HAS(FEATURE_ROUGH_SHEETS) && is_thin_glass(m))
-        return thin_terms(m, wo, wi, pdf);
+    if (HAS(FEATURE_ROUGH_SHEETS) && is_thin_glass(m)) {
+        e = bsdf_albedos(m, bsdf_albedo(m, wo), v3_above(wi));
+        return thin_terms(m, wo, wi, &e, pdf);
+    }
     if (wi.z < 0.0f)
         return v3(0.0f, 0.0f, 0.0f);
     if (bsdf_is_lambert(m))
         return lambert_terms(m, wi, pdf);
     if (HAS(FEATURE_ROUGH_DIFFUSE) && m->kind == MATERIAL_ROUGH_DIFFUSE)
         return eon_terms(m, wo, wi, pdf);
+    e = bsdf_albedos(m, bsdf_albedo(m, wo), wi);
     if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
-        return metal_terms(m, wo, wi, metal_loss(m, wo), pdf);
-    return plastic_terms(m, wo, wi, specular_albedo(m, wo), pdf);
+        return metal_terms(m, wo, wi, &e, pdf);
+    return plastic_terms(m, wo, wi, &e, pdf);
 }
 
 /* Factor of radiance from wi beside f: 1/eta^2 for transmission into glass

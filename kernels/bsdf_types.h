@@ -64,6 +64,17 @@ static inline bool sample_delta(struct bsdf_sample *s, struct vec3 wi,
     return true;
 }
 
+/* Fills the direction of a sample of a rough lobe, but not its weight and
+ * density. Always returns true. */
+static inline bool sample_direction(struct bsdf_sample *s, struct vec3 wi,
+                                    float eta_scale)
+{
+    s->wi = wi;
+    s->eta_scale = eta_scale;
+    s->is_delta = false;
+    return true;
+}
+
 /* Fills a sample from f |cosine| and the density. Returns false if the density
  * is 0. */
 static inline bool sample_density(struct bsdf_sample *s, struct vec3 wi,
@@ -71,12 +82,9 @@ static inline bool sample_density(struct bsdf_sample *s, struct vec3 wi,
 {
     if (!(pdf > 0.0f))
         return false;
-    s->wi = wi;
     s->weight = v3_scale(f, 1.0f / pdf);
     s->pdf = pdf;
-    s->eta_scale = 1.0f;
-    s->is_delta = false;
-    return true;
+    return sample_direction(s, wi, 1.0f);
 }
 
 #endif

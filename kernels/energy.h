@@ -45,6 +45,30 @@ static inline struct cubic_nodes cubic_nodes_around(float t, uint32_t count)
     return n;
 }
 
+/* Three neighbouring nodes, likewise. */
+struct quadratic_nodes {
+    uint32_t first;
+    float w[3];
+};
+
+/* Weights of Lagrange's parabola through the nodes nearest to t. */
+static inline struct quadratic_nodes quadratic_nodes_around(float t,
+                                                            uint32_t count)
+{
+    float x = f_min(f_max(t, 0.0f), 1.0f) * (float)(count - 1u);
+    float first = f_min(f_max(floorf(x - 0.5f), 0.0f), (float)(count - 3u));
+    float a = x - first;
+    float b = a - 1.0f;
+    float c = a - 2.0f;
+    struct quadratic_nodes n;
+
+    n.first = (uint32_t)first;
+    n.w[0] = b * c * 0.5f;
+    n.w[1] = -a * c;
+    n.w[2] = a * b * 0.5f;
+    return n;
+}
+
 /* Axis of mu. Albedos change fast for mu below about alpha, and for glass
  * around the critical angle: the axis is dense in both. */
 static inline float energy_axis_mu(float mu, float alpha)

@@ -101,13 +101,13 @@ static inline bool glass_sample_smooth(const struct bsdf *m, struct vec3 wo,
     return true;
 }
 
-static inline bool glass_sample(const struct bsdf *m, struct vec3 wo,
-                                struct vec2 u, float choice,
-                                struct bsdf_sample *s)
+/* Samples a direction; only those of smooth faces get their weights. */
+static inline bool glass_direction(const struct bsdf *m, struct vec3 wo,
+                                   struct vec2 u, float choice,
+                                   struct bsdf_sample *s)
 {
     struct ggx g = {m->alpha, 1.0f};
-    struct vec3 h, wi, f;
-    float pdf;
+    struct vec3 h, wi;
 
     if (is_smooth(m) || glass_is_index_matched(m))
         return glass_sample_smooth(m, wo, choice, s);
@@ -118,10 +118,24 @@ static inline bool glass_sample(const struct bsdf *m, struct vec3 wo,
     /* reflections end above the surface, refractions below */
     if ((v3_dot(wi, h) > 0.0f) != (wi.z > 0.0f) || !(fabsf(wi.z) > COSINE_MIN))
         return false;
-    f = glass_terms(m, wo, wi, &pdf);
-    if (!sample_density(s, wi, f, pdf))
+    return sample_direction(s, wi, glass_eta_scale(m, wi));
+}
+
+static inline bool glass_sample(const struct bsdf *m, struct vec3 wo,
+                                struct vec2 u, float choice,
+                                struct bsdf_sample *s)
+{
+    struct vec3 f;
+    float pdf;
+
+    if (!glass_direction(m, wo, u, choice, s))
         return false;
-    s->eta_scale = glass_eta_scale(m, wi);
+    if (s->is_delta)
+        return true;
+    f = glass_terms(m, wo, s->wi, &pdf);
+    if (!sample_density(s, s->wi, f, pdf))
+        return false;
+    s->eta_scale = glass_eta_scale(m, s->wi);
     return true;
 }
 

@@ -46,58 +46,86 @@ static inline float multiscatter_pdf(struct vec3 wi, float alpha)
     return b * (1.0f + b) / ((wi.z + b) * (wi.z + b)) * (0.5f / PI);
 }
 
-/* f |cosine| of the multiscatter lobe of white facets. loss_o: the loss of
- * single scattering at wo. */
-static inline float multiscatter_f(struct vec3 wi, float loss_o, struct ggx g)
+/* f |cosine| of the multiscatter lobe of white facets. */
+static inline float multiscatter_f(struct vec3 wi,
+                                   const struct facet_albedos *e)
 {
-    return loss_o * facets_albedo(wi, g).loss / facets_albedo_mean(g).loss *
-           wi.z * (1.0f / PI);
+    return e->o.loss * e->i.loss / e->mean.loss * wi.z * (1.0f / PI);
 }
 
-/* Returns the light that single scattering loses, which is also the probability
- * to sample the multiscatter lobe. */
-static inline float metal_loss(const struct bsdf *m, struct vec3 wo)
+/* Returns the albedos of the surface's facets in direction w. Smooth surfaces,
+ * which lose nothing, do not use them. */
+static inline struct ggx_albedo bsdf_albedo(const struct bsdf *m, struct vec3 w)
 {
-    return facets_albedo(wo, bsdf_facets(m)).loss;
+    struct ggx_albedo none = {0.0f, 0.0f};
+
+    return is_smooth(m) ? none : facets_albedo(w, bsdf_facets(m));
 }
 
-/* loss_o: metal_loss() at wo. */
+/* Returns the albedos of the facets at wo, which are o, and at wi. */
+static inline struct facet_albedos
+bsdf_albedos(const struct bsdf *m, struct ggx_albedo o, struct vec3 wi)
+{
+    struct facet_albedos none = {{0.0f, 0.0f}, {0.0f, 0.0f}, {0.0f, 0.0f}};
+
+    return is_smooth(m) ? none : facet_albedos_at(o, wi, bsdf_facets(m));
+}
+
+/* e: bsdf_albedos(). The loss at wo is also the probability to sample the
+ * multiscatter lobe. */
 static inline struct vec3 metal_terms(const struct bsdf *m, struct vec3 wo,
-                                      struct vec3 wi, float loss_o, float *pdf)
+                                      struct vec3 wi,
+                                      const struct facet_albedos *e, float *pdf)
 {
     struct vec3 h = half_vector(wo, wi);
     struct ggx g = bsdf_facets(m);
-    float loss_mean = facets_albedo_mean(g).loss;
+    float loss_o = e->o.loss;
+    float loss_mean = e->mean.loss;
     struct vec3 f = fresnel_schlick_mean(m->color);
     struct vec3 single = v3_scale(fresnel_schlick(m->color, v3_dot(wo, h)),
                                   ggx_reflection(wo, wi, h, g));
     struct vec3 multiple = v3_scale(v3(multiscatter_color(f.x, loss_mean),
                                        multiscatter_color(f.y, loss_mean),
                                        multiscatter_color(f.z, loss_mean)),
-                                    multiscatter_f(wi, loss_o, g));
+                                    multiscatter_f(wi, e));
 
     *pdf = (1.0f - loss_o) * ggx_reflection_pdf(wo, h, g) +
            loss_o * multiscatter_pdf(wi, m->alpha);
     return v3_add(single, multiple);
 }
 
-static inline bool metal_sample(const struct bsdf *m, struct vec3 wo,
-                                struct vec2 u, float choice,
-                                struct bsdf_sample *s)
+/* Samples a direction; only that of a mirror gets its weight. o: bsdf_albedo()
+ * at wo. */
+static inline bool metal_direction(const struct bsdf *m, struct vec3 wo,
+                                   struct ggx_albedo o, struct vec2 u,
+                                   float choice, struct bsdf_sample *s)
 {
-    struct vec3 wi, f;
-    float loss_o, pdf;
+    struct vec3 wi;
 
     if (is_smooth(m))
         return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
                             fresnel_schlick(m->color, wo.z));
-    loss_o = metal_loss(m, wo);
-    wi = choice < loss_o ? multiscatter_direction(m->alpha, u)
+    wi = choice < o.loss ? multiscatter_direction(m->alpha, u)
                          : ggx_reflect(wo, bsdf_facets(m), u);
-    if (!(wi.z > COSINE_MIN))
+    return wi.z > COSINE_MIN && sample_direction(s, wi, 1.0f);
+}
+
+static inline bool metal_sample(const struct bsdf *m, struct vec3 wo,
+                                struct vec2 u, float choice,
+                                struct bsdf_sample *s)
+{
+    struct ggx_albedo o = bsdf_albedo(m, wo);
+    struct facet_albedos e;
+    struct vec3 f;
+    float pdf;
+
+    if (!metal_direction(m, wo, o, u, choice, s))
         return false;
-    f = metal_terms(m, wo, wi, loss_o, &pdf);
-    return sample_density(s, wi, f, pdf);
+    if (s->is_delta)
+        return true;
+    e = bsdf_albedos(m, o, s->wi);
+    f = metal_terms(m, wo, s->wi, &e, &pdf);
+    return sample_density(s, s->wi, f, pdf);
 }
 
 #endif

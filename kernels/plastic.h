@@ -13,8 +13,7 @@
 #define KERNELS_PLASTIC_H
 
 #include "kernels/diffuse.h"
-#include "kernels/energy_stretched.h"
-#include "kernels/fresnel.h"
+#include "kernels/metal.h"
 
 /* Reflectance at grazing incidence, F90. It falls with that at normal incidence
  * below 0.02, as no dielectric reflects less (Lagarde and de Rousiers 2014,
@@ -44,18 +43,22 @@ static inline struct vec3 specular_albedo_of(struct vec3 f0,
               f0.z * part + grazing);
 }
 
-static inline struct vec3 specular_albedo(const struct bsdf *m, struct vec3 w)
+/* e: bsdf_albedo() in direction w. */
+static inline struct vec3 specular_albedo(const struct bsdf *m, struct vec3 w,
+                                          struct ggx_albedo e)
 {
     if (is_smooth(m))
         return specular_fresnel(m->specular, schlick_weight(w.z));
-    return specular_albedo_of(m->specular, facets_albedo(w, bsdf_facets(m)));
+    return specular_albedo_of(m->specular, e);
 }
 
-static inline struct vec3 specular_albedo_mean(const struct bsdf *m)
+/* e: the mean of bsdf_albedo(). */
+static inline struct vec3 specular_albedo_mean(const struct bsdf *m,
+                                               struct ggx_albedo e)
 {
     if (is_smooth(m))
         return specular_fresnel(m->specular, SCHLICK_MEAN);
-    return specular_albedo_of(m->specular, facets_albedo_mean(bsdf_facets(m)));
+    return specular_albedo_of(m->specular, e);
 }
 
 /* (1 - o) (1 - i) / (1 - mean), or 0 under a surface that reflects all light.
@@ -78,12 +81,15 @@ static inline float specular_probability(const struct bsdf *m,
     return specular + base > 0.0f ? specular / (specular + base) : 1.0f;
 }
 
+/* e: bsdf_albedos(). */
 static inline struct vec3 plastic_terms(const struct bsdf *m, struct vec3 wo,
-                                        struct vec3 wi, struct vec3 specular_o,
+                                        struct vec3 wi,
+                                        const struct facet_albedos *e,
                                         float *pdf)
 {
-    struct vec3 specular_i = specular_albedo(m, wi);
-    struct vec3 mean = specular_albedo_mean(m);
+    struct vec3 specular_o = specular_albedo(m, wo, e->o);
+    struct vec3 specular_i = specular_albedo(m, wi, e->i);
+    struct vec3 mean = specular_albedo_mean(m, e->mean);
     float cosine = cosine_pdf(wi);
     float chance = specular_probability(m, specular_o);
     struct vec3 share = v3(base_scale(specular_o.x, specular_i.x, mean.x),
@@ -102,14 +108,15 @@ static inline struct vec3 plastic_terms(const struct bsdf *m, struct vec3 wo,
                               ggx_reflection(wo, wi, h, bsdf_facets(m))));
 }
 
-static inline bool plastic_sample(const struct bsdf *m, struct vec3 wo,
-                                  struct vec2 u, float choice,
-                                  struct bsdf_sample *s)
+/* Samples a direction; only that of a mirror gets its weight. o: bsdf_albedo()
+ * at wo. */
+static inline bool plastic_direction(const struct bsdf *m, struct vec3 wo,
+                                     struct ggx_albedo o, struct vec2 u,
+                                     float choice, struct bsdf_sample *s)
 {
-    struct vec3 specular_o = specular_albedo(m, wo);
+    struct vec3 specular_o = specular_albedo(m, wo, o);
     float chance = specular_probability(m, specular_o);
-    struct vec3 wi, f;
-    float pdf;
+    struct vec3 wi;
 
     if (!(choice < chance))
         wi = cosine_hemisphere(u);
@@ -118,10 +125,25 @@ static inline bool plastic_sample(const struct bsdf *m, struct vec3 wo,
                             v3_scale(specular_o, 1.0f / chance));
     else
         wi = ggx_reflect(wo, bsdf_facets(m), u);
-    if (!(wi.z > COSINE_MIN))
+    return wi.z > COSINE_MIN && sample_direction(s, wi, 1.0f);
+}
+
+static inline bool plastic_sample(const struct bsdf *m, struct vec3 wo,
+                                  struct vec2 u, float choice,
+                                  struct bsdf_sample *s)
+{
+    struct ggx_albedo o = bsdf_albedo(m, wo);
+    struct facet_albedos e;
+    struct vec3 f;
+    float pdf;
+
+    if (!plastic_direction(m, wo, o, u, choice, s))
         return false;
-    f = plastic_terms(m, wo, wi, specular_o, &pdf);
-    return sample_density(s, wi, f, pdf);
+    if (s->is_delta)
+        return true;
+    e = bsdf_albedos(m, o, s->wi);
+    f = plastic_terms(m, wo, s->wi, &e, &pdf);
+    return sample_density(s, s->wi, f, pdf);
 }
 
 #endif

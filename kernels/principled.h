@@ -35,7 +35,8 @@ enum lobe {
 
 /* The lobes of a mixture, as seen from wo. */
 struct lobes {
-    float weight[LOBES]; /* factors of their f */
+    struct ggx_albedo facets; /* of the base: bsdf_albedo() */
+    float weight[LOBES];      /* factors of their f */
     float chance[LOBES]; /* probabilities to sample them; all are 0 if black */
 };
 
@@ -65,6 +66,12 @@ static inline struct bsdf principled_glass(const struct bsdf *m)
     return glass;
 }
 
+/* True if there are no facets but those of solid glass. */
+static inline bool principled_is_solid(const struct bsdf *m)
+{
+    return m->metalness == 0.0f && m->transmission == 1.0f && m->is_thin == 0;
+}
+
 static inline float mean_channel(struct vec3 c)
 {
     return (c.x + c.y + c.z) * (1.0f / 3.0f);
@@ -72,9 +79,10 @@ static inline float mean_channel(struct vec3 c)
 
 /* Returns an estimate of the plastic's albedo. */
 static inline float principled_plastic_albedo(const struct bsdf *m,
-                                              struct vec3 wo)
+                                              struct vec3 wo,
+                                              struct ggx_albedo facets)
 {
-    struct vec3 e = specular_albedo(m, wo);
+    struct vec3 e = specular_albedo(m, wo, facets);
 
     return mean_channel(
         v3_add(e, v3_mul(m->color, v3(1.0f - e.x, 1.0f - e.y, 1.0f - e.z))));
@@ -86,6 +94,10 @@ static inline struct lobes principled_lobes(const struct bsdf *m,
     struct lobes l;
     float below = 1.0f, sum = 0.0f;
 
+    l.facets.loss = 0.0f;
+    l.facets.schlick = 0.0f;
+    if (!principled_is_solid(m))
+        l.facets = bsdf_albedo(m, wo);
     l.weight[LOBE_SHEEN] = 1.0f; /* its colour is in the lobe */
     l.chance[LOBE_SHEEN] = 0.0f;
     if (has_sheen(m)) {
@@ -99,7 +111,8 @@ static inline struct lobes principled_lobes(const struct bsdf *m,
         struct bsdf coat = principled_coat(m);
 
         l.chance[LOBE_COAT] =
-            l.weight[LOBE_COAT] * specular_albedo(&coat, wo).x;
+            l.weight[LOBE_COAT] *
+            specular_albedo(&coat, wo, bsdf_albedo(&coat, wo)).x;
         below -= l.chance[LOBE_COAT];
     }
     l.weight[LOBE_METAL] = below * m->metalness;
@@ -112,7 +125,7 @@ static inline struct lobes principled_lobes(const struct bsdf *m,
     l.chance[LOBE_PLASTIC] = 0.0f;
     if (l.weight[LOBE_PLASTIC] > 0.0f)
         l.chance[LOBE_PLASTIC] =
-            l.weight[LOBE_PLASTIC] * principled_plastic_albedo(m, wo);
+            l.weight[LOBE_PLASTIC] * principled_plastic_albedo(m, wo, l.facets);
     for (int i = 0; i < LOBES; i++)
         sum += l.chance[i];
     for (int i = 0; i < LOBES; i++)
@@ -173,13 +186,16 @@ static inline struct vec3 principled_terms_of(const struct bsdf *m,
                                               float *pdf)
 {
     struct vec3 sum = v3(0.0f, 0.0f, 0.0f), f;
+    struct facet_albedos e;
     float lobe_pdf;
 
     *pdf = 0.0f;
+    if (!principled_is_solid(m))
+        e = bsdf_albedos(m, l->facets, v3_above(wi));
     if (l->weight[LOBE_GLASS] > 0.0f && !principled_has_glass_delta(m)) {
         struct bsdf glass = principled_glass(m);
 
-        f = m->is_thin != 0 ? thin_terms(&glass, wo, wi, &lobe_pdf)
+        f = m->is_thin != 0 ? thin_terms(&glass, wo, wi, &e, &lobe_pdf)
                             : glass_terms(&glass, wo, wi, &lobe_pdf);
         principled_add(l, LOBE_GLASS, f, lobe_pdf, &sum, pdf);
     }
@@ -192,11 +208,11 @@ static inline struct vec3 principled_terms_of(const struct bsdf *m,
     if (l->weight[LOBE_COAT] > 0.0f)
         principled_add_coat(m, l, wo, wi, &sum, pdf);
     if (l->weight[LOBE_METAL] > 0.0f && !is_smooth(m)) {
-        f = metal_terms(m, wo, wi, metal_loss(m, wo), &lobe_pdf);
+        f = metal_terms(m, wo, wi, &e, &lobe_pdf);
         principled_add(l, LOBE_METAL, f, lobe_pdf, &sum, pdf);
     }
     if (l->weight[LOBE_PLASTIC] > 0.0f) {
-        f = plastic_terms(m, wo, wi, specular_albedo(m, wo), &lobe_pdf);
+        f = plastic_terms(m, wo, wi, &e, &lobe_pdf);
         principled_add(l, LOBE_PLASTIC, f, lobe_pdf, &sum, pdf);
     }
     return sum;
@@ -229,30 +245,43 @@ static inline uint32_t principled_choose(const struct lobes *l, float *choice)
     return lobe;
 }
 
-static inline bool principled_sample_lobe(const struct bsdf *m, uint32_t lobe,
-                                          struct vec3 wo, struct vec2 u,
-                                          float choice, struct bsdf_sample *s)
+static inline bool coat_direction(const struct bsdf *m, struct vec3 wo,
+                                  struct vec2 u, struct bsdf_sample *s)
 {
-    struct bsdf part;
+    struct bsdf coat = principled_coat(m);
+    struct vec3 wi;
+
+    if (is_smooth(&coat))
+        return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
+                            specular_fresnel(coat.specular,
+                                             schlick_weight(wo.z)));
+    wi = ggx_reflect(wo, bsdf_facets(&coat), u);
+    return wi.z > COSINE_MIN && sample_direction(s, wi, 1.0f);
+}
+
+/* Samples a direction from a lobe; only those of deltas get their weights. */
+static inline bool principled_direction(const struct bsdf *m,
+                                        const struct lobes *l, uint32_t lobe,
+                                        struct vec3 wo, struct vec2 u,
+                                        float choice, struct bsdf_sample *s)
+{
+    struct bsdf glass;
 
     if (lobe == LOBE_SHEEN) {
-        s->wi = sheen_direction(u);
-        s->is_delta = false;
-        s->eta_scale = 1.0f;
+        sample_direction(s, sheen_direction(u), 1.0f);
         return s->wi.z > COSINE_MIN;
     }
     if (lobe == LOBE_METAL)
-        return metal_sample(m, wo, u, choice, s);
+        return metal_direction(m, wo, l->facets, u, choice, s);
     if (lobe == LOBE_PLASTIC)
-        return plastic_sample(m, wo, u, choice, s);
+        return plastic_direction(m, wo, l->facets, u, choice, s);
     if (lobe == LOBE_GLASS) {
-        part = principled_glass(m);
-        return m->is_thin != 0 ? thin_sample(&part, wo, u, choice, s)
-                               : glass_sample(&part, wo, u, choice, s);
+        glass = principled_glass(m);
+        return m->is_thin != 0
+                   ? thin_direction(&glass, wo, l->facets, u, choice, s)
+                   : glass_direction(&glass, wo, u, choice, s);
     }
-    part = principled_coat(m);
-    part.color = v3(0.0f, 0.0f, 0.0f); /* plastic without a base */
-    return plastic_sample(&part, wo, u, choice, s);
+    return coat_direction(m, wo, u, s);
 }
 
 static inline bool principled_sample(const struct bsdf *m, struct vec3 wo,
@@ -265,7 +294,7 @@ static inline bool principled_sample(const struct bsdf *m, struct vec3 wo,
     struct vec3 f;
     float pdf;
 
-    if (lobe == LOBES || !principled_sample_lobe(m, lobe, wo, u, choice, s))
+    if (lobe == LOBES || !principled_direction(m, &l, lobe, wo, u, choice, s))
         return false;
     if (s->is_delta) {
         s->weight = v3_scale(s->weight, l.weight[lobe] / l.chance[lobe]);

@@ -33,6 +33,12 @@ static inline float thin_reflectance_mean(float eta)
     return thin_reflectance(f_min(f_max(f, 0.0f), 1.0f));
 }
 
+/* Mirrors directions below the sheet to above it. */
+static inline struct vec3 v3_above(struct vec3 w)
+{
+    return v3(w.x, w.y, fabsf(w.z));
+}
+
 static inline float thin_facet_reflectance(const struct bsdf *m, struct vec3 wo,
                                            struct vec3 h)
 {
@@ -41,13 +47,15 @@ static inline float thin_facet_reflectance(const struct bsdf *m, struct vec3 wo,
     return thin_reflectance(fresnel_dielectric(v3_dot(wo, h), m->eta, &cos_t));
 }
 
+/* e: bsdf_albedos() for wi above the surface. */
 static inline struct vec3 thin_terms(const struct bsdf *m, struct vec3 wo,
-                                     struct vec3 wi, float *pdf)
+                                     struct vec3 wi,
+                                     const struct facet_albedos *e, float *pdf)
 {
     struct ggx g = bsdf_facets(m);
-    struct vec3 up = v3(wi.x, wi.y, fabsf(wi.z));
+    struct vec3 up = v3_above(wi);
     struct vec3 h = half_vector(wo, up);
-    float loss_o = facets_albedo(wo, g).loss;
+    float loss_o = e->o.loss;
     float single = thin_facet_reflectance(m, wo, h);
     float multiple = thin_reflectance_mean(m->eta);
     struct vec3 tint = v3(1.0f, 1.0f, 1.0f);
@@ -60,7 +68,7 @@ static inline struct vec3 thin_terms(const struct bsdf *m, struct vec3 wo,
     *pdf = (1.0f - loss_o) * single * ggx_reflection_pdf(wo, h, g) +
            loss_o * multiple * multiscatter_pdf(up, m->alpha);
     return v3_scale(tint, single * ggx_reflection(wo, up, h, g) +
-                              multiple * multiscatter_f(up, loss_o, g));
+                              multiple * multiscatter_f(up, e));
 }
 
 /* Chooses the side of a sheet that reflects r. Returns false if the sample is
@@ -74,43 +82,61 @@ static inline bool thin_choose_side(float r, float choice, struct vec3 *wi)
     return true;
 }
 
-static inline bool thin_sample_rough(const struct bsdf *m, struct vec3 wo,
-                                     struct vec2 u, float choice,
-                                     struct bsdf_sample *s)
+static inline bool thin_direction_rough(const struct bsdf *m, struct vec3 wo,
+                                        struct ggx_albedo o, struct vec2 u,
+                                        float choice, struct bsdf_sample *s)
 {
     struct ggx g = bsdf_facets(m);
-    float loss_o = facets_albedo(wo, g).loss;
-    struct vec3 wi, f;
-    float r, pdf;
+    struct vec3 wi;
+    float r;
 
-    if (choice < loss_o) {
-        choice /= loss_o;
+    if (choice < o.loss) {
+        choice /= o.loss;
         wi = multiscatter_direction(m->alpha, u);
         r = thin_reflectance_mean(m->eta);
     } else {
-        choice = (choice - loss_o) / (1.0f - loss_o);
+        choice = (choice - o.loss) / (1.0f - o.loss);
         wi = ggx_reflect(wo, g, u);
         r = thin_facet_reflectance(m, wo, half_vector(wo, wi));
     }
-    if (!thin_choose_side(r, choice, &wi))
-        return false;
-    f = thin_terms(m, wo, wi, &pdf);
-    return sample_density(s, wi, f, pdf);
+    return thin_choose_side(r, choice, &wi) && sample_direction(s, wi, 1.0f);
+}
+
+/* Samples a direction; only those of smooth sheets get their weights. o:
+ * bsdf_albedo() at wo. */
+static inline bool thin_direction(const struct bsdf *m, struct vec3 wo,
+                                  struct ggx_albedo o, struct vec2 u,
+                                  float choice, struct bsdf_sample *s)
+{
+    float cos_t;
+    float f;
+
+    if (HAS(FEATURE_ROUGH_SHEETS) && !is_smooth(m))
+        return thin_direction_rough(m, wo, o, u, choice, s);
+    f = fresnel_dielectric(wo.z, m->eta, &cos_t);
+    if (choice * (1.0f + f) < 2.0f * f)
+        return sample_delta(s, v3(-wo.x, -wo.y, wo.z), v3(1.0f, 1.0f, 1.0f));
+    return sample_delta(s, v3_neg(wo), m->color);
 }
 
 static inline bool thin_sample(const struct bsdf *m, struct vec3 wo,
                                struct vec2 u, float choice,
                                struct bsdf_sample *s)
 {
-    float cos_t;
-    float f;
+    struct ggx_albedo o = {0.0f, 0.0f};
+    struct facet_albedos e;
+    struct vec3 f;
+    float pdf;
 
-    if (HAS(FEATURE_ROUGH_SHEETS) && !is_smooth(m))
-        return thin_sample_rough(m, wo, u, choice, s);
-    f = fresnel_dielectric(wo.z, m->eta, &cos_t);
-    if (choice * (1.0f + f) < 2.0f * f)
-        return sample_delta(s, v3(-wo.x, -wo.y, wo.z), v3(1.0f, 1.0f, 1.0f));
-    return sample_delta(s, v3_neg(wo), m->color);
+    if (HAS(FEATURE_ROUGH_SHEETS))
+        o = bsdf_albedo(m, wo);
+    if (!thin_direction(m, wo, o, u, choice, s))
+        return false;
+    if (s->is_delta)
+        return true;
+    e = bsdf_albedos(m, o, v3_above(s->wi));
+    f = thin_terms(m, wo, s->wi, &e, &pdf);
+    return sample_density(s, s->wi, f, pdf);
 }
 
 #endif

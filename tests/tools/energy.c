@@ -16,7 +16,7 @@
 #define POINTS 128
 
 /* Azimuths of means, in a quarter of the circle. */
-#define AZIMUTHS 6
+#define AZIMUTHS 12
 
 #define STRETCHED_MEANS (STRETCHED_MEAN_NODES * STRETCHED_MEAN_STRETCH_NODES)
 
@@ -343,9 +343,9 @@ static double stretch_at(int i, int count)
     return pow(10, 0.5 * node(i, count));
 }
 
-/* Prints a table of stretched facets. Nodes of a stretch of 1 have one
- * azimuth. */
-static void print_stretched(const struct gauss *g, bool is_shift)
+/* Prints the table of stretched facets, loss and shift in turn. Nodes of a
+ * stretch of 1 have one azimuth. */
+static void print_stretched(const struct gauss *g)
 {
     const int planes = STRETCHED_ALPHA_NODES * STRETCHED_STRETCH_NODES;
     const int in_plane = STRETCHED_WIDTH_NODES * STRETCHED_MU_NODES;
@@ -357,22 +357,21 @@ static void print_stretched(const struct gauss *g, bool is_shift)
                               STRETCHED_STRETCH_NODES);
         double t =
             node(i % in_plane / STRETCHED_MU_NODES, STRETCHED_WIDTH_NODES);
-        double width = 1 / s + t * (s - 1 / s);
+        double width = pow(s, 2 * t - 1);
         double share =
             s > 1 ? (width * width - 1 / s / s) / (s * s - 1 / s / s) : t;
         double mu = mu_at(node(i % STRETCHED_MU_NODES, STRETCHED_MU_NODES),
                           alpha * width);
         double phi = acos(sqrt(fmin(fmax(share, 0), 1)));
         struct albedo e = stretched(g, mu, phi, alpha * s, alpha / s);
-        double scale = (double)stretched_loss_scale((float)mu, (float)alpha,
-                                                    (float)width, (float)s);
+        double scale =
+            (double)stretched_loss_scale((float)mu, (float)alpha, (float)s);
         double shift = 1 - pow(e.schlick / e.one, 0.2) - mu;
 
-        print_gap(i, 12);
-        printf("%.0f,",
-               is_shift ? (shift + (double)STRETCHED_SHIFT_MIN) /
-                              (double)STRETCHED_SHIFT_UNIT
-                        : (1 - e.one) / scale / (double)STRETCHED_LOSS_UNIT);
+        print_gap(2 * i, 12);
+        printf("%.0f, %.0f,", (1 - e.one) / scale / (double)STRETCHED_LOSS_UNIT,
+               (shift + (double)STRETCHED_SHIFT_MIN) /
+                   (double)STRETCHED_SHIFT_UNIT);
     }
     printf("\n};\n");
 }
@@ -442,8 +441,8 @@ static void print_sheen(const struct gauss *g)
     printf("\n};\n");
 }
 
-#define STRETCHED_SIZE                                   \
-    "STRETCHED_ALPHA_NODES * STRETCHED_STRETCH_NODES * " \
+#define STRETCHED_SIZE                                       \
+    "2 * STRETCHED_ALPHA_NODES * STRETCHED_STRETCH_NODES * " \
     "STRETCHED_WIDTH_NODES * STRETCHED_MU_NODES"
 
 int main(void)
@@ -506,13 +505,10 @@ int main(void)
     printf("\n/* E of white sheen. */");
     print_head("float", "sheen_albedos", "SHEEN_ALPHA_NODES * SHEEN_MU_NODES");
     print_sheen(&g);
-    printf(
-        "\n/* Of stretched facets: 1 - E over stretched_loss_scale(), shifts "
-        "as above. */");
-    print_head("uint16_t", "stretched_losses", STRETCHED_SIZE);
-    print_stretched(&g, false);
-    print_head("uint16_t", "stretched_shifts", STRETCHED_SIZE);
-    print_stretched(&g, true);
+    printf("\n/* Of stretched facets, in turn: 1 - E over "
+           "stretched_loss_scale(), shifts as above. */");
+    print_head("uint16_t", "stretched_albedos", STRETCHED_SIZE);
+    print_stretched(&g);
     find_stretched_means(&g, means);
     print_head("float", "stretched_mean_losses",
                "STRETCHED_MEAN_NODES * STRETCHED_MEAN_STRETCH_NODES");

@@ -54,7 +54,7 @@ static void smooth_glass_obeys_fresnel_and_snell(void **state)
             struct bsdf m = {.color = {0.5f, 0.5f, 0.5f},
                              .eta = (float)indices[e],
                              .kind = MATERIAL_GLASS};
-            struct bsdf_sample s;
+            struct bsdf_sample s = {0};
             float cos_t;
 
             check_close(fresnel_dielectric(c, m.eta, &cos_t), f, 3e-4);

@@ -109,13 +109,13 @@ static void albedo_of_stretched_facets_is_that_of_quadrature(void **state)
         double schlick =
             stretched_by_quadrature(FACETS_SCHLICK, ax, ay, p.mu, phi);
 
-        check_close(1 - (double)e.loss, one, 6e-3);
-        check_close((double)e.schlick, schlick, 1e-2);
+        check_close(1 - (double)e.loss, one, 5e-3);
+        check_close((double)e.schlick, schlick, 6e-3);
         error += fabs(1 - (double)e.loss - one) / n;
         schlick_error += fabs((double)e.schlick - schlick) / n;
     }
-    check_at_most(error, 6e-4);
-    check_at_most(schlick_error, 1e-3);
+    check_at_most(error, 5e-4);
+    check_at_most(schlick_error, 5e-4);
 }
 
 /* Hardly stretched facets have the albedo of isotropic ones. */
@@ -138,6 +138,8 @@ static void stretching_begins_at_isotropic_facets(void **state)
     }
 }
 
+/* The error of the mean times the largest loss is an error of the light that
+ * white metal reflects. */
 static void means_are_those_of_the_stretched_table(void **state)
 {
     const int n = 200, turns = 24;
@@ -148,7 +150,7 @@ static void means_are_those_of_the_stretched_table(void **state)
         struct ggx g = {(float)(root * root),
                         (float)pow(10, 0.5 * (k + 1) / 41)};
         struct ggx_albedo mean = facets_albedo_mean(g);
-        double loss = 0, schlick = 0;
+        double loss = 0, schlick = 0, most = 0;
 
         for (int i = 0; i < n * turns; i++) {
             double t = (i / turns + 0.5) / n;
@@ -157,8 +159,9 @@ static void means_are_those_of_the_stretched_table(void **state)
 
             loss += (double)e.loss * 4 * t * t * t / n / turns;
             schlick += (double)e.schlick * 4 * t * t * t / n / turns;
+            most = fmax(most, (double)e.loss);
         }
-        check_close((double)mean.loss / loss, 1, 1.2e-2);
+        check_close(((double)mean.loss / loss - 1) * most, 0, 3.5e-3);
         check_close((double)mean.schlick, schlick, 1e-3);
     }
 }
