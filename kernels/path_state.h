@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+/*
+ * path_state.h - a path between two vertices: its ray, throughput and random
+ * numbers
+ *
+ * Units:   normalised scene units, radiance
+ */
+#ifndef KERNELS_PATH_STATE_H
+#define KERNELS_PATH_STATE_H
+
+#include "kernels/first_surface.h"
+#include "kernels/guide.h"
+#include "kernels/light.h"
+#include "kernels/path_types.h"
+
+/* Set to 1, random numbers of several vertices are computed together, in loops
+ * that compilers vectorise; set to 0, each is computed when it is used. */
+#ifndef HAS_WIDE_VECTORS
+#define HAS_WIDE_VECTORS 0
+#endif
+
+/* Number of vertices whose random numbers are computed together. */
+#define VERTICES_AHEAD 2u
+
+/* State of a path between two vertices. */
+struct path {
+    struct ray ray;
+    struct sampler sampler;
+    struct vec2 numbers[VERTICES_AHEAD * DIMENSION_KINDS];
+    struct vec3 beta; /* throughput for Russian roulette */
+    float scale;      /* factor of the throughput that roulette ignores */
+    float pdf;        /* density of the ray's direction; 0 for the camera and
+                         delta lobes, with which light samples do not compete */
+    struct receiver from;   /* vertex that the ray left, if pdf is above 0 */
+    struct guide_cell cell; /* tables of the path guide at that vertex */
+    struct vec3 medium;     /* absorption along the ray; FEATURE_ATTENUATION */
+    struct path_sample out;
+    struct first_surface surface;
+};
+
+/* Caps a factor at the largest float, because an infinite factor times a black
+ * channel is NaN. NaN stays NaN, and the film counts it. */
+static inline float f_finite(float x)
+{
+    return f_min(FLOAT_MAX, x);
+}
+
+/* Weights incoming radiance by the path throughput. */
+static inline struct vec3 path_part(const struct path *p, struct vec3 radiance,
+                                    float weight)
+{
+    return v3_mul(v3_scale(p->beta, f_finite(p->scale * weight)), radiance);
+}
+
+/* Returns two random numbers of a vertex. Vertices are counted from 1. `kind`
+ * is a dimension counted from DIMENSION_BOUNCE in enum dimension. */
+static inline struct vec2 vertex_2d(struct sampler s, uint32_t vertex,
+                                    uint32_t kind)
+{
+    return random_2d(s, vertex * DIMENSION_STRIDE + kind);
+}
+
+/* Computes all random numbers of VERTICES_AHEAD vertices. */
+VECTORISED static void vertices_2d(struct sampler s, uint32_t vertex,
+                                   struct vec2 *numbers)
+{
+    for (uint32_t i = 0; i < VERTICES_AHEAD * DIMENSION_KINDS; i++)
+        numbers[i] =
+            vertex_2d(s, vertex + i / DIMENSION_KINDS, i % DIMENSION_KINDS);
+}
+
+/* Computes random numbers ahead. Call it before the first path_2d() of a
+ * vertex. */
+static inline void path_prepare_2d(struct path *p, uint32_t vertex)
+{
+    if (HAS_WIDE_VECTORS && (vertex - 1) % VERTICES_AHEAD == 0)
+        vertices_2d(p->sampler, vertex, p->numbers);
+}
+
+static inline struct vec2 path_2d(const struct path *p, uint32_t vertex,
+                                  uint32_t kind)
+{
+    if (!HAS_WIDE_VECTORS)
+        return vertex_2d(p->sampler, vertex, kind);
+    return p->numbers[(vertex - 1) % VERTICES_AHEAD * DIMENSION_KINDS + kind];
+}
+
+static inline void path_add(struct path *p, struct vec3 radiance, float weight)
+{
+    p->out.radiance = v3_add(p->out.radiance, path_part(p, radiance, weight));
+}
+
+#endif
