@@ -14,14 +14,15 @@
 #include "kernels/dialect.h"
 
 struct task {
-    uint64_t target;  /* samples after the pass, of each pixel or the mean */
-    uint32_t samples; /* paths for a point */
-    uint32_t first;   /* first point */
-    uint32_t count;   /* number of points */
-    uint32_t columns; /* points in a row of the grid */
-    uint32_t stride;  /* distance of neighbouring points, along x and y */
-    uint32_t width;   /* width of the film */
-    uint32_t x0;      /* the film's corner in the picture */
+    uint64_t target; /* samples after the pass, of each pixel or the mean */
+    uint64_t first_sample; /* index of the first sample of each pixel */
+    uint32_t samples;      /* paths for a point */
+    uint32_t first;        /* first point */
+    uint32_t count;        /* number of points */
+    uint32_t columns;      /* points in a row of the grid */
+    uint32_t stride;       /* distance of neighbouring points, along x and y */
+    uint32_t width;        /* width of the film */
+    uint32_t x0;           /* the film's corner in the picture */
     uint32_t y0;
     uint32_t has_shares; /* 1: pixels have shares: sample_share.h */
     uint32_t pad;

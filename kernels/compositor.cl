@@ -24,7 +24,8 @@ add_samples(struct task task, __global const struct path_sample *samples,
     samples += (ulong)point * task.samples;
     for (uint s = 0; s < task.samples && samples[s].rays != 0; s++) {
         if (HAS(FEATURE_FILTER) && surfaces != 0)
-            surface_add(&surface_sums[pixel], counts[pixel] + s,
+            surface_add(&surface_sums[pixel],
+                        task.first_sample + counts[pixel] + s,
                         surfaces[(ulong)point * task.samples + s],
                         samples[s].radiance);
         pixel_add(&sums[3 * pixel], &odd_sums[3 * pixel], counts[pixel] + s,

@@ -26,7 +26,8 @@ __kernel void generate_rays(struct task task,
         struct settings s = *settings;
 
         starts[i] = camera_sample_begin(&s, task.x0 + task_x(task, point),
-                                        task.y0 + task_y(task, point), index);
+                                        task.y0 + task_y(task, point),
+                                        task.first_sample + index);
     } else {
         starts[i].ray.t_max = -1.0f; /* no path */
     }

@@ -12,8 +12,8 @@
 #include "kernels/first_surface.h"
 #include "kernels/pixel.h"
 
-/* Samples of a pixel whose features are added, so that sums have 32 bits. Many
- * fewer suffice for a mean that is exact enough. */
+/* Samples of a pixel whose features are added, the first by their indices, so
+ * that sums have 32 bits. Many fewer suffice for an exact mean. */
 #define SURFACE_SAMPLES_MAX 65536u
 
 /* The largest albedo, and the largest component of a normal, as numbers. */
@@ -67,8 +67,6 @@ static inline void surface_add_features(GLOBAL struct surface_sums *sums,
 {
     float depth = f_min(s.depth, 0x1p30f);
 
-    if (sums->count >= SURFACE_SAMPLES_MAX)
-        return;
     sums->count++;
     if (s.state == SURFACE_AHEAD)
         return;
@@ -103,7 +101,8 @@ static inline void surface_add(GLOBAL struct surface_sums *sums, uint64_t index,
         rgb_add(sums->odd_direct, s.direct, &bad, &full);
         rgb_add(sums->odd_seen, s.seen, &bad, &full);
     }
-    surface_add_features(sums, s);
+    if (index < SURFACE_SAMPLES_MAX)
+        surface_add_features(sums, s);
 }
 
 #endif

@@ -16,6 +16,7 @@
 #include "terminal/ansi_text.h"
 #include "terminal/tty.h"
 #include "terminal/xmalloc.h"
+#include "session/session_film.h"
 #include "session/stats_json.h"
 #include "inspect/error_map.h"
 #include "inspect/view_modes.h"
@@ -33,6 +34,13 @@ static const char *text_path(const struct options *o)
     const char *path = o->output_path;
 
     return path && !is_standard_output(path) ? path : NULL;
+}
+
+static bool check_film(const struct session *s, const char *option,
+                       const char *path, struct error *err)
+{
+    return !path || (session_check_output(s, option, path, err) &&
+                     file_check(path, err));
 }
 
 /* Checks before the render, which may take minutes, that the output files can
@@ -53,17 +61,35 @@ static bool check_outputs(const struct session *s, struct error *err)
         (!session_check_output(s, "--error-map", o->error_map_path, err) ||
          !batch_check_picture(o->error_map_path, err)))
         return false;
+    if (!check_film(s, "--film", o->film_path, err) ||
+        !check_film(s, "--checkpoint", o->checkpoint_path, err))
+        return false;
     if (o->text_cols > 0)
         return !text_path(o) || file_check(text_path(o), err);
     return batch_check_picture(o->output_path, err);
 }
 
+/* Says that a checkpoint failed: once, since a full disk stays full. */
+static void say_failure(struct session_film *f, bool *is_said)
+{
+    struct error err;
+
+    if (!session_film_failed(f, &err) || *is_said)
+        return;
+    *is_said = true;
+    print_line(stderr,
+               "glim: warning: --checkpoint: %s; the last good file stays",
+               err.text);
+}
+
 /* Waits until all samples are done or a signal arrives, which halts the
  * render. */
-static void wait_for_end(struct session *s, int wake_fd)
+static void wait_for_end(struct session *s, struct session_film *f, int wake_fd)
 {
     struct batch_bar bar = batch_bar_begin();
-    bool looks = bar.is_wanted || s->options->stats_path;
+    bool looks =
+        bar.is_wanted || s->options->stats_path || s->options->checkpoint_path;
+    bool is_said = false;
     struct pollfd fds[2] = {{.fd = render_event_fd(s->render),
                              .events = POLLIN},
                             {.fd = wake_fd, .events = POLLIN}};
@@ -75,12 +101,14 @@ static void wait_for_end(struct session *s, int wake_fd)
         if (p.state != RENDER_RUNNING || batch_stop_signal() != 0)
             break;
         batch_bar_draw(&bar, &shown);
+        say_failure(f, &is_said);
         poll(fds, 2, looks ? BATCH_DRAW_MS : -1);
         if (fds[0].revents & POLLIN)
             event_fd_clear(fds[0].fd);
     }
     batch_bar_erase(&bar);
     render_halt(s->render);
+    session_film_stop(f);
     session_progress(s);
 }
 
@@ -292,13 +320,16 @@ static bool use_device(struct session *s, struct error *err)
 }
 
 /* Renders. If a device fails, the CPU renders from the start. */
-static bool render_all(struct session *s, int wake_fd, struct error *err)
+static bool render_all(struct session *s, struct session_film *f, int wake_fd,
+                       struct error *err)
 {
     struct render_progress p;
 
-    if (!session_restart(s, options_limits(s->options), err))
+    if (!session_film_resume(f, err) ||
+        !session_restart(s, session_film_limits(s->options), err) ||
+        !session_film_watch(f, err))
         return false;
-    wait_for_end(s, wake_fd);
+    wait_for_end(s, f, wake_fd);
     p = render_progress(s->render);
     if (p.state != RENDER_FAILED)
         return true;
@@ -307,7 +338,7 @@ static bool render_all(struct session *s, int wake_fd, struct error *err)
         return false;
     batch_warn_of_device(err->text);
     render_set_backend(s->render, s->backends.cpu);
-    return render_all(s, wake_fd, err);
+    return render_all(s, f, wake_fd, err);
 }
 
 /* Makes the picture of --show with one ray for each pixel. */
@@ -326,16 +357,34 @@ static bool run_show(struct view_mode *show, struct error *err)
     return ok;
 }
 
-static bool run_light(struct view_mode *show, int *status, struct error *err)
+/* Saves the films and the picture, each even if the other one fails. */
+static bool save_film_and_all(struct view_mode *show, struct session_film *f,
+                              struct error *err)
+{
+    struct error film_err;
+    bool has_film = session_film_write(f, &film_err);
+
+    if (!save_all(show, err))
+        return false;
+    if (!has_film)
+        *err = film_err;
+    return has_film;
+}
+
+static bool run_light(struct view_mode *show, struct session_film *f,
+                      int *status, struct error *err)
 {
     struct session *s = show->session;
     int wake_fd;
+
+    if (!session_film_begin(f, s, err))
+        return false;
 
     /* before the signal handlers are set, since drivers replace them */
     if (s->options->backend != BACKEND_CPU && !use_device(s, err))
         return false;
     if (!batch_catch_signals(NULL, &wake_fd, err) ||
-        !render_all(s, wake_fd, err) || !save_all(show, err))
+        !render_all(s, f, wake_fd, err) || !save_film_and_all(show, f, err))
         return false;
     *status = batch_stop_signal() != 0 ? 128 + batch_stop_signal() : 0;
     return true;
@@ -343,6 +392,7 @@ static bool run_light(struct view_mode *show, int *status, struct error *err)
 
 bool batch_run(struct session *s, int *status, struct error *err)
 {
+    struct session_film film = {.session = NULL};
     struct view_mode show;
     bool ok;
 
@@ -350,8 +400,9 @@ bool batch_run(struct session *s, int *status, struct error *err)
         return false;
     view_mode_init(&show, s);
     *status = 0;
-    ok = s->options->show == SHOW_LIGHT ? run_light(&show, status, err)
+    ok = s->options->show == SHOW_LIGHT ? run_light(&show, &film, status, err)
                                         : run_show(&show, err);
+    session_film_end(&film);
     view_mode_free(&show);
     return ok;
 }

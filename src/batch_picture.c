@@ -19,7 +19,8 @@ bool batch_picture_is_wanted(const struct options *o)
 {
     return o->batch && o->show == SHOW_LIGHT && o->text_cols == 0 &&
            !o->stats_path && !o->error_map_path && !o->paths &&
-           !o->kernels_path;
+           !o->kernels_path && !o->film_path && !o->checkpoint_path &&
+           !o->resume_path;
 }
 
 static bool on_progress(void *bar, const struct glim_progress *p)

@@ -36,6 +36,7 @@
 #include "batch.h"
 #include "batch_compare.h"
 #include "batch_curve.h"
+#include "batch_films.h"
 #include "batch_picture.h"
 #include "batch_reference.h"
 
@@ -146,6 +147,10 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
         return batch_curve_run(o, status, err);
     if (o->command == COMMAND_REFERENCE)
         return batch_reference_run(o, start_ns, status, err);
+    if (o->command == COMMAND_INFO)
+        return batch_films_info(o, err);
+    if (o->command == COMMAND_MERGE || o->command == COMMAND_DEVELOP)
+        return batch_films_merge(o, start_ns, err);
     if (batch_picture_is_wanted(o))
         return batch_picture_run(o, start_ns, status, err);
     ok = session_open(s, o, start_ns, err);

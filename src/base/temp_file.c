@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/hash.h"
 #include "base/memory.h"
 
 /* Names that are tried. Names contain the clock, so one usually suffices. */
@@ -32,15 +33,14 @@ static uint32_t host_id(void)
     struct stat space;
     int fd = open("/proc/sys/kernel/random/boot_id", O_RDONLY | O_CLOEXEC);
     ssize_t length = fd >= 0 ? read(fd, boot, sizeof boot) : -1;
-    uint64_t hash = 14695981039346656037u; /* FNV-1a */
+    uint64_t hash;
 
     if (fd >= 0)
         close(fd);
     if (length <= 0 || stat("/proc/self/ns/pid", &space) != 0)
         return 0;
-    for (ssize_t i = 0; i < length; i++)
-        hash = (hash ^ (unsigned char)boot[i]) * 1099511628211u;
-    hash = (hash ^ (uint64_t)space.st_ino) * 1099511628211u;
+    hash = hash_bytes(HASH_BEGIN, boot, (size_t)length);
+    hash = hash_number(hash, (uint64_t)space.st_ino);
     return (uint32_t)(hash >> 32) | 1;
 }
 

@@ -23,8 +23,11 @@ bool film_filter_applies(struct film *f)
 
     for (int y = 0; applies && y < f->height; y++) {
         film_lock_row(f, y);
-        for (int x = 0; x < f->width; x++)
-            applies = applies && f->counts[row_index(f, y) + (size_t)x] >= 2;
+        for (int x = 0; x < f->width && applies; x++) {
+            size_t at = row_index(f, y) + (size_t)x;
+
+            applies = f->counts[at] >= 2 && f->surfaces[at].count > 0;
+        }
         film_unlock_row(f, y);
     }
     return applies;

@@ -17,7 +17,8 @@
 #include "picture/film.h"
 
 /* Returns true if the film can be filtered: it has surfaces, and each pixel has
- * a sample in each half. */
+ * a sample in each half, and features, which a late share of the samples has
+ * not. */
 bool film_filter_applies(struct film *film);
 
 /* Adds the filtered picture to an empty film of the same size, as one sample of

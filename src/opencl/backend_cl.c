@@ -177,7 +177,9 @@ static bool cl_begin(struct backend *base, const struct host_world *host,
            cl_film_begin(&b->film, &b->machine, film, err) &&
            cl_readback_begin(&b->slots[0].reading, &b->film, err) &&
            cl_readback_begin(&b->slots[1].reading, &b->film, err) &&
-           clear_film(b, pixel_count, err);
+           (atomic_load(&film->samples) > 0
+                ? cl_film_upload(&b->film, &b->machine, err)
+                : clear_film(b, pixel_count, err));
 }
 
 /* ---- tasks ---- */
@@ -287,6 +289,7 @@ static bool start_task(struct backend_cl *b, struct progress *p, struct slot *s,
     const struct cl_api *api = b->machine.api;
 
     s->task = (struct task){.target = p->pass->target,
+                            .first_sample = b->film.film->first_sample,
                             .samples = samples,
                             .first = p->next,
                             .count = (uint32_t)smaller(points, left),

@@ -40,6 +40,7 @@
     X(ReleaseMemObject)        \
     X(EnqueueNDRangeKernel)    \
     X(EnqueueReadBuffer)       \
+    X(EnqueueWriteBuffer)      \
     X(EnqueueReadBufferRect)   \
     X(EnqueueFillBuffer)       \
     X(WaitForEvents)           \

@@ -100,6 +100,32 @@ bool cl_film_begin(struct cl_film *f, const struct cl_machine *m,
     return true;
 }
 
+static bool upload(const struct cl_machine *m, cl_mem buffer, const void *from,
+                   size_t size_bytes, struct error *err)
+{
+    return cl_machine_check(m,
+                            m->api->EnqueueWriteBuffer(m->queue, buffer,
+                                                       CL_TRUE, 0, size_bytes,
+                                                       from, 0, NULL, NULL),
+                            "clEnqueueWriteBuffer", err);
+}
+
+bool cl_film_upload(const struct cl_film *f, const struct cl_machine *m,
+                    struct error *err)
+{
+    const struct film *film = f->film;
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+
+    return upload(m, f->sums, film->sums, pixels * PIXEL_SUMS_BYTES, err) &&
+           upload(m, f->odd_sums, film->odd_sums, pixels * PIXEL_SUMS_BYTES,
+                  err) &&
+           (f->surfaces == NULL ||
+            upload(m, f->surfaces, film->surfaces,
+                   pixels * sizeof *film->surfaces, err)) &&
+           upload(m, f->counts, film->counts, pixels * sizeof *film->counts,
+                  err);
+}
+
 /* Returns the address of an item of an array, or NULL if there is none. */
 static const struct surface_sums *surfaces_at(const struct surface_sums *sums,
                                               size_t at)

@@ -42,6 +42,10 @@ struct cl_readback {
 /* Allocates buffers of the film's size. Their contents are undefined. */
 bool cl_film_begin(struct cl_film *f, const struct cl_machine *m,
                    struct film *film, struct error *err);
+
+/* Writes the samples of the host's film to the buffers. */
+bool cl_film_upload(const struct cl_film *f, const struct cl_machine *m,
+                    struct error *err);
 void cl_film_free(struct cl_film *f, const struct cl_machine *m);
 
 /* Returns true if the host can access the device's buffers directly. */

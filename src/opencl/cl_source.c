@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/lexer.h"
@@ -183,9 +184,5 @@ char *cl_source_text(const char *folder, struct error *err)
 /* Computes the 64-bit FNV-1a hash. Nobody gains from collisions here. */
 uint64_t cl_source_hash(const char *text)
 {
-    uint64_t h = 0xcbf29ce484222325u;
-
-    for (; *text != '\0'; text++)
-        h = (h ^ (unsigned char)*text) * 0x100000001b3u;
-    return h;
+    return hash_bytes(HASH_BEGIN, text, strlen(text));
 }

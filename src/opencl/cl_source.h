@@ -31,7 +31,7 @@ extern const struct cl_source_file cl_source_files[];
  * program itself if `folder` is NULL. */
 char *cl_source_text(const char *folder, struct error *err);
 
-/* Returns a hash of the text, for the names of cache files. */
+/* Returns a hash of the text, for the names of cache files and for films. */
 uint64_t cl_source_hash(const char *text);
 
 #endif

@@ -157,7 +157,8 @@ void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
                 surface_clear(&f->surfaces[at]);
         }
         for (int s = 0; s < counts[i] && f->surfaces != NULL; s++)
-            surface_add(&f->surfaces[at], f->counts[at] + (uint64_t)s,
+            surface_add(&f->surfaces[at],
+                        f->first_sample + f->counts[at] + (uint64_t)s,
                         *surfaces++, samples[s].radiance);
         for (int s = 0; s < counts[i]; s++)
             pixel_add(sums, odd_sums, f->counts[at]++, *samples++, &tally);
@@ -186,6 +187,39 @@ void film_store_row(struct film *f, int x, int y, int stride, int pixel_count,
         f->counts[at] = counts[from];
     }
     film_unlock_row(f, y);
+}
+
+static void swap_counter(atomic_uint_least64_t *a, atomic_uint_least64_t *b)
+{
+    atomic_store(b, atomic_exchange(a, atomic_load(b)));
+}
+
+void film_swap(struct film *a, struct film *b)
+{
+    struct film old = {.sums = a->sums,
+                       .odd_sums = a->odd_sums,
+                       .surfaces = a->surfaces,
+                       .counts = a->counts,
+                       .has_row = a->has_row,
+                       .first_sample = a->first_sample};
+
+    a->sums = b->sums;
+    a->odd_sums = b->odd_sums;
+    a->surfaces = b->surfaces;
+    a->counts = b->counts;
+    a->has_row = b->has_row;
+    a->first_sample = b->first_sample;
+    b->sums = old.sums;
+    b->odd_sums = old.odd_sums;
+    b->surfaces = old.surfaces;
+    b->counts = old.counts;
+    b->has_row = old.has_row;
+    b->first_sample = old.first_sample;
+    swap_counter(&a->samples, &b->samples);
+    swap_counter(&a->rays, &b->rays);
+    swap_counter(&a->non_finite, &b->non_finite);
+    swap_counter(&a->saturated, &b->saturated);
+    swap_counter(&a->cut_paths, &b->cut_paths);
 }
 
 bool film_copy(struct film *to, struct film *from, struct error *err)

@@ -35,6 +35,9 @@
 
 struct film {
     int width, height;
+    /* index of the first sample of each pixel: even, so that samples with even
+     * indices come first */
+    uint64_t first_sample;
     struct sum *sums;     /* 3 per pixel; guarded by locks[y % FILM_LOCKS] */
     struct sum *odd_sums; /* likewise, of samples with odd indices only */
     /* of each pixel, guarded likewise; NULL: not wanted */
@@ -92,8 +95,8 @@ void film_free(struct film *film);
 void film_lock_row(struct film *film, int y);
 void film_unlock_row(struct film *film, int y);
 
-/* Returns the number of samples of a pixel so far, which is the index of its
- * next one. Only the thread that adds to the row may call it. */
+/* Returns the number of samples of a pixel so far. Only the thread that adds to
+ * the row may call it. */
 uint64_t film_count(const struct film *film, int x, int y);
 
 /* Adds samples to pixels x, x + stride, ... of row y: counts[i] samples to the
@@ -111,6 +114,10 @@ void film_store_row(struct film *film, int x, int y, int stride,
                     const struct sum *odd_sums,
                     const struct surface_sums *surfaces,
                     const uint64_t *counts);
+
+/* Exchanges the samples of two films of the same size. Nobody else uses them
+ * meanwhile. */
+void film_swap(struct film *a, struct film *b);
 
 /* Copies the pixels of another film into an uninitialised one. The counters
  * stay 0. */

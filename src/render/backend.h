@@ -54,8 +54,9 @@ struct backend {
      * another backend takes over. */
     void (*unload)(struct backend *b);
 
-    /* Begins a new picture with an empty film, whose corner is pixel (x0, y0)
-     * of the whole picture. The world may differ from that of load() in
+    /* Begins a new picture, whose film has the corner (x0, y0) in the whole
+     * picture. The film is empty or comes from a file: pixels without samples
+     * have sums of 0. The world may differ from that of load() in
      * everything except its shape. Host, arrays and film must live until the
      * last pass(). */
     bool (*begin)(struct backend *b, const struct host_world *host,

@@ -95,6 +95,7 @@ static void row_begin(struct row *r, const struct job *j, int x, int y,
         int px = x + i * j->pass.stride;
         uint64_t target = target_of(j, px, y);
         uint64_t k = film_count(b->film, px, y);
+        uint64_t first = b->film->first_sample;
         uint32_t before = r->count;
 
         if (target > k + ADDED_TOGETHER) {
@@ -102,8 +103,9 @@ static void row_begin(struct row *r, const struct job *j, int x, int y,
             r->has_more = true;
         }
         for (; k < target; k++)
-            r->ids[r->count++] = (struct sample_id){(uint32_t)(b->x0 + px),
-                                                    (uint32_t)(b->y0 + y), k};
+            r->ids[r->count++] =
+                (struct sample_id){(uint32_t)(b->x0 + px),
+                                   (uint32_t)(b->y0 + y), first + k};
         r->counts[i] = (int)(r->count - before);
     }
 }

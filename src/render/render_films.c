@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "render/render_films.h"
 
+#include <string.h>
+
 #include "render/projection.h"
 #include "render/render_loop.h"
 
@@ -61,13 +63,31 @@ static bool reset_draft(struct film *draft, const struct render_job *job,
     return true;
 }
 
+/* Takes the samples of a file over. */
+static void take_file(struct render_films *f, struct film_file *from)
+{
+    struct adaptive *a = &f->adaptive;
+    size_t pixels = (size_t)f->film.width * (size_t)f->film.height;
+
+    film_swap(&f->film, &from->film);
+    if (a->shares == NULL || from->shares == NULL)
+        return;
+    memcpy(a->shares, from->shares, pixels * sizeof *a->shares);
+    a->is_decided = true;
+}
+
 bool render_films_reset(struct render_films *f, const struct render_job *job,
                         struct error *err)
 {
-    return reset_film(&f->film, job->crop.width, job->crop.height,
-                      has_surfaces(job), err) &&
-           reset_draft(&f->draft, job, err) &&
-           reset_adaptive(&f->adaptive, job, err);
+    if (!reset_film(&f->film, job->crop.width, job->crop.height,
+                    has_surfaces(job), err) ||
+        !reset_draft(&f->draft, job, err) ||
+        !reset_adaptive(&f->adaptive, job, err))
+        return false;
+    f->film.first_sample = job->first_sample;
+    if (job->from != NULL)
+        take_file(f, job->from);
+    return true;
 }
 
 struct world render_films_draft_world(const struct render_films *f,

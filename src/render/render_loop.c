@@ -101,6 +101,17 @@ static void start_run(struct render *r, uint64_t steps)
     pthread_cond_signal(&r->begin);
 }
 
+/* Sets the state to that of a file whose film was taken over. The error at the
+ * end of a pass decides whether the render goes on, and a film that was saved
+ * within a pass has been found to go on. */
+static void go_on(struct render *r, const struct film_file *from)
+{
+    r->spp_done = film_header_spp(&from->header);
+    r->run_before_ns = from->header.render_ns;
+    r->has_shares = from->shares != NULL;
+    r->has_error = from->is_within_pass;
+}
+
 bool render_start(struct render *r, const struct render_job *job,
                   struct error *err)
 {
@@ -115,11 +126,14 @@ bool render_start(struct render *r, const struct render_job *job,
     r->spp_done = 0;
     r->draft_spp_done = 0;
     r->run_before_ns = 0;
+    r->has_shares = false;
     r->first_picture_ns = 0;
     r->has_error = true; /* that of no sample is unknown */
     r->film_error = (struct film_error){0};
     r->error_trend = (struct error_trend){.count = 0};
     r->build_ns = 0;
+    if (job->from != NULL)
+        go_on(r, job->from);
     start_run(r, job->steps);
     pthread_mutex_unlock(&r->lock);
     return true;
@@ -208,6 +222,16 @@ struct render_progress render_progress(struct render *r)
     pthread_mutex_unlock(&r->lock);
     render_films_count(&r->films, &p);
     return p;
+}
+
+const uint16_t *render_shares(struct render *r)
+{
+    const uint16_t *shares;
+
+    pthread_mutex_lock(&r->lock);
+    shares = r->has_shares ? r->films.adaptive.shares : NULL;
+    pthread_mutex_unlock(&r->lock);
+    return shares;
 }
 
 struct film *render_film(struct render *r)

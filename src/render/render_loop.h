@@ -28,6 +28,7 @@
 
 #include "picture/film.h"
 #include "picture/film_error.h"
+#include "picture/film_file.h"
 #include "render/backend.h"
 #include "render/render_limits.h"
 
@@ -47,6 +48,11 @@ struct render_job {
      * of the crop if larger. There is no draft if either is 0. */
     int draft_width, draft_height;
     bool draft_has_surfaces; /* for the filter of the screen */
+    /* index of the first sample of each pixel; even */
+    uint64_t first_sample;
+    /* samples to go on from, of the same picture, which are taken out of the
+     * file; NULL: none */
+    struct film_file *from;
 };
 
 enum render_state {
@@ -118,6 +124,11 @@ bool render_wait(struct render *r, int timeout_ms);
 int render_event_fd(const struct render *r);
 
 struct render_progress render_progress(struct render *r);
+
+/* Returns the shares of adaptive sampling, of each pixel, or NULL while they
+ * are not decided. Callable from any thread. They stay until the next
+ * render_start(). */
+const uint16_t *render_shares(struct render *r);
 
 /* Returns the film, for reading: film_preview(), film_resolve(), film_linear(),
  * image_write(). It is valid until the next render_start() with another

@@ -198,10 +198,14 @@ static enum pass_result decide_shares(struct render *r)
     if (!adaptive_decide(a, &r->films.film, r->job.exposure, r->backend->pool,
                          cancel_between(r), &r->error))
         return PASS_FAILED;
-    if (a->is_decided)
-        return PASS_DONE;
-    r->error_halts++;
-    return PASS_CANCELLED;
+    if (!a->is_decided) {
+        r->error_halts++;
+        return PASS_CANCELLED;
+    }
+    pthread_mutex_lock(&r->lock);
+    r->has_shares = true;
+    pthread_mutex_unlock(&r->lock);
+    return PASS_DONE;
 }
 
 static enum pass_result run_film_pass(struct render *r)

@@ -40,7 +40,8 @@ struct render {
     uint64_t run_before_ns; /* total of earlier runs of the picture */
     uint64_t build_ns;
     uint64_t first_picture_ns;
-    bool has_error; /* film_error is that of the last pass */
+    bool has_shares; /* those of adaptive sampling are decided */
+    bool has_error;  /* film_error is that of the last pass */
     struct film_error film_error;
     struct film_error cut_error; /* of a film that the time has cut */
     struct error_trend error_trend;

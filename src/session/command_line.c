@@ -17,6 +17,8 @@ const char options_help[] =
     "       glim compare [options] picture.pfm reference.pfm\n"
     "       glim curve [options] reference.pfm scene.obj\n"
     "       glim reference [options] out.pfm scene.obj\n"
+    "       glim info FILM ...\n"
+    "       glim merge -o OUT FILM ...\n"
     "\n"
     "Path traces a Wavefront OBJ scene, live in the terminal or, with -b, to "
     "a\n"
@@ -245,7 +247,7 @@ static bool check_batch(const struct options *o, struct error *err)
         return fail(
             err,
             "--ansi: found --glyph for pixels, expected one for characters");
-    if (o->output_path && o->text_cols == 0 &&
+    if (o->output_path && o->text_cols == 0 && !options_output_is_film(o) &&
         image_write_format_of(o->output_path) == IMAGE_WRITE_UNKNOWN)
         return fail(err,
                     "-o: found '%s', expected a name that ends in .png, .hdr "
@@ -319,6 +321,56 @@ static bool check_error_map(const struct options *o, struct error *err)
                          o->denoise_path, err);
 }
 
+/* Refuses the name of a film that is that of another output. */
+static bool check_film_name(const struct options *o, const char *option,
+                            const char *path, struct error *err)
+{
+    if (is_standard_output(path))
+        return fail(err, "%s: found -, expected the name of a file", option);
+    return is_other_file(option, path, "-o", o->output_path, err) &&
+           is_other_file(option, path, "--stats", o->stats_path, err) &&
+           is_other_file(option, path, "--denoise", o->denoise_path, err) &&
+           is_other_file(option, path, "--error-map", o->error_map_path, err);
+}
+
+/* Refuses films on the screen, and shares of what is decided while it
+ * renders. */
+static bool check_films(const struct options *o, struct error *err)
+{
+    const struct {
+        const char *name, *path;
+    } films[] = {{"--film", o->film_path},
+                 {"--checkpoint", o->checkpoint_path},
+                 {"--resume", o->resume_path}};
+
+    for (int i = 0; i < 3; i++) {
+        if (!films[i].path)
+            continue;
+        if (!o->batch)
+            return fail(err, "%s: found no -b, expected batch mode",
+                        films[i].name);
+        if (o->show != SHOW_LIGHT)
+            return fail(err, "%s: found --show, expected a render of light",
+                        films[i].name);
+        if (!check_film_name(o, films[i].name, films[i].path, err))
+            return false;
+    }
+    if (o->has_checkpoint_interval && !o->checkpoint_path)
+        return fail(err, "--checkpoint-interval: found no --checkpoint");
+    if (o->share_count == 0)
+        return true;
+    if (!o->film_path && !o->checkpoint_path)
+        return fail(err, "--share: found no --film, expected one to write");
+    if (o->error_limit > 0 || o->adaptive)
+        return fail(err,
+                    "--share: found %s, expected samples that no share "
+                    "decides",
+                    o->adaptive ? "--adaptive" : "-e");
+    return o->has_spp ||
+           fail(err, "--share: found no -s, expected the samples of all shares "
+                     "together");
+}
+
 /* Refuses options about samples of light beside --show. */
 static bool check_show(const struct options *o, struct error *err)
 {
@@ -345,12 +397,20 @@ static bool check_together(const struct options *o, struct error *err)
     if (o->list_devices || o->probe)
         return true;
     return check_batch(o, err) && check_denoise(o, err) &&
-           check_error_map(o, err) && check_show(o, err);
+           check_error_map(o, err) && check_films(o, err) && check_show(o, err);
 }
 
 bool options_adaptive(const struct options *o)
 {
     return o->adaptive || (!o->no_adaptive && o->error_limit > 0);
+}
+
+bool options_output_is_film(const struct options *o)
+{
+    const char *ending = o->output_path ? strrchr(o->output_path, '.') : NULL;
+
+    return o->command == COMMAND_MERGE && ending &&
+           strcmp(ending, ".film") == 0;
 }
 
 struct render_limits options_limits(const struct options *o)
@@ -384,6 +444,7 @@ static bool take_environment(struct options *o, struct error *err)
 void options_init(struct options *o)
 {
     *o = (struct options){.spp = 16,
+                          .checkpoint_ns = 60000000000u,
                           .max_bounces = -1,
                           .seed_count = 8,
                           .tile_count = 16,

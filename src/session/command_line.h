@@ -45,6 +45,9 @@ enum sub_command {
     COMMAND_COMPARE,
     COMMAND_CURVE,
     COMMAND_REFERENCE,
+    COMMAND_INFO,
+    COMMAND_MERGE,
+    COMMAND_DEVELOP
 };
 
 struct options {
@@ -54,16 +57,29 @@ struct options {
     int seed_count;             /* reference: independent renders */
     char *const *arguments;     /* the command line, ending with NULL */
     const char *csv_path;       /* curve: NULL: no such file */
-    int tile_count;             /* compare: most tiles each way */
-    double false_alarms;        /* compare: probability of any */
+    /* info, merge, develop: the films; the array lives as long as the program
+     */
+    const char **films;
+    int film_count;
+    bool has_exposure, has_tone; /* merge, develop: not those of the render */
+    double exposure;             /* in stops */
+    uint32_t tone;               /* enum tone */
+    int tile_count;              /* compare: most tiles each way */
+    double false_alarms;         /* compare: probability of any */
     const char *scene_path;
     bool lacks_scene;        /* no scene was given and the screen needs one */
     const char *view_path;   /* NULL: beside the scene */
     const char *output_path; /* NULL: STEM.png in batch mode */
     const char *stats_path;  /* NULL: no statistics */
-    const char *error_map_path; /* NULL: no map */
-    int width_px, height_px;    /* 0 if not given */
-    uint64_t spp;               /* samples per pixel */
+    const char *error_map_path;  /* NULL: no map */
+    const char *film_path;       /* film at the end; NULL: none */
+    const char *checkpoint_path; /* film in between and at the end */
+    uint64_t checkpoint_ns;      /* time between checkpoints */
+    bool has_checkpoint_interval;
+    const char *resume_path;      /* film to go on from; NULL: none */
+    int share_index, share_count; /* 1 to the count; 0 of 0: all samples */
+    int width_px, height_px;      /* 0 if not given */
+    uint64_t spp;                 /* samples per pixel */
     bool has_spp;
     double error_limit;         /* relative; 0: none */
     bool adaptive, no_adaptive; /* neither: with error_limit */
@@ -117,6 +133,9 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err);
 
 /* Returns true if pixels with more error are to get more samples. */
 bool options_adaptive(const struct options *o);
+
+/* Returns true if the output of merge is a film. */
+bool options_output_is_film(const struct options *o);
 
 /* Returns the limits of a render to a file and of normal mode. The samples are
  * one of them if they were given, or if there is no other. */

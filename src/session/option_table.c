@@ -21,6 +21,11 @@
 #define TILES_MAX   256
 #define SEEDS_MIN   4
 #define SEEDS_MAX   64
+#define SHARES_MAX  100000
+
+/* Limits of the time between checkpoints. */
+#define INTERVAL_NS_MIN 100000000u
+#define INTERVAL_NS_MAX 86400000000000u
 
 static const struct option_rule rules[] = {
     {"f", OPTION_SCENE, "the name of a scene"},
@@ -54,6 +59,14 @@ static const struct option_rule rules[] = {
     {"denoise", OPTION_DENOISE, "the name of a picture"},
     {"stats", OPTION_STATS, "the name of a file"},
     {"error-map", OPTION_ERROR_MAP, "the name of a picture"},
+    {"film", OPTION_FILM, "the name of a film"},
+    {"checkpoint", OPTION_CHECKPOINT, "the name of a film"},
+    {"checkpoint-interval", OPTION_CHECKPOINT_INTERVAL,
+     "a time such as 90, 1.5m or 2h"},
+    {"resume", OPTION_RESUME, "the name of a film"},
+    {"share", OPTION_SHARE, "I/N such as 3/8"},
+    {"exposure", OPTION_EXPOSURE, "a number of stops"},
+    {"tone", OPTION_TONE, "linear, reinhard or aces"},
     {"color", OPTION_COLOR, "24, 256, 16, mono or auto"},
     {"glyph", OPTION_GLYPH,
      "auto, half, upper, lower, quadrant, sextant, braille, space, ascii, "
@@ -232,7 +245,7 @@ static bool set_error(struct options *o, const struct option_given *g,
 }
 
 /* Parses a number of seconds, minutes or hours. */
-static bool set_time(struct options *o, const struct option_given *g,
+static bool set_time(const struct option_given *g, uint64_t *ns,
                      struct error *err)
 {
     static const char units[] = "smh";
@@ -247,7 +260,41 @@ static bool set_time(struct options *o, const struct option_given *g,
         !(seconds > 0 && seconds <= TIME_S_MAX))
         return fail(err, "%s: found '%s', expected %s: above 0, at most 1e9 s",
                     g->shown, g->value, g->rule->value);
-    o->time_ns = seconds > 1e-9 ? (uint64_t)(seconds * 1e9) : 1;
+    *ns = seconds > 1e-9 ? (uint64_t)(seconds * 1e9) : 1;
+    return true;
+}
+
+static bool set_interval(struct options *o, const struct option_given *g,
+                         struct error *err)
+{
+    if (!set_time(g, &o->checkpoint_ns, err))
+        return false;
+    o->has_checkpoint_interval = true;
+    return (o->checkpoint_ns >= INTERVAL_NS_MIN &&
+            o->checkpoint_ns <= INTERVAL_NS_MAX) ||
+           fail(err, "%s: found '%s', expected 0.1 s to 24 h", g->shown,
+                g->value);
+}
+
+/* Parses I/N. */
+static bool set_share(struct options *o, const struct option_given *g,
+                      struct error *err)
+{
+    size_t length = strcspn(g->value, "/");
+    char index_text[8] = "";
+    uint64_t index = 0, count = 0;
+
+    if (length < sizeof index_text && g->value[length] == '/')
+        memcpy(index_text, g->value, length);
+    if (!parse_digits(index_text, SHARES_MAX, &index) || index == 0 ||
+        !parse_digits(g->value + length + 1, SHARES_MAX, &count) ||
+        index > count)
+        return fail(err,
+                    "%s: found '%s', expected %s: two whole numbers, the first "
+                    "from 1 to the second, which is at most %d",
+                    g->shown, g->value, g->rule->value, SHARES_MAX);
+    o->share_index = (int)index;
+    o->share_count = (int)count;
     return true;
 }
 
@@ -330,6 +377,12 @@ static bool set_word(struct options *o, const struct option_given *g,
             index > COLOR_24BIT ? COLOR_24BIT : (enum color_mode)index;
         o->has_color = true;
         return true;
+    case OPTION_TONE:
+        if (!choice(g, view_tones, &index, err))
+            return false;
+        o->tone = (uint32_t)index;
+        o->has_tone = true;
+        return true;
     case OPTION_SHOW:
         if (!choice(g, options_shows, &index, err))
             return false;
@@ -360,7 +413,7 @@ bool option_set(struct options *o, const struct option_given *g,
         o->has_spp = true;
         return whole_number(g, 1, SPP_MAX, &o->spp, err);
     case OPTION_ERROR: return set_error(o, g, err);
-    case OPTION_TIME: return set_time(o, g, err);
+    case OPTION_TIME: return set_time(g, &o->time_ns, err);
     case OPTION_ADAPTIVE:
     case OPTION_NO_ADAPTIVE: /* the last one counts */
         o->adaptive = g->rule->id == OPTION_ADAPTIVE;
@@ -385,6 +438,14 @@ bool option_set(struct options *o, const struct option_given *g,
         return !g->value || given_text(g, &o->denoise_path, err);
     case OPTION_STATS: return given_text(g, &o->stats_path, err);
     case OPTION_ERROR_MAP: return given_text(g, &o->error_map_path, err);
+    case OPTION_FILM: return given_text(g, &o->film_path, err);
+    case OPTION_CHECKPOINT: return given_text(g, &o->checkpoint_path, err);
+    case OPTION_CHECKPOINT_INTERVAL: return set_interval(o, g, err);
+    case OPTION_RESUME: return given_text(g, &o->resume_path, err);
+    case OPTION_EXPOSURE:
+        o->has_exposure = true;
+        return set_decimal(g, -100, 100, &o->exposure, err);
+    case OPTION_SHARE: return set_share(o, g, err);
     case OPTION_CELL_ASPECT:
         return set_decimal(g, 0.25, 8, &o->display.cell_aspect, err);
     case OPTION_DEVICE: return given_text(g, &o->device, err);
@@ -392,6 +453,7 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_ISA:
         o->paths = cpu_kernel_named(g->value, err);
         return o->paths != NULL;
+    case OPTION_TONE:
     case OPTION_UP:
     case OPTION_BACKEND:
     case OPTION_COLOR:

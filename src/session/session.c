@@ -190,7 +190,9 @@ static bool begin(struct session *s, struct render_limits limits,
                              .crop = s->crop,
                              .limits = limits,
                              .steps = steps,
-                             .is_adaptive = options_adaptive(s->options)};
+                             .is_adaptive = options_adaptive(s->options),
+                             .first_sample = s->first_sample,
+                             .from = s->from};
     struct view view = edit_view(&s->edit);
     bool is_live =
         limits.spp == 0 && !(limits.error > 0) && limits.time_ns == 0;

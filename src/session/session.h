@@ -46,6 +46,11 @@ struct session {
     bool is_filtered;        /* the screen's picture is to be filtered */
     bool draft_has_surfaces; /* of the last restart in live mode */
     bool is_denoised;        /* a filtered picture was written */
+    /* of batch mode's films: what decides the samples, the index of the first
+     * one, and the samples to go on from (NULL: none) */
+    struct film_identity film_identity;
+    uint64_t first_sample;
+    struct film_file *from;
     /* measured since restart_ns */
     struct speeds speeds;
     struct thread_load load;

@@ -4,8 +4,28 @@
 #include <string.h>
 
 #include "picture/image_write.h"
+#include "terminal/xmalloc.h"
 
 const char sub_command_help[] =
+    "\n"
+    "films, in batch mode\n"
+    "  --film FILE      write the film, the exact sums of all samples\n"
+    "  --checkpoint FILE\n"
+    "                   write the film at the end, after a signal, and while\n"
+    "                   rendering\n"
+    "  --checkpoint-interval TIME\n"
+    "                   time between checkpoints (default: 60)\n"
+    "  --resume FILE    go on with a film of the same picture; if it is that "
+    "of\n"
+    "                   --checkpoint it may be missing at first\n"
+    "  --share I/N      render only share I, from 1 to N, of the samples\n"
+    "  info             print what films are of\n"
+    "  merge            join films of the same picture; -o names a picture, or "
+    "a\n"
+    "                   film that ends in .film\n"
+    "  develop          as merge, of one film\n"
+    "  --exposure STOPS exposure of the picture of merge and develop\n"
+    "  --tone KIND      linear, reinhard or aces likewise\n"
     "\n"
     "measurements\n"
     "  compare          compare two .pfm, .hdr or .png pictures of one size:\n"
@@ -26,10 +46,10 @@ const char sub_command_help[] =
     "                   noise differs (default: 0.01)\n";
 
 static const char *const names[] = {
-    [COMMAND_RENDER] = "",
-    [COMMAND_COMPARE] = " compare",
-    [COMMAND_CURVE] = " curve",
-    [COMMAND_REFERENCE] = " reference",
+    [COMMAND_RENDER] = "",          [COMMAND_COMPARE] = " compare",
+    [COMMAND_CURVE] = " curve",     [COMMAND_REFERENCE] = " reference",
+    [COMMAND_INFO] = " info",       [COMMAND_MERGE] = " merge",
+    [COMMAND_DEVELOP] = " develop",
 };
 
 #define COMMAND_COUNT (int)(sizeof names / sizeof names[0])
@@ -47,6 +67,12 @@ const char *sub_command_name(enum sub_command command)
     return names[command];
 }
 
+/* Returns true for the sub-commands whose operands are films. */
+static bool takes_films(enum sub_command command)
+{
+    return command >= COMMAND_INFO;
+}
+
 bool sub_command_takes(enum sub_command command, enum option_id id)
 {
     switch (id) {
@@ -56,7 +82,14 @@ bool sub_command_takes(enum sub_command command, enum option_id id)
     case OPTION_FALSE_ALARMS: return command == COMMAND_COMPARE;
     case OPTION_CSV: return command == COMMAND_CURVE;
     case OPTION_SEEDS: return command == COMMAND_REFERENCE;
-    case OPTION_OUTPUT: return command != COMMAND_REFERENCE;
+    case OPTION_OUTPUT:
+        return command != COMMAND_REFERENCE && command != COMMAND_INFO;
+    case OPTION_EXPOSURE:
+    case OPTION_TONE:
+        return command == COMMAND_MERGE || command == COMMAND_DEVELOP;
+    case OPTION_DENOISE:
+        return command == COMMAND_RENDER || command == COMMAND_MERGE ||
+               command == COMMAND_DEVELOP;
     case OPTION_SCENE:
     case OPTION_VIEW:
     case OPTION_WIDTH:
@@ -73,7 +106,8 @@ bool sub_command_takes(enum sub_command command, enum option_id id)
     case OPTION_TURBIDITY:
     case OPTION_THREADS:
     case OPTION_BACKEND:
-    case OPTION_DEVICE: return command != COMMAND_COMPARE;
+    case OPTION_DEVICE:
+        return command != COMMAND_COMPARE && !takes_films(command);
     default: return command == COMMAND_RENDER;
     }
 }
@@ -97,6 +131,12 @@ bool sub_command_set_operand(struct options *o, const char *path,
 
     if (o->command == COMMAND_RENDER)
         return option_set_scene(o, path, err);
+    if (takes_films(o->command)) {
+        o->films =
+            xrealloc(o->films, (size_t)(o->film_count + 1) * sizeof *o->films);
+        o->films[o->film_count++] = path;
+        return true;
+    }
     operands_of(o, operands);
     for (int i = 0; i < 2; i++)
         if (!*operands[i]) {
@@ -132,6 +172,24 @@ static bool check_output(const struct options *o, struct error *err)
                 rules[o->command].place, path, rules[o->command].expected);
 }
 
+static bool check_films(const struct options *o, struct error *err)
+{
+    bool needs_output = o->command != COMMAND_INFO;
+
+    if (o->film_count == 0 || (needs_output && !o->output_path) ||
+        (o->command == COMMAND_DEVELOP && o->film_count > 1))
+        return fail(err,
+                    "found %d film%s%s, expected: glim%s %s (see glim "
+                    "--help)",
+                    o->film_count, o->film_count == 1 ? "" : "s",
+                    needs_output && !o->output_path ? " and no -o" : "",
+                    names[o->command],
+                    o->command == COMMAND_INFO    ? "FILM ..."
+                    : o->command == COMMAND_MERGE ? "-o OUT FILM ..."
+                                                  : "-o PICTURE FILM");
+    return true;
+}
+
 bool sub_command_check(struct options *o, struct error *err)
 {
     static const char *const expected[] = {
@@ -141,6 +199,8 @@ bool sub_command_check(struct options *o, struct error *err)
     };
     const char **operands[2];
 
+    if (takes_films(o->command))
+        return check_films(o, err);
     operands_of(o, operands);
     if (!*operands[0] || !*operands[1])
         return fail(err,

@@ -10,7 +10,7 @@ build=${BUILD:-build/release}
 filter=${FILTER:-}
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
-scenes='cornell materials glass_mirror interior skylit lights200'
+scenes='cornell materials glass_mirror interior skylit lights200 principled'
 passed=0
 failed=0
 
@@ -187,6 +187,14 @@ stress_keys() {
     done
 }
 
+# Reaches the same samples in many ways.
+stress_films() {
+    mkdir "$work/films"
+    # shellcheck disable=SC2086,SC2046 # words
+    count_rows films tests/stress/films.sh "$build/glim" "$work/films" \
+        $(printf "$PWD/scenes/%s.obj " $scenes)
+}
+
 stress_error() {
     rows error
 }
@@ -199,7 +207,7 @@ stress_extremes() {
     rows extremes
 }
 
-for name in samples geometry light error filter blender extremes sizes keys rays oclgrind valgrind; do
+for name in samples geometry light films error filter blender extremes sizes keys rays oclgrind valgrind; do
     if wanted "$name"; then
         "stress_$name"
     fi

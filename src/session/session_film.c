@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+#include "session/session_film.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/thread.h"
+#include "glim/version.h"
+#include "scene/world_hash.h"
+#include "opencl/cl_source.h"
+
+/* ---- shares ---- */
+
+/* Returns where a share of all samples begins: an even number, so that halves
+ * of samples stay halves. */
+static uint64_t share_begin(const struct options *o, int index)
+{
+    uint64_t pairs = o->spp / 2;
+    uint64_t count = (uint64_t)o->share_count;
+
+    if (index == o->share_count)
+        return o->spp;
+    /* without the overflow of pairs * index */
+    return 2 * (pairs / count * (uint64_t)index +
+                pairs % count * (uint64_t)index / count);
+}
+
+static struct film_range share_range(const struct options *o)
+{
+    if (o->share_count == 0)
+        return (struct film_range){0, options_limits(o).spp};
+    return (struct film_range){share_begin(o, o->share_index - 1),
+                               share_begin(o, o->share_index)};
+}
+
+uint64_t session_film_first(const struct options *o)
+{
+    return share_range(o).first;
+}
+
+struct render_limits session_film_limits(const struct options *o)
+{
+    struct render_limits limits = options_limits(o);
+    struct film_range range = share_range(o);
+
+    if (o->share_count != 0)
+        limits.spp = range.end - range.first;
+    return limits;
+}
+
+static bool check_share(const struct options *o, struct error *err)
+{
+    struct film_range range = share_range(o);
+
+    return o->share_count == 0 || range.end > range.first ||
+           fail(err,
+                "--share: found no sample in %d/%d of %" PRIu64 ", expected "
+                "two for each share at least (-s)",
+                o->share_index, o->share_count, o->spp);
+}
+
+/* ---- header ---- */
+
+/* Returns the end of a path that fits, from a character on. */
+static const char *end_of(const char *path, size_t size_bytes)
+{
+    size_t length = strlen(path);
+
+    if (length >= size_bytes)
+        path += length - size_bytes + 1;
+    while ((*path & 0xc0) == 0x80)
+        path++;
+    return path;
+}
+
+static bool identify(const struct session *s, struct film_identity *id,
+                     struct error *err)
+{
+    struct view view = edit_view(&s->edit);
+    float exposure = (float)view.lighting.exposure;
+    struct world world;
+    char *kernels;
+
+    if (!world_lend(&s->world, &s->scene, &view, s->options->seed, &world, err))
+        return false;
+    kernels = cl_source_text(s->options->kernels_path, err);
+    if (kernels == NULL)
+        return false;
+    *id = (struct film_identity){
+        .seed = s->options->seed,
+        .picture_width = view.width_px,
+        .picture_height = view.height_px,
+        .x = s->crop.x,
+        .y = s->crop.y,
+        .width = s->crop.width,
+        .height = s->crop.height,
+        .has_surfaces = (session_features(s) & FEATURE_FILTER) != 0,
+        .is_adaptive = options_adaptive(s->options),
+    };
+    memcpy(&id->exposure_bits, &exposure, sizeof exposure);
+    world_hash(&world, id->hashes);
+    id->hashes[FILM_KERNELS] = cl_source_hash(kernels);
+    free(kernels);
+    return true;
+}
+
+/* Fills the head of the film as it is now; its one range is *range. The film
+ * has at least these samples from here on. */
+static struct film_header header_of(const struct session *s,
+                                    struct film_range *range)
+{
+    const struct options *o = s->options;
+    struct render_progress p = render_progress(s->render);
+    struct film_header h = {.identity = s->film_identity,
+                            .tone = session_develop(s).tone,
+                            .ranges = range,
+                            .range_count = 1,
+                            .total = options_limits(o).spp,
+                            .render_ns = p.render_ns,
+                            .samples = p.samples,
+                            .rays = p.rays,
+                            .non_finite = p.non_finite,
+                            .saturated = p.saturated,
+                            .cut_paths = p.cut_paths};
+
+    snprintf(h.version, sizeof h.version, "%s", GLIM_VERSION);
+    snprintf(h.scene, sizeof h.scene, "%s",
+             end_of(o->scene_path, sizeof h.scene));
+    *range = (struct film_range){s->first_sample, s->first_sample + p.spp_done};
+    return h;
+}
+
+/* ---- write ---- */
+
+static const uint16_t *shares_of(void *context)
+{
+    return render_shares(context);
+}
+
+static bool write_file(const struct session *s, const char *path,
+                       struct error *err)
+{
+    struct film_range range;
+    struct film_header h = header_of(s, &range);
+    size_t size;
+    char *bytes = film_file_bytes(&h, render_film(s->render), shares_of,
+                                  s->render, &size, err);
+    bool ok = bytes != NULL && file_write(path, bytes, size, false, NULL, err);
+
+    free(bytes);
+    return ok;
+}
+
+/* Waits for the next checkpoint. Returns false if the thread is to end. The
+ * caller holds the lock. */
+static bool wait_interval(struct session_film *f, uint64_t interval_ns)
+{
+    struct timespec until = clock_time_after((int)(interval_ns / 1000000 + 1));
+    int reason = 0;
+
+    while (!f->is_ending && reason == 0)
+        reason = pthread_cond_timedwait(&f->end, &f->lock, &until);
+    return !f->is_ending;
+}
+
+static void *watch(void *argument)
+{
+    struct session_film *f = argument;
+    const struct options *o = f->session->options;
+    struct error err;
+
+    pthread_mutex_lock(&f->lock);
+    while (wait_interval(f, o->checkpoint_ns)) {
+        bool ok;
+
+        pthread_mutex_unlock(&f->lock);
+        ok = write_file(f->session, o->checkpoint_path, &err);
+        pthread_mutex_lock(&f->lock);
+        if (!ok)
+            f->error = err;
+        f->has_error = !ok;
+    }
+    pthread_mutex_unlock(&f->lock);
+    return NULL;
+}
+
+bool session_film_watch(struct session_film *f, struct error *err)
+{
+    int reason;
+
+    if (f->session->options->checkpoint_path == NULL || f->has_thread)
+        return true;
+    f->is_ending = false;
+    reason = thread_start(&f->thread, watch, f);
+    f->has_thread = reason == 0;
+    return f->has_thread || fail(err, "--checkpoint: cannot start a thread: %s",
+                                 strerror(reason));
+}
+
+bool session_film_failed(struct session_film *f, struct error *err)
+{
+    bool failed;
+
+    pthread_mutex_lock(&f->lock);
+    failed = f->has_error;
+    *err = f->error;
+    f->has_error = false;
+    pthread_mutex_unlock(&f->lock);
+    return failed;
+}
+
+void session_film_stop(struct session_film *f)
+{
+    if (!f->has_thread)
+        return;
+    pthread_mutex_lock(&f->lock);
+    f->is_ending = true;
+    pthread_cond_signal(&f->end);
+    pthread_mutex_unlock(&f->lock);
+    pthread_join(f->thread, NULL);
+    f->has_thread = false;
+}
+
+bool session_film_write(struct session_film *f, struct error *err)
+{
+    const struct session *s = f->session;
+    const char *checkpoint = s->options->checkpoint_path;
+    const char *film = s->options->film_path;
+
+    return (checkpoint == NULL || write_file(s, checkpoint, err)) &&
+           (film == NULL || write_file(s, film, err));
+}
+
+/* ---- begin ---- */
+
+/* Returns true if --resume names a checkpoint that is not written yet, so that
+ * the same command begins and resumes a render. */
+static bool is_first_run(const struct options *o)
+{
+    return o->checkpoint_path != NULL &&
+           path_is_same(o->resume_path, o->checkpoint_path) &&
+           !file_identify(o->resume_path).exists;
+}
+
+static bool check_range(const struct session *s, const struct film_file *from,
+                        struct error *err)
+{
+    const char *path = s->options->resume_path;
+    const struct film_header *h = &from->header;
+
+    if (h->range_count != 1)
+        return fail(err,
+                    "%s: found %zu ranges of samples, expected one: merge it "
+                    "with the films that are missing",
+                    path, h->range_count);
+    return h->ranges[0].first == s->first_sample ||
+           fail(err,
+                "%s: found samples from %" PRIu64 " on, expected them from "
+                "%" PRIu64 " on (--share)",
+                path, h->ranges[0].first, s->first_sample);
+}
+
+bool session_film_resume(struct session_film *f, struct error *err)
+{
+    struct session *s = f->session;
+    const struct options *o = s->options;
+
+    s->from = NULL;
+    film_file_free(&f->from);
+    if (o->resume_path == NULL || is_first_run(o))
+        return true;
+    if (!film_file_read(&f->from, o->resume_path, err) ||
+        !film_identity_check(&f->from.header.identity, o->resume_path,
+                             &s->film_identity, o->scene_path, err) ||
+        !check_range(s, &f->from, err))
+        return false;
+    s->from = &f->from;
+    return true;
+}
+
+static void init(struct session_film *f, struct session *s)
+{
+    pthread_condattr_t monotonic;
+
+    *f = (struct session_film){.session = s};
+    pthread_condattr_init(&monotonic);
+    pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
+    pthread_mutex_init(&f->lock, NULL);
+    pthread_cond_init(&f->end, &monotonic);
+    pthread_condattr_destroy(&monotonic);
+}
+
+bool session_film_begin(struct session_film *f, struct session *s,
+                        struct error *err)
+{
+    const struct options *o = s->options;
+
+    init(f, s);
+    if (!check_share(o, err))
+        return false;
+    s->first_sample = session_film_first(o);
+    if (o->checkpoint_path == NULL && o->film_path == NULL &&
+        o->resume_path == NULL)
+        return true;
+    return identify(s, &s->film_identity, err);
+}
+
+void session_film_end(struct session_film *f)
+{
+    if (f->session == NULL)
+        return;
+    session_film_stop(f);
+    film_file_free(&f->from);
+    pthread_cond_destroy(&f->end);
+    pthread_mutex_destroy(&f->lock);
+    *f = (struct session_film){.session = NULL};
+}

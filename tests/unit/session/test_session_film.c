@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_session_film.c - what makes two films films of the same picture, and the
+ * samples of shares
+ */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "session/session_film.h"
+
+#include "tests/unit/files.h"
+
+#define OBJ  "mtllib s.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"
+#define MTL  "newmtl m\nKd 0.5 0.5 0.5\n"
+#define VIEW "eye 0 0 5\nat 0 0 0\nbackground 1 1 1\n"
+
+static const char *const names[] = {"s.obj", "s.mtl", "s.view", "s.film"};
+
+static int leave(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        unlink(names[i]);
+    return leave_empty_folder(state);
+}
+
+static struct options some_options(void)
+{
+    struct options o;
+
+    options_init(&o);
+    o.scene_path = "s.obj";
+    o.batch = true;
+    o.thread_count = 1;
+    o.width_px = 16;
+    o.height_px = 9;
+    o.film_path = "s.film";
+    return o;
+}
+
+static struct film_identity identity_of(const struct options *o)
+{
+    struct film_identity id;
+    struct session_film f;
+    struct session s;
+    struct error err;
+
+    check_or_say(session_open(&s, o, clock_ns(), &err), err.text);
+    check_or_say(session_film_begin(&f, &s, &err), err.text);
+    id = s.film_identity;
+    session_film_end(&f);
+    session_close(&s);
+    return id;
+}
+
+static void put_files(const char *obj, const char *mtl, const char *view)
+{
+    put("s.obj", obj);
+    put("s.mtl", mtl);
+    put("s.view", view);
+}
+
+/* Checks that the files make samples of the picture of OBJ, MTL and VIEW, or
+ * that this is what differs. */
+static void check_files(const char *obj, const char *mtl, const char *view,
+                        const char *difference)
+{
+    struct options o = some_options();
+    struct film_identity a, b;
+    struct error err = {""};
+
+    put_files(OBJ, MTL, VIEW);
+    a = identity_of(&o);
+    put_files(obj, mtl, view);
+    b = identity_of(&o);
+    if (difference == NULL) {
+        check_or_say(film_identity_check(&b, "b", &a, "a", &err), err.text);
+        return;
+    }
+    assert_false(film_identity_check(&b, "b", &a, "a", &err));
+    check_has(err.text, difference);
+}
+
+static void only_the_picture_counts(void **state)
+{
+    (void)state;
+    check_files(OBJ, MTL, VIEW, NULL);
+    check_files("# more\n" OBJ, MTL "# x\n", VIEW "tone aces\n", NULL);
+    check_files(OBJ, MTL, VIEW "exposure 2\n", NULL);
+    check_files(OBJ "f 3 2 1\n", MTL, VIEW, "geometry");
+    check_files(OBJ, "newmtl m\nKd 0.5 0.5 0.25\n", VIEW, "materials");
+    check_files(OBJ, MTL, "eye 0 0 4\nat 0 0 0\nbackground 1 1 1\n", "camera");
+    check_files(OBJ, MTL, "eye 0 0 5\nat 0 0 0\nbackground 1 1 2\n", "light");
+    check_files(OBJ, MTL, VIEW "max_bounces 3\n", "bounces");
+}
+
+static void options_count(void **state)
+{
+    struct options o = some_options(), other;
+    struct film_identity a;
+    struct error err;
+
+    (void)state;
+    put_files(OBJ, MTL, VIEW);
+    a = identity_of(&o);
+    for (int i = 0; i < 6; i++) {
+        static const char *const words[] = {"--seed", "-w",         "-h",
+                                            "-d",     "--adaptive", "--crop"};
+        struct film_identity b;
+
+        other = o;
+        other.seed = i == 0;
+        other.width_px += i == 1;
+        other.height_px += i == 2;
+        other.has_max_bounces = i == 3;
+        other.max_bounces = 4;
+        other.adaptive = i == 4;
+        other.has_crop = i == 5;
+        other.crop = (struct rect){1, 0, 15, 9};
+        b = identity_of(&other);
+        assert_false(film_identity_check(&b, "b", &a, "a", &err));
+        check_has(err.text, words[i]);
+    }
+    other = o;
+    other.thread_count = 2;
+    other.spp = 400;
+    other.share_index = 2;
+    other.share_count = 4;
+    other.has_spp = true;
+    {
+        struct film_identity b = identity_of(&other);
+
+        check_or_say(film_identity_check(&b, "b", &a, "a", &err), err.text);
+    }
+}
+
+/* The shares of any number of samples are neighbours, begin with even numbers,
+ * and are equally large but for four samples. */
+static void shares_cover_all_samples(void **state)
+{
+    static const uint64_t spps[] = {16, 17, 1000, 1001, 1000000000000u};
+    static const int counts[] = {1, 2, 3, 8, 100000};
+
+    (void)state;
+    for (int s = 0; s < 5; s++)
+        for (int c = 0; c < 5; c++) {
+            struct options o = {.spp = spps[s],
+                                .has_spp = true,
+                                .share_count = counts[c]};
+            uint64_t sum = 0;
+
+            for (int i = 1; i <= counts[c]; i++) {
+                uint64_t spp;
+
+                o.share_index = i;
+                assert_true(sum % 2 == 0);
+                assert_true(session_film_first(&o) == sum);
+                spp = session_film_limits(&o).spp;
+                assert_true(spp + 4 > spps[s] / (uint64_t)counts[c]);
+                assert_true(spp < spps[s] / (uint64_t)counts[c] + 4);
+                sum += spp;
+            }
+            assert_true(sum == spps[s]);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(only_the_picture_counts),
+        cmocka_unit_test(options_count),
+        cmocka_unit_test(shares_cover_all_samples),
+    };
+
+    return cmocka_run_group_tests(tests, enter_folder, leave);
+}
