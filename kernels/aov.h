@@ -18,20 +18,45 @@
 /* Ambient part of the preview's light. The rest comes from the eye. */
 #define PREVIEW_AMBIENT 0.25f
 
-/* The material's colour, brighter the more the surface faces the eye. Emission
- * is scaled down to 1 at most, so that lamps keep their hue. */
+/* Emission, scaled down to 1 at most, so that lamps keep their hue. */
+static inline struct vec3 preview_glow(struct vec3 emission)
+{
+    float top = f_max(emission.x, f_max(emission.y, emission.z));
+
+    return v3_scale(emission, 1.0f / f_max(top, 1.0f));
+}
+
+/* Spheres and discs that the ray meets before its t_max. */
+static inline struct vec3 preview_lamps(const struct world *w, struct ray r)
+{
+    struct vec3 sum = v3(0.0f, 0.0f, 0.0f);
+    float t;
+
+    for (uint32_t i = 0;
+         HAS(FEATURE_POINT_LIGHTS) && i < w->settings.sphere_count; i++)
+        if (sphere_meets(w, i, r, &t))
+            sum = v3_add(sum,
+                         preview_glow(v3_scale(w->point_lights[i].emission,
+                                               point_light_part(w, i, r.d))));
+    for (uint32_t i = 0; has_directional_lights(w) && r.t_max == FLOAT_MAX &&
+                         i < w->settings.directional_light_count;
+         i++)
+        if (disc_meets(w, i, r.d))
+            sum = v3_add(sum, preview_glow(w->directional_lights[i].emission));
+    return sum;
+}
+
+/* The material's colour, brighter the more the surface faces the eye. */
 static inline struct vec3 preview_color(const struct world *w,
                                         const struct material *m,
                                         const struct bsdf *b,
                                         const struct surface_point *v,
                                         struct vec3 wo)
 {
-    struct vec3 glow = emission_at(w, m, v->uv, v->has_uv);
-    float top = f_max(glow.x, f_max(glow.y, glow.z));
+    struct vec3 glow = preview_glow(emission_at(w, m, v->uv, v->has_uv));
     float shade = PREVIEW_AMBIENT + (1.0f - PREVIEW_AMBIENT) * v3_dot(v->n, wo);
 
-    return v3_add(v3_scale(b->color, shade),
-                  v3_scale(glow, 1.0f / f_max(top, 1.0f)));
+    return v3_add(v3_scale(b->color, shade), glow);
 }
 
 /* Maps components from [-1, 1] to [0, 1]. */
@@ -72,14 +97,17 @@ static inline struct path_sample aov_sample(const struct world *w, struct ray r,
     struct material m;
     struct surface_point v;
 
+    r.t_max = h.tri == NO_INDEX ? FLOAT_MAX : h.t;
+    if (w->settings.sample == SAMPLE_PREVIEW)
+        out.radiance = preview_lamps(w, r);
     if (h.tri == NO_INDEX) {
         if (w->settings.sample == SAMPLE_PREVIEW)
-            out.radiance = sky_radiance(w, r.d);
+            out.radiance = v3_add(out.radiance, sky_radiance(w, r.d));
         return out;
     }
     m = w->materials[w->tris[h.tri].material];
     if (surface_at(w, &m, r, h, &v))
-        out.radiance = aov_value(w, &m, &v, r, h);
+        out.radiance = v3_add(out.radiance, aov_value(w, &m, &v, r, h));
     return out;
 }
 

@@ -30,10 +30,11 @@ enum feature {
     FEATURE_DIRECTIONAL_LIGHTS = 131072, /* the sun is one */
     FEATURE_ATTENUATION = 262144, /* solids that absorb light: attenuation.h */
     FEATURE_VERTEX_COLORS = 524288,
-    FEATURE_ROUGH_SHEETS = 1048576 /* rough thin glass */
+    FEATURE_ROUGH_SHEETS = 1048576, /* rough thin glass */
+    FEATURE_CAUSTICS = 2097152      /* of spheres and discs: caustic_table.h */
 };
 
-#define FEATURES_ALL 2097151u
+#define FEATURES_ALL 4194303u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

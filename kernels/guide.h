@@ -100,16 +100,22 @@ static inline float guide_norm(struct vec3 d)
     return fabsf(d.x) + fabsf(d.y) + fabsf(d.z);
 }
 
-/* The bin of the unit vector d. */
-static inline uint32_t guide_bin(struct vec3 d)
+/* The place of the unit vector d in the map, both in [-1, 1]. */
+static inline struct vec2 guide_place(struct vec3 d)
 {
     float scale = 1.0f / guide_norm(d);
     struct vec2 p = v2(d.x * scale, d.z * scale);
+
+    return d.y < 0.0f ? guide_fold(p) : p;
+}
+
+/* The bin of the unit vector d. */
+static inline uint32_t guide_bin(struct vec3 d)
+{
+    struct vec2 p = guide_place(d);
     float middle = 0.5f * (float)GUIDE_SIDE;
     float last = (float)(GUIDE_SIDE - 1);
 
-    if (d.y < 0.0f)
-        p = guide_fold(p);
     return (uint32_t)f_min(f_max((p.y + 1.0f) * middle, 0.0f), last) *
                GUIDE_SIDE +
            (uint32_t)f_min(f_max((p.x + 1.0f) * middle, 0.0f), last);
@@ -184,6 +190,20 @@ static inline struct vec3 guide_sample(const struct world *w, uint32_t first,
                            (float)(bin / GUIDE_SIDE) + u.y);
 }
 
+/* Evaluates the BSDF for a direction that a table has given. Returns false if
+ * it is absorbed or blocked by the face. */
+static inline bool guide_take(const struct surface_point *v,
+                              const struct bsdf *b, struct vec3 wo,
+                              struct vec3 wi, struct bsdf_sample *s)
+{
+    struct vec3 wi_local = surface_to_local(v, wi);
+    float pdf;
+    struct vec3 f = bsdf_terms(b, wo, wi_local, &pdf);
+
+    return sample_density(s, wi_local, f, pdf) &&
+           surface_sides_agree(v, wi, wi_local.z);
+}
+
 /* Samples the mixture of table and BSDF. Returns false if the direction is
  * absorbed or blocked by the face. The sample has the BSDF's weight and
  * density, and *scale is multiplied by the BSDF's density over the mixture's.
@@ -198,16 +218,10 @@ static inline bool guide_scatter(const struct world *w, uint32_t first,
                                  float *scale)
 {
     float share = guide_share(w, first);
-    float pdf;
 
     if (u.x < share) {
-        struct vec3 wi_local, f;
-
         *wi = guide_sample(w, first, u);
-        wi_local = surface_to_local(v, *wi);
-        f = bsdf_terms(b, wo, wi_local, &pdf);
-        if (!sample_density(s, wi_local, f, pdf) ||
-            !surface_sides_agree(v, *wi, wi_local.z))
+        if (!guide_take(v, b, wo, *wi, s))
             return false;
     } else if (!surface_scatter(v, b, wo, guide_remap(u, share), choice, s,
                                 wi)) {

@@ -23,6 +23,7 @@
 
 #include "kernels/aov.h"
 #include "kernels/camera_sample.h"
+#include "kernels/caustic_table.h"
 #include "kernels/path_lights.h"
 
 /* Samples the next ray from the BSDF, or from the path guide if it has a table
@@ -34,8 +35,15 @@ static inline bool path_scatter(const struct world *w, struct path *p,
 {
     struct bsdf_sample s;
     struct vec3 wi;
+    uint32_t caustics = NO_INDEX;
 
-    if (HAS(FEATURE_GUIDE) && p->cell.scatter != NO_INDEX) {
+    if (HAS(FEATURE_CAUSTICS) && guide_helps(b))
+        caustics = caustic_table_at(w, v->p, v->ng);
+    if (HAS(FEATURE_CAUSTICS) && caustics != NO_INDEX) {
+        if (!caustic_scatter(w, caustics, p->cell.scatter, v, b, wo, direction,
+                             choice, &s, &wi, &p->scale))
+            return false;
+    } else if (HAS(FEATURE_GUIDE) && p->cell.scatter != NO_INDEX) {
         if (!guide_scatter(w, p->cell.scatter, v, b, wo, direction, choice, &s,
                            &wi, &p->scale))
             return false;

@@ -28,7 +28,10 @@ __kernel void trace_paths(
     __global const struct guide_cell *guide_cells,
     __global const float *guide_cdf,
     __global const struct point_light *point_lights,
-    __global const struct directional_light *directional_lights)
+    __global const struct directional_light *directional_lights,
+    __global const float *profiles, __global const uint *caustic_cells,
+    __global const struct caustic_group *caustic_groups,
+    __global const struct caustic_bin *caustic_bins)
 {
     uint i = (uint)get_global_id(0);
 
@@ -56,7 +59,11 @@ __kernel void trace_paths(
                           guide_cells,
                           guide_cdf,
                           point_lights,
-                          directional_lights};
+                          directional_lights,
+                          profiles,
+                          caustic_cells,
+                          caustic_groups,
+                          caustic_bins};
 
         struct first_surface surface;
 

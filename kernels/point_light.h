@@ -19,6 +19,30 @@
  * surface shines to both of its sides. */
 #define POINT_WAY 0.9999f
 
+/* The profile's factor for emission in direction d. Bilinear; columns wrap. */
+static inline float profile_at(const struct world *w, uint32_t i, struct vec3 d)
+{
+    struct vec3 axis = w->point_lights[i].axis;
+    struct vec3 side = w->point_lights[i].side;
+    uint32_t columns = w->point_lights[i].profile_columns;
+    uint32_t first = w->point_lights[i].profile - 1u;
+    float x = v3_dot(side, d), y = v3_dot(v3_cross(side, axis), d);
+    float row = atan2_rad(sqrtf(x * x + y * y), v3_dot(axis, d)) *
+                ((float)(PROFILE_ROWS - 1) / PI);
+    float column = (atan2_rad(y, x) * (0.5f / PI) + 1.0f) * (float)columns;
+    uint32_t r = (uint32_t)f_min(row, (float)(PROFILE_ROWS - 2));
+    uint32_t c = (uint32_t)column;
+    float right = column - (float)c;
+    uint32_t c0 = c % columns, c1 = (c + 1u) % columns;
+    float low = f_min(row - (float)r, 1.0f);
+
+    first += r * columns;
+    return (1.0f - low) * ((1.0f - right) * w->profiles[first + c0] +
+                           right * w->profiles[first + c1]) +
+           low * ((1.0f - right) * w->profiles[first + columns + c0] +
+                  right * w->profiles[first + columns + c1]);
+}
+
 /* Part of the emission towards a receiver that sees the light in direction
  * wi. */
 static inline float point_light_part(const struct world *w, uint32_t i,
@@ -29,7 +53,10 @@ static inline float point_light_part(const struct world *w, uint32_t i,
         w->point_lights[i].cone_scale * v3_dot(w->point_lights[i].axis, wi);
 
     part = f_min(f_max(part, 0.0f), 1.0f);
-    return part * part;
+    part *= part;
+    if (w->point_lights[i].profile != 0u && part > 0.0f)
+        part *= profile_at(w, i, v3_neg(wi));
+    return part;
 }
 
 /* Size of the cone in which a sphere is seen, for cone_around(): its middle is

@@ -180,7 +180,16 @@ struct point_light {
     float cone_offset;    /* and 1 */
     struct vec3 emission; /* radiance of a sphere, intensity of a point */
     uint32_t path[2];
+    uint32_t profile; /* 1 + its first value in profiles; 0: none */
+    uint32_t profile_columns;
+    struct vec3
+        side; /* unit vector of angle 0 around the axis, with a profile */
 };
+
+/* Rows of the table of a profile: angles from 0 to 180 degrees from the axis.
+ * Its columns divide the full circle around the axis; one column means that it
+ * is the same all around. Values are factors of the emission. */
+#define PROFILE_ROWS 181
 
 /* A light at infinity in one direction. With a size it is a disc, which
  * escaping rays find too. */
@@ -235,6 +244,25 @@ struct guide_grid {
 struct guide_cell {
     uint32_t scatter; /* directions for the next ray of a path */
     uint32_t sky;     /* directions for light samples of the sky */
+};
+
+/* Directions of caustics in a cell, with their bins in caustic_bins; see
+ * kernels/caustic_table.h. */
+struct caustic_group {
+    struct vec3 p;      /* where the bins are at their places */
+    float before;       /* sum of the bins of the groups before */
+    struct vec3 dx, dy; /* change of the places with the position */
+    float share;        /* sum of the bins of all groups of the cell */
+    uint32_t first_bin;
+    uint32_t bin_count;
+    uint32_t level; /* the map has 2^level bins along a side */
+    uint32_t next;  /* the next group, or NO_INDEX */
+};
+
+/* Bins of a group are ordered by their indices. */
+struct caustic_bin {
+    uint32_t index; /* y * side + x */
+    float sum;      /* of the cell's bins up to and with this one */
 };
 
 /* Estimators of direct light. Pictures use DIRECT_MIS, the others are for
@@ -301,8 +329,13 @@ struct settings {
     uint32_t point_light_count;
     uint32_t sphere_count; /* the first point lights, which have a radius */
     uint32_t directional_light_count;
+    uint32_t profile_value_count;
 
     struct guide_grid guide;
+    struct guide_grid caustic_grids[2]; /* see kernels/caustic_table.h */
+    uint32_t caustic_cell_count;
+    uint32_t caustic_group_count;
+    uint32_t caustic_bin_count;
 };
 
 /* The data that a sample reads, and nothing more. nodes and leaf_tris belong to
@@ -329,6 +362,10 @@ struct world {
     GLOBAL const float *guide_cdf;               /* GUIDE_BINS of each table */
     GLOBAL const struct point_light *point_lights;
     GLOBAL const struct directional_light *directional_lights;
+    GLOBAL const float *profiles;         /* of point lights, row by row */
+    GLOBAL const uint32_t *caustic_cells; /* the first group, or NO_INDEX */
+    GLOBAL const struct caustic_group *caustic_groups;
+    GLOBAL const struct caustic_bin *caustic_bins;
 };
 
 struct ray {

@@ -64,7 +64,7 @@ static void write_shots(FILE *to, const struct view *v)
 /* Writes the line of one key. Most values that equal their default are left
  * out. */
 static void write_key(FILE *to, const struct view *v, enum view_key_id id,
-                      const char *sky)
+                      const char *sky, const char *path)
 {
     switch (id) {
     case KEY_EYE:
@@ -132,7 +132,7 @@ static void write_key(FILE *to, const struct view *v, enum view_key_id id,
             fprintf(to, "tone %s\n", view_tones[v->lighting.tone]);
         break;
     case KEY_ASSIGN: assigns_write(&v->assigns, to); break;
-    case KEY_LIGHT: view_lights_write(&v->lamps, to); break;
+    case KEY_LIGHT: view_lights_write(&v->lamps, path, to); break;
     case KEY_VIEW: write_shots(to, v); break;
     }
 }
@@ -177,7 +177,7 @@ static void write_line_over(struct writer *w, struct lexer *lex)
     if (!key) {
         keep_line(w->to, line, lex, has_end);
     } else if (!w->is_written[key - view_keys]) {
-        write_key(w->to, w->view, key->id, w->sky);
+        write_key(w->to, w->view, key->id, w->sky, w->old.path);
         w->is_written[key - view_keys] = true;
     }
 }
@@ -193,41 +193,40 @@ static void write_over(struct writer *w, const char *text, size_t size_bytes)
         write_line_over(w, &lex);
     for (size_t i = 0; i < VIEW_KEYS; i++) {
         if (!w->is_written[i])
-            write_key(w->to, w->view, view_keys[i].id, w->sky);
+            write_key(w->to, w->view, view_keys[i].id, w->sky, w->old.path);
     }
 }
 
-/* Returns the name of the sky as seen from the file at `path`, for free(). A
- * leading blank needs ./ before it, for the parser skips blanks. */
-static char *sky_name(const char *sky_path, const char *path)
+/* Refuses names that a line cannot hold: with a line end inside or a blank at
+ * the end. `of` is what they are names of. */
+static bool check_name(const char *name, const char *of, const char *path,
+                       struct error *err)
 {
-    char *name = path_seen_from(path, sky_path);
-    if (!name)
-        return NULL;
-    char *whole = *name == '\0' || lexer_is_blank(*name)
-                      ? format_text("./%s", name)
-                      : strdup(name);
+    size_t length = strlen(name);
 
-    free(name);
-    return whole;
+    if (strpbrk(name, "\r\n"))
+        return fail(err, "%s: found a line end in the %s name, expected none",
+                    path, of);
+    if (length > 0 && lexer_is_blank(name[length - 1]))
+        return fail(
+            err, "%s: found a blank at the end of the %s name, expected none",
+            path, of);
+    return true;
 }
 
-/* Refuses names that a line cannot hold: with a line end inside or a blank at
- * the end. */
-static bool check_sky(const char *sky_path, const char *path, struct error *err)
+static bool check_names(const struct view *view, const char *path,
+                        struct error *err)
 {
-    size_t length = strlen(sky_path);
+    bool ok = view->lighting.sky_path == NULL ||
+              check_name(view->lighting.sky_path, "sky's", path, err);
 
-    if (strpbrk(sky_path, "\r\n"))
-        return fail(err,
-                    "%s: found a line end in the sky's name, expected none",
-                    path);
-    if (length > 0 && lexer_is_blank(sky_path[length - 1]))
-        return fail(
-            err,
-            "%s: found a blank at the end of the sky's name, expected none",
-            path);
-    return true;
+    for (uint32_t i = 0; i < view->lamps.count && ok; i++) {
+        const struct profile *profile = view->lamps.items[i].profile;
+
+        ok = profile == NULL ||
+             check_name(profile->path, "light's IES", path, err);
+    }
+    return ok;
 }
 
 bool view_format(const struct view *view, const char *path,
@@ -242,15 +241,14 @@ bool view_format(const struct view *view, const char *path,
                                .report = &ignored}};
     char *sky = NULL;
 
-    if (view->lighting.sky_path &&
-        !check_sky(view->lighting.sky_path, path, err))
+    if (!check_names(view, path, err))
         return false;
     *text = NULL;
     w.to = open_memstream(text, size_bytes);
     if (!w.to)
         return fail(err, "%s: out of memory", path);
     if (view->lighting.sky_path)
-        sky = sky_name(view->lighting.sky_path, path);
+        sky = view_name(view->lighting.sky_path, path);
     w.sky = sky;
     view_init(&scratch);
     write_over(&w, old_text, old_bytes);

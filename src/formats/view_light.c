@@ -4,9 +4,11 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/decimal.h"
+#include "formats/ies.h"
 
 #define OF_POINT       (1u << LAMP_POINT)
 #define OF_SPOT        (1u << LAMP_SPOT)
@@ -66,8 +68,8 @@ static const struct light_key keys[] = {
 #define KEY_COUNT (sizeof keys / sizeof keys[0])
 
 static const char *const expected_keys[LAMP_KINDS] = {
-    "intensity or radius",
-    "at, intensity, inner, outer or radius",
+    "intensity, radius or ies",
+    "at, intensity, inner, outer, radius or ies",
     "irradiance or angle",
 };
 
@@ -118,38 +120,58 @@ static bool check_spot(const struct view_reader *r, const struct lamp *lamp,
     return true;
 }
 
+static bool read_ies(struct view_reader *r, struct lamp *lamp,
+                     struct error *err)
+{
+    char *path = view_read_path(r, "an IES file for ies", err);
+
+    lamp->profile = path ? ies_read(path, err) : NULL;
+    free(path);
+    return lamp->profile != NULL;
+}
+
+/* Reads the words behind the kind and its numbers. */
+static bool read_keys(struct view_reader *r, struct lamp *lamp, bool *has_at,
+                      struct error *err)
+{
+    while (!lexer_at_line_end(r->lex)) {
+        struct word name = lexer_word(r->lex);
+        const struct light_key *k =
+            find(keys, KEY_COUNT, name, 1u << lamp->kind);
+
+        if (lamp->kind != LAMP_DIRECTIONAL && word_is(name, "ies"))
+            return read_ies(r, lamp, err);
+        if (k == NULL)
+            return view_fail_at(r, name, expected_keys[lamp->kind],
+                                kinds[lamp->kind].key.name, err);
+        if (!read_numbers(r, k, lamp, err))
+            return false;
+        *has_at |= k->member == MEMBER(at);
+    }
+    return true;
+}
+
 bool view_light_read(struct view_reader *r, struct error *err)
 {
     uint64_t line = r->lex->line;
     struct word name = next_word(r);
     const struct light_key *k = find(kinds, LAMP_KINDS, name, UINT32_MAX);
     struct lamp lamp;
-    uint32_t kind;
-    bool has_at = false;
+    bool has_at = false, ok;
 
     if (k == NULL)
         return view_fail_at(r, name, "point, spot or directional", "light",
                             err);
-    kind = (uint32_t)(k - kinds);
-    lamp_init(&lamp, (enum lamp_kind)kind);
-    if (!read_numbers(r, k, &lamp, err))
-        return false;
-    while (!lexer_at_line_end(r->lex)) {
-        name = lexer_word(r->lex);
-        k = find(keys, KEY_COUNT, name, 1u << kind);
-        if (k == NULL)
-            return view_fail_at(r, name, expected_keys[kind],
-                                kinds[kind].key.name, err);
-        if (!read_numbers(r, k, &lamp, err))
-            return false;
-        has_at |= k->member == MEMBER(at);
-    }
-    if (kind == LAMP_SPOT && !has_at)
-        return view_fail_at(r, (struct word){.length = 0}, "at", "spot", err);
-    if (kind == LAMP_SPOT && !check_spot(r, &lamp, line, err))
-        return false;
-    return lamps_add(&r->view->lamps, &lamp) ||
-           fail(err, "%s: out of memory", r->path);
+    lamp_init(&lamp, (enum lamp_kind)(k - kinds));
+    ok = read_numbers(r, k, &lamp, err) && read_keys(r, &lamp, &has_at, err);
+    if (ok && lamp.kind == LAMP_SPOT)
+        ok = has_at ? check_spot(r, &lamp, line, err)
+                    : view_fail_at(r, (struct word){.length = 0}, "at", "spot",
+                                   err);
+    ok = ok && (lamps_add(&r->view->lamps, &lamp) ||
+                fail(err, "%s: out of memory", r->path));
+    profile_release(lamp.profile);
+    return ok;
 }
 
 static void write_numbers(FILE *to, const struct light_key *k,
@@ -177,7 +199,17 @@ static bool is_default(const struct light_key *k, const struct lamp *lamp)
                   (size_t)k->key.count * sizeof(double)) == 0;
 }
 
-void view_lights_write(const struct lamps *lamps, FILE *to)
+/* Writes the name last, since it is the rest of the line. */
+static void write_ies(FILE *to, const struct profile *profile, const char *path)
+{
+    char *name = view_name(profile->path, path);
+    const char *text = name != NULL ? name : profile->path;
+
+    fprintf(to, " ies %s%s", text, lexer_rest_guard(text));
+    free(name);
+}
+
+void view_lights_write(const struct lamps *lamps, const char *path, FILE *to)
 {
     for (uint32_t i = 0; i < lamps->count; i++) {
         const struct lamp *lamp = &lamps->items[i];
@@ -188,6 +220,8 @@ void view_lights_write(const struct lamps *lamps, FILE *to)
             if ((keys[k].kinds >> lamp->kind & 1) != 0 &&
                 (keys[k].member == MEMBER(at) || !is_default(&keys[k], lamp)))
                 write_numbers(to, &keys[k], lamp);
+        if (lamp->profile != NULL)
+            write_ies(to, lamp->profile, path);
         fputc('\n', to);
     }
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/memory.h"
 #include "light/daylight.h"
 #include "formats/view_light.h"
 
@@ -197,23 +198,48 @@ static bool fail_memory(const struct view_reader *r, struct error *err)
     return fail(err, "%s: out of memory", r->path);
 }
 
-static bool read_sky(struct view_reader *r, struct error *err)
+char *view_name(const char *file, const char *path)
+{
+    char *name = path_seen_from(path, file);
+    if (!name)
+        return NULL;
+    char *whole = *name == '\0' || lexer_is_blank(*name)
+                      ? format_text("./%s", name)
+                      : strdup(name);
+
+    free(name);
+    return whole;
+}
+
+char *view_read_path(const struct view_reader *r, const char *expected,
+                     struct error *err)
 {
     char *name = lexer_rest(r->lex);
+    char *path = NULL;
 
-    if (!name)
-        return fail_memory(r, err);
-    if (*name == '\0') {
+    if (name && *name == '\0') {
+        fail(err, "%s:%" PRIu64 ": found no name, expected %s", r->path,
+             r->lex->line, expected);
         free(name);
-        return fail(err,
-                    "%s:%" PRIu64 ": found no name, expected an image "
-                    "file for sky",
-                    r->path, r->lex->line);
+        return NULL;
     }
-    free(r->view->lighting.sky_path);
-    r->view->lighting.sky_path = path_beside(r->path, name);
+    if (name)
+        path = path_beside(r->path, name);
     free(name);
-    return r->view->lighting.sky_path || fail_memory(r, err);
+    if (!path)
+        fail_memory(r, err);
+    return path;
+}
+
+static bool read_sky(struct view_reader *r, struct error *err)
+{
+    char *path = view_read_path(r, "an image file for sky", err);
+
+    if (!path)
+        return false;
+    free(r->view->lighting.sky_path);
+    r->view->lighting.sky_path = path;
+    return true;
 }
 
 static bool read_key(struct view_reader *r, const struct view_key *key,

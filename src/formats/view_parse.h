@@ -79,6 +79,16 @@ bool view_read_number(struct view_reader *reader, const struct view_key *key,
 bool view_fail_at(const struct view_reader *reader, struct word found,
                   const char *expected, const char *key, struct error *err);
 
+/* Returns the path of a file as the view file at `path` names it, for free(),
+ * or NULL when memory is out. A leading blank gets ./ before it, for the parser
+ * skips blanks. */
+char *view_name(const char *file, const char *path);
+
+/* Reads the rest of the line as the name of a file. Returns its path, for
+ * free(), or NULL after an error; `expected` is part of that. */
+char *view_read_path(const struct view_reader *reader, const char *expected,
+                     struct error *err);
+
 /* Parses `key value` lines into `view`; values that are not given stay. An
  * unknown key is a warning. `path` is used for messages, and file names in the
  * text are relative to its folder. */

@@ -214,6 +214,31 @@ static double lit_part(const struct point_light *l)
                (6 * scale);
 }
 
+/* Mean of a light's profile over the sphere of directions. */
+static double profile_mean(const struct world *w, const struct point_light *l)
+{
+    double sum = 0, weights = 0;
+
+    if (l->profile == 0)
+        return 1;
+    for (uint32_t row = 0; row < PROFILE_ROWS; row++) {
+        double weight = sin(M_PI * row / (PROFILE_ROWS - 1));
+
+        for (uint32_t i = 0; i < l->profile_columns; i++)
+            sum +=
+                weight *
+                (double)
+                    w->profiles[l->profile - 1 + row * l->profile_columns + i];
+        weights += weight * l->profile_columns;
+    }
+    return sum / weights;
+}
+
+double point_light_power(const struct world *w, const struct point_light *l)
+{
+    return 2 * intensity_of(l) * lit_part(l) * profile_mean(w, l);
+}
+
 /* Copies point lights of one kind with their emitters. Returns their power. */
 static double add_points(struct lights *l, struct emitter *emitters,
                          const struct world *w, bool is_sphere)
@@ -235,11 +260,11 @@ static double add_points(struct lights *l, struct emitter *emitters,
             .spread = p->cone_scale > 0
                           ? 1 - f_max(-p->cone_offset / p->cone_scale, 0)
                           : 1,
-            .power = 2 * intensity_of(p),
+            .power = 2 * intensity_of(p) * profile_mean(w, p),
             .light = n,
         };
         total += emitters[n].power;
-        l->point_power += emitters[n].power * lit_part(p);
+        l->point_power += point_light_power(w, p);
         l->point_lights[l->point_light_count++] = *p;
         l->sphere_count += is_sphere;
     }

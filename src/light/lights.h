@@ -42,6 +42,10 @@ bool lights_build(struct lights *lights, const struct world *world,
  * the same flux. */
 double lights_power(const struct lights *lights);
 
+/* Returns the power of a point light. */
+double point_light_power(const struct world *w,
+                         const struct point_light *light);
+
 /* Returns true if a change from one material to the other changes the lights.
  */
 bool lights_differ(const struct material *a, const struct material *b);

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "light/caustics.h"
+#include "light/photons.h"
 #include "light/triangle_cdf.h"
 #include "kernels/light.h"
 
@@ -40,7 +41,13 @@ struct table {
 
 static bool wants_caustics(const struct path_guide *g, const struct world *w)
 {
-    return g->caustics.flux == NULL && caustics_possible(w);
+    return g->caustics.flux == NULL &&
+           photons_possible(w, PHOTONS_OF_TRIANGLES);
+}
+
+static bool wants_lamps(const struct path_guide *g, const struct world *w)
+{
+    return !g->has_lamps && photons_possible(w, PHOTONS_OF_LAMPS);
 }
 
 static bool wants_portals(const struct path_guide *g, double sky)
@@ -64,6 +71,21 @@ static bool find_parts(struct path_guide *g, const struct bvh8_world *w,
             (guide_flux_init(&g->caustics, &g->grid) &&
              caustics_find(w, lights, &g->grid, box, pool, &g->caustics))) &&
            (!has_portals || sky_portals_find(w, &g->grid, pool, &g->portals));
+}
+
+/* Searches for caustics of spheres and discs, or frees the tables if there can
+ * be none. */
+static bool update_lamps(struct path_guide *g, const struct bvh8_world *w,
+                         const struct lights *lights, struct pool *pool)
+{
+    if (g->has_lamps)
+        return true;
+    if (!wants_lamps(g, &w->world))
+        caustic_tables_free(&g->lamps);
+    else if (!caustic_tables_build(&g->lamps, w, lights, pool))
+        return false;
+    g->has_lamps = true;
+    return true;
 }
 
 /* ---- the table ---- */
@@ -195,7 +217,8 @@ static bool update(struct path_guide *g, const struct bvh8_world *w,
     if (w->world.settings.tri_count > 0) {
         struct other o = {.lights = INFINITY};
 
-        if (!find_parts(g, w, lights, sky, pool))
+        if (!find_parts(g, w, lights, sky, pool) ||
+            !update_lamps(g, w, lights, pool))
             return false;
         if (sky > 0)
             o = (struct other){g->lights / sky,
@@ -210,6 +233,11 @@ static bool update(struct path_guide *g, const struct bvh8_world *w,
     return true;
 }
 
+bool path_guide_has_tables(const struct path_guide *g)
+{
+    return g->cells != NULL || g->lamps.cells != NULL;
+}
+
 bool path_guide_is_current(const struct path_guide *g, double sky)
 {
     return g->is_current && g->sky == sky;
@@ -219,7 +247,7 @@ bool path_guide_needs_rays(const struct path_guide *g, const struct world *w,
                            double sky)
 {
     return !path_guide_is_current(g, sky) && w->settings.tri_count > 0 &&
-           (wants_caustics(g, w) || wants_portals(g, sky));
+           (wants_caustics(g, w) || wants_lamps(g, w) || wants_portals(g, sky));
 }
 
 bool path_guide_update(struct path_guide *g, const struct bvh8_world *w,
@@ -241,6 +269,12 @@ void path_guide_outdate(struct path_guide *g)
 {
     guide_flux_free(&g->caustics);
     sky_portals_free(&g->portals);
+    path_guide_outdate_lamps(g);
+}
+
+void path_guide_outdate_lamps(struct path_guide *g)
+{
+    g->has_lamps = false;
     g->is_current = false;
 }
 
@@ -251,7 +285,7 @@ void path_guide_recolor(struct path_guide *g)
 
 bool path_guides_differ(const struct material *a, const struct material *b)
 {
-    struct material x = caustics_material(*a), y = caustics_material(*b);
+    struct material x = photons_material(*a), y = photons_material(*b);
 
     return memcmp(&x, &y, sizeof x) != 0;
 }
@@ -263,6 +297,7 @@ void path_guide_lend(const struct path_guide *g, struct world *world)
         world->settings.guide = g->grid;
     world->guide_cells = g->cells;
     world->guide_cdf = g->sums;
+    caustic_tables_lend(&g->lamps, world);
 }
 
 void path_guide_free(struct path_guide *g)
@@ -270,5 +305,6 @@ void path_guide_free(struct path_guide *g)
     path_guide_outdate(g);
     free(g->cells);
     free(g->sums);
+    caustic_tables_free(&g->lamps);
     *g = (struct path_guide){.cells = NULL};
 }

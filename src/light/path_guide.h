@@ -20,6 +20,7 @@
 #include <stdbool.h>
 
 #include "base/error.h"
+#include "light/caustic_tables.h"
 #include "light/lights.h"
 #include "light/sky_portals.h"
 
@@ -32,8 +33,13 @@ struct path_guide {
     struct sky_portals portals;
     double lights; /* mean irradiance by all lights on the box / pi */
     double sky;    /* mean radiance of the sky for which cells are */
+    struct caustic_tables lamps; /* caustics of spheres and discs */
+    bool has_lamps;              /* they have been searched for */
     bool is_current;
 };
+
+/* Returns true if there are tables of any kind. */
+bool path_guide_has_tables(const struct path_guide *guide);
 
 /* Returns true if the table suits a sky of this mean radiance, and nothing has
  * changed since it was made. */
@@ -54,6 +60,9 @@ bool path_guide_update(struct path_guide *guide, const struct bvh8_world *world,
 
 /* Call this when the world has changed in geometry or in how rays scatter. */
 void path_guide_outdate(struct path_guide *guide);
+
+/* Call this when only directional lights have changed. */
+void path_guide_outdate_lamps(struct path_guide *guide);
 
 /* Call this when only colours have changed. */
 void path_guide_recolor(struct path_guide *guide);

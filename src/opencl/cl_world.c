@@ -32,6 +32,10 @@ static const enum world_part parts[CL_ARRAY_COUNT] = {
     [CL_ARRAY_GUIDE_SUMS] = WORLD_GUIDE,
     [CL_ARRAY_POINT_LIGHTS] = WORLD_LIGHTS,
     [CL_ARRAY_DIRECTIONAL_LIGHTS] = WORLD_DIRECTIONAL_LIGHTS,
+    [CL_ARRAY_PROFILES] = WORLD_LIGHTS,
+    [CL_ARRAY_CAUSTIC_CELLS] = WORLD_GUIDE,
+    [CL_ARRAY_CAUSTIC_GROUPS] = WORLD_GUIDE,
+    [CL_ARRAY_CAUSTIC_BINS] = WORLD_GUIDE,
 };
 
 #define SOURCE(array, count)                       \
@@ -93,6 +97,12 @@ bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
         [CL_ARRAY_POINT_LIGHTS] = SOURCE(w->point_lights, s->point_light_count),
         [CL_ARRAY_DIRECTIONAL_LIGHTS] =
             SOURCE(w->directional_lights, s->directional_light_count),
+        [CL_ARRAY_PROFILES] = SOURCE(w->profiles, s->profile_value_count),
+        [CL_ARRAY_CAUSTIC_CELLS] =
+            SOURCE(w->caustic_cells, s->caustic_cell_count),
+        [CL_ARRAY_CAUSTIC_GROUPS] =
+            SOURCE(w->caustic_groups, s->caustic_group_count),
+        [CL_ARRAY_CAUSTIC_BINS] = SOURCE(w->caustic_bins, s->caustic_bin_count),
     };
 
     for (int i = 0; i < CL_ARRAY_COUNT; i++) {

@@ -23,15 +23,38 @@ bool lamps_add(struct lamps *lamps, const struct lamp *lamp)
     if (items == NULL)
         return false;
     lamps->items = items;
+    profile_share(lamp->profile);
     lamps->items[lamps->count++] = *lamp;
     return true;
 }
 
+void lamps_remove(struct lamps *lamps, uint32_t i)
+{
+    profile_release(lamps->items[i].profile);
+    lamps->count--;
+    memmove(&lamps->items[i], &lamps->items[i + 1],
+            (lamps->count - i) * sizeof *lamps->items);
+}
+
+bool lamp_equal(const struct lamp *a, const struct lamp *b)
+{
+    struct lamp x, y;
+
+    /* copies with the padding */
+    memcpy(&x, a, sizeof x);
+    memcpy(&y, b, sizeof y);
+    x.profile = y.profile = NULL;
+    return memcmp(&x, &y, sizeof x) == 0 &&
+           profiles_equal(a->profile, b->profile);
+}
+
 bool lamps_equal(const struct lamps *a, const struct lamps *b)
 {
-    return a->count == b->count &&
-           (a->count == 0 ||
-            memcmp(a->items, b->items, a->count * sizeof *a->items) == 0);
+    bool equal = a->count == b->count;
+
+    for (uint32_t i = 0; i < a->count && equal; i++)
+        equal = lamp_equal(&a->items[i], &b->items[i]);
+    return equal;
 }
 
 bool lamps_copy(struct lamps *to, const struct lamps *from)
@@ -42,13 +65,17 @@ bool lamps_copy(struct lamps *to, const struct lamps *from)
         return false;
     if (from->count > 0)
         memcpy(items, from->items, from->count * sizeof *items);
-    free(to->items);
+    for (uint32_t i = 0; i < from->count; i++)
+        profile_share(items[i].profile);
+    lamps_free(to);
     *to = (struct lamps){items, from->count};
     return true;
 }
 
 void lamps_free(struct lamps *lamps)
 {
+    for (uint32_t i = 0; i < lamps->count; i++)
+        profile_release(lamps->items[i].profile);
     free(lamps->items);
     *lamps = (struct lamps){.items = NULL};
 }

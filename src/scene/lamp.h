@@ -17,6 +17,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "scene/profile.h"
+
 enum lamp_kind { LAMP_POINT, LAMP_SPOT, LAMP_DIRECTIONAL };
 
 #define LAMP_KINDS 3
@@ -32,6 +34,9 @@ struct lamp {
     double azimuth_deg; /* direction to the light, as that of struct sun */
     double elevation_deg;
     double angle_deg; /* above 0: a disc of this diameter */
+    /* of points and spots: a factor of the intensity in each direction, or
+     * NULL. Angle 0 is straight down, or the axis of a spot. */
+    struct profile *profile;
 };
 
 struct lamps {
@@ -39,11 +44,17 @@ struct lamps {
     uint32_t count;
 };
 
-/* Sets the defaults of a kind: intensity or irradiance 1, and a spot's angles
- * of 0 and 45 degrees. */
+/* Sets the defaults of a kind, without a profile: intensity or irradiance 1,
+ * and a spot's angles of 0 and 45 degrees. */
 void lamp_init(struct lamp *lamp, enum lamp_kind kind);
 
+/* Appends a lamp and shares its profile. */
 bool lamps_add(struct lamps *lamps, const struct lamp *lamp);
+
+/* Removes lamp i. */
+void lamps_remove(struct lamps *lamps, uint32_t i);
+
+bool lamp_equal(const struct lamp *a, const struct lamp *b);
 bool lamps_equal(const struct lamps *a, const struct lamps *b);
 
 /* Replaces the contents of `to`; leaves them unchanged when memory is out. */

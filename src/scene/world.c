@@ -268,6 +268,7 @@ struct world world_arrays(const struct host_world *host,
         .linear_of_srgb = host->linear_of_srgb,
         .sky_texels = host->sky_texels,
         .point_lights = host->point_lights,
+        .profiles = host->profiles,
         .directional_lights = host->directional_lights,
         .settings =
             {
@@ -280,6 +281,7 @@ struct world world_arrays(const struct host_world *host,
                 .texture_count = scene->texture_count,
                 .texel_count = (uint32_t)host->texel_count,
                 .point_light_count = host->point_light_count,
+                .profile_value_count = host->profile_value_count,
                 .directional_light_count = host->directional_light_count,
             },
     };
@@ -291,6 +293,8 @@ uint32_t world_features(const struct host_world *host)
 
     if (host->guide.grid.table_count > 0)
         features |= FEATURE_GUIDE;
+    if (host->guide.lamps.cell_count > 0)
+        features |= FEATURE_CAUSTICS;
     if (host->point_light_count > 0)
         features |= FEATURE_POINT_LIGHTS;
     if (host->directional_light_count > 0)
@@ -385,7 +389,7 @@ bool world_guide(struct host_world *host, const struct scene *scene,
                            .tree = &host->tree};
     struct path_guide *guide = &host->guide;
     double sky = color_mean(make_sky(host, view).color);
-    bool had_table = guide->cells != NULL;
+    bool had_table = path_guide_has_tables(guide);
     struct pool *pool = NULL;
     bool ok = true;
 
@@ -400,7 +404,7 @@ bool world_guide(struct host_world *host, const struct scene *scene,
     }
     ok = ok && path_guide_update(guide, &w, &host->lights, sky, pool, err);
     pool_destroy(pool);
-    if (ok && (had_table || guide->cells != NULL))
+    if (ok && (had_table || path_guide_has_tables(guide)))
         world_renew(host, WORLD_GUIDE);
     return ok;
 }
@@ -441,6 +445,7 @@ void world_free(struct host_world *host)
     free(host->sky_texels);
     sky_table_free(&host->sky_table);
     free(host->point_lights);
+    free(host->profiles);
     free(host->directional_lights);
     lights_free(&host->lights);
     path_guide_free(&host->guide);

@@ -81,6 +81,8 @@ struct host_world {
     /* lamps of the view: point lights as they were given to `lights` */
     struct point_light *point_lights;
     uint32_t point_light_count;
+    float *profiles; /* of all point lights */
+    uint32_t profile_value_count;
     struct directional_light *directional_lights;
     uint32_t directional_light_count;
 

@@ -10,7 +10,7 @@
 /* A new array of the world is hashed below, unless it only decides the speed.
  */
 _Static_assert(sizeof(struct world) - offsetof(struct world, positions) ==
-                   20 * sizeof(void *),
+                   24 * sizeof(void *),
                "world_hash() knows all arrays");
 
 static uint64_t hash_array(uint64_t hash, const void *items, size_t count,
@@ -59,6 +59,7 @@ static uint64_t hash_light(const struct world *w)
                    sizeof *w->point_lights);
     h = hash_array(h, w->directional_lights, s->directional_light_count,
                    sizeof *w->directional_lights);
+    h = hash_array(h, w->profiles, s->profile_value_count, sizeof *w->profiles);
     h = hash_bytes(h, &s->sky_share, sizeof s->sky_share);
     h = hash_bytes(h, &s->light_share, sizeof s->light_share);
     return hash_bytes(h, &s->sky_power, sizeof s->sky_power);
@@ -76,14 +77,22 @@ static uint64_t hash_limits(const struct settings *s)
 
 static uint64_t hash_guide(const struct world *w)
 {
-    const struct guide_grid *g = &w->settings.guide;
+    const struct settings *s = &w->settings;
+    const struct guide_grid *g = &s->guide;
     size_t cubes = (size_t)g->width * g->height * g->depth;
     uint64_t h = hash_bytes(HASH_BEGIN, g, sizeof *g);
 
     h = hash_array(h, w->guide_cells, cubes * GUIDE_FACINGS,
                    sizeof *w->guide_cells);
-    return hash_array(h, w->guide_cdf, (size_t)g->table_count * GUIDE_BINS,
-                      sizeof *w->guide_cdf);
+    h = hash_array(h, w->guide_cdf, (size_t)g->table_count * GUIDE_BINS,
+                   sizeof *w->guide_cdf);
+    h = hash_bytes(h, s->caustic_grids, sizeof s->caustic_grids);
+    h = hash_array(h, w->caustic_cells, s->caustic_cell_count,
+                   sizeof *w->caustic_cells);
+    h = hash_array(h, w->caustic_groups, s->caustic_group_count,
+                   sizeof *w->caustic_groups);
+    return hash_array(h, w->caustic_bins, s->caustic_bin_count,
+                      sizeof *w->caustic_bins);
 }
 
 void world_hash(const struct world *w, uint64_t hashes[FILM_PARTS])

@@ -12,6 +12,8 @@
 #include "light/daylight.h"
 #include "light/sun_sky.h"
 
+#include "kernels/vec.h"
+
 /* Least radius of a sphere, and greatest distance of any lamp, in normalised
  * units. Squares of both are normal floats; smaller spheres are points. */
 #define RADIUS_LEAST 1e-6
@@ -20,6 +22,16 @@
 /* Least difference between the cosines of a spot's angles, that of glTF's
  * formula. */
 #define CONE_LEAST 0.001
+
+/* Counts and arrays that a view needs. */
+struct made {
+    struct point_light *points;
+    struct directional_light *directions;
+    uint32_t point_count, direction_count;
+    float *profiles; /* values of all profiles */
+    uint32_t profile_value_count;
+    uint32_t *starts; /* of each lamp: where its profile begins in them */
+};
 
 /* Rounds to float. Numbers beyond its range become the greatest one. */
 static float clamped(double x, double most)
@@ -37,6 +49,16 @@ static struct vec3 scaled_rgb(const double rgb[3], double scale)
 static bool shines(const struct lamp *lamp)
 {
     return lamp->rgb[0] > 0 || lamp->rgb[1] > 0 || lamp->rgb[2] > 0;
+}
+
+/* Turns the profile: the angle 0 around an axis is that of +x, or of +z for an
+ * axis along x. */
+static void aim_profile(struct point_light *l)
+{
+    struct vec3 x = {1, 0, 0}, z = {0, 0, 1};
+    struct vec3 to = fabsf(l->axis.x) < 0.99f ? x : z;
+
+    l->side = v3_unit(v3_sub(to, v3_scale(l->axis, v3_dot(to, l->axis))));
 }
 
 /* Sets the axis and the falloff of a spot, as glTF defines it. */
@@ -58,8 +80,29 @@ static void aim_spot(struct point_light *l, const struct lamp *lamp)
     l->cone_offset = (float)(-outer * scale);
 }
 
+/* Adds a lamp's profile to the values that all lamps share, unless it is there.
+ * Returns where it begins. */
+static uint32_t add_profile(struct made *m, const struct lamps *lamps,
+                            uint32_t number)
+{
+    const struct profile *p = lamps->items[number].profile;
+    uint32_t first = 0;
+
+    for (uint32_t i = 0; i < number; i++) {
+        const struct profile *other = lamps->items[i].profile;
+
+        if (other == p)
+            return m->starts[i];
+    }
+    first = m->profile_value_count;
+    memcpy(m->profiles + first, p->values,
+           profile_value_count(p) * sizeof *p->values);
+    m->profile_value_count += profile_value_count(p);
+    return first;
+}
+
 static struct point_light make_point(const struct scene *scene,
-                                     const struct lamp *lamp)
+                                     const struct lamp *lamp, uint32_t profile)
 {
     double p[3], radius = lamp->radius * scene->scale;
     double intensity = scene->scale * scene->scale;
@@ -76,6 +119,13 @@ static struct point_light make_point(const struct scene *scene,
     l.emission = scaled_rgb(lamp->rgb, intensity);
     if (lamp->kind == LAMP_SPOT)
         aim_spot(&l, lamp);
+    if (lamp->profile != NULL) {
+        if (lamp->kind == LAMP_POINT)
+            l.axis = (struct vec3){0, -1, 0};
+        l.profile = 1 + profile;
+        l.profile_columns = lamp->profile->columns;
+        aim_profile(&l);
+    }
     return l;
 }
 
@@ -113,26 +163,29 @@ static struct directional_light make_sun(const struct lighting *l)
                             2 * SUN_RADIUS_DEG, irradiance);
 }
 
-/* Counts and arrays that a view needs. */
-struct made {
-    struct point_light *points;
-    struct directional_light *directions;
-    uint32_t point_count, direction_count;
-};
-
 static bool make_lamps(const struct scene *scene, const struct view *view,
                        struct made *m)
 {
     const struct sun *sun = &view->lighting.sun;
+    const struct lamps *lamps = &view->lamps;
+    size_t values = 0;
 
+    for (uint32_t i = 0; i < lamps->count; i++)
+        if (lamps->items[i].profile != NULL)
+            values += profile_value_count(lamps->items[i].profile);
+    m->profiles = alloc_array(values, sizeof *m->profiles);
+    m->starts = alloc_array(lamps->count, sizeof *m->starts);
     m->points = alloc_array(view->lamps.count, sizeof *m->points);
     m->directions =
         alloc_array((size_t)view->lamps.count + 1, sizeof *m->directions);
-    if (m->points == NULL || m->directions == NULL)
+    if (m->points == NULL || m->directions == NULL || m->profiles == NULL ||
+        m->starts == NULL)
         return false;
-    for (uint32_t i = 0; i < view->lamps.count; i++) {
-        const struct lamp *lamp = &view->lamps.items[i];
+    for (uint32_t i = 0; i < lamps->count; i++) {
+        const struct lamp *lamp = &lamps->items[i];
 
+        if (lamp->profile != NULL)
+            m->starts[i] = add_profile(m, lamps, i);
         if (!shines(lamp))
             continue;
         if (lamp->kind == LAMP_DIRECTIONAL)
@@ -140,7 +193,7 @@ static bool make_lamps(const struct scene *scene, const struct view *view,
                 make_directional(lamp->azimuth_deg, lamp->elevation_deg,
                                  lamp->angle_deg, lamp->rgb);
         else
-            m->points[m->point_count++] = make_point(scene, lamp);
+            m->points[m->point_count++] = make_point(scene, lamp, m->starts[i]);
     }
     if (sun->is_on && sun->elevation_deg > 0 && view->lighting.sky_strength > 0)
         m->directions[m->direction_count++] = make_sun(&view->lighting);
@@ -155,11 +208,17 @@ static bool set_points(struct host_world *host, const struct scene *scene,
     struct lights lights = {.lights = NULL};
 
     if (m->point_count == host->point_light_count &&
+        m->profile_value_count == host->profile_value_count &&
         (m->point_count == 0 ||
          memcmp(m->points, host->point_lights,
-                m->point_count * sizeof *m->points) == 0))
+                m->point_count * sizeof *m->points) == 0) &&
+        (m->profile_value_count == 0 ||
+         memcmp(m->profiles, host->profiles,
+                m->profile_value_count * sizeof *m->profiles) == 0))
         return true;
     arrays.point_lights = m->points;
+    arrays.profiles = m->profiles;
+    arrays.settings.profile_value_count = m->profile_value_count;
     arrays.settings.point_light_count = m->point_count;
     if (!lights_build(&lights, &arrays, err))
         return false;
@@ -169,6 +228,10 @@ static bool set_points(struct host_world *host, const struct scene *scene,
     host->point_lights = m->points;
     host->point_light_count = m->point_count;
     m->points = NULL; /* the world owns it now */
+    free(host->profiles);
+    host->profiles = m->profiles;
+    host->profile_value_count = m->profile_value_count;
+    m->profiles = NULL; /* the world owns it now */
     world_renew(host, WORLD_LIGHTS);
     path_guide_outdate(&host->guide);
     return true;
@@ -186,6 +249,7 @@ static void set_directions(struct host_world *host, struct made *m)
     host->directional_light_count = m->direction_count;
     m->directions = NULL; /* the world owns it now */
     world_renew(host, WORLD_DIRECTIONAL_LIGHTS);
+    path_guide_outdate_lamps(&host->guide);
 }
 
 bool world_set_lamps(struct host_world *host, const struct scene *scene,
@@ -200,5 +264,7 @@ bool world_set_lamps(struct host_world *host, const struct scene *scene,
         set_directions(host, &m);
     free(m.points);
     free(m.directions);
+    free(m.profiles);
+    free(m.starts);
     return ok;
 }

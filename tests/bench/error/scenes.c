@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
  * scenes - writes special scenes that are not shipped, to measure the limits of
- * light sampling: plates lamps2000 sun balls; some with a layer or a glass of
- * the principled surface: coat sheen grain absorbing frosted; and two to
- * compare with other renderers: glass_box, whose glass has flat sides only, and
- * door_room
+ * light sampling: plates lamps2000 sun balls sunball; some with a layer or a
+ * glass of the principled surface: coat sheen grain absorbing frosted; and two
+ * to compare with other renderers: glass_box, whose glass has flat sides only,
+ * and door_room
  *
  * usage: scenes FOLDER
  */
@@ -219,6 +219,25 @@ static void make_balls(void)
                              "res 600 600\n");
 }
 
+/* The ground is 40 times as wide as the caustic. */
+static void make_sunball(void)
+{
+    struct mesh m = mesh_open(folder, "sunball", "A glass ball under the sun.");
+
+    mesh_object(&m, "ground", "ground");
+    mesh_quad(&m, at(-25, 0, 25), at(25, 0, 25), at(25, 0, -25),
+              at(-25, 0, -25), 1, 1);
+    mesh_object(&m, "ball", "glass");
+    mesh_sphere(&m, at(0, .701, 0), .7, 8);
+    mesh_object(&m, "box", "ground");
+    mesh_box(&m, at(-1.6, .001, -.6), at(.8, 1.2, .8), 25);
+    mesh_close(&m);
+    write_text("sunball.mtl", "newmtl ground\nKd .4 .38 .35\nillum 1\n"
+                              "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n");
+    write_text("sunball.view", "eye .5 2.6 5\nat 0 .4 0\nup 0 1 0\nfovy 36\n"
+                               "res 400 300\nsun -50 40\n");
+}
+
 /* Writes a ball, or a pane before a wall, of this surface under a lamp. */
 static void make_surface(const char *name, const char *statements, bool is_pane)
 {
@@ -354,6 +373,7 @@ int main(int argc, char **argv)
     make_lamps2000();
     make_sun();
     make_balls();
+    make_sunball();
     make_surfaces();
     make_glass_box();
     make_door_room();

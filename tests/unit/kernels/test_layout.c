@@ -55,7 +55,8 @@
     S(point_light) M(point_light, p) M(point_light, radius)                   \
       M(point_light, axis) M(point_light, cone_scale)                         \
       M(point_light, cone_offset) M(point_light, emission)                    \
-      M(point_light, path)                                                    \
+      M(point_light, path) M(point_light, profile)                            \
+      M(point_light, profile_columns) M(point_light, side)                    \
     S(directional_light) M(directional_light, d) M(directional_light, size)   \
       M(directional_light, emission) M(directional_light, sine)               \
       M(directional_light, power)                                             \
@@ -73,13 +74,21 @@
       M(settings, sky_share) M(settings, light_share)                         \
       M(settings, sky_power) M(settings, point_light_count)                   \
       M(settings, sphere_count) M(settings, directional_light_count)          \
+      M(settings, profile_value_count)                                        \
       M(settings, tri_count) M(settings, position_count)                      \
       M(settings, normal_count) M(settings, uv_count)                         \
       M(settings, color_count)                                                \
       M(settings, material_count) M(settings, texture_count)                  \
       M(settings, texel_count) M(settings, light_count)                       \
       M(settings, light_node_count) M(settings, sky_cdf_count)                \
-      M(settings, guide)                                                      \
+      M(settings, guide) M(settings, caustic_grids)                           \
+      M(settings, caustic_cell_count) M(settings, caustic_group_count)        \
+      M(settings, caustic_bin_count)                                          \
+    S(caustic_group) M(caustic_group, p) M(caustic_group, before)             \
+      M(caustic_group, dx) M(caustic_group, dy) M(caustic_group, share)       \
+      M(caustic_group, first_bin) M(caustic_group, bin_count)                 \
+      M(caustic_group, level) M(caustic_group, next)                          \
+    S(caustic_bin) M(caustic_bin, index) M(caustic_bin, sum)                  \
     S(ray) M(ray, o) M(ray, d) M(ray, t_max) M(ray, key) M(ray, from)         \
     S(path_sample) M(path_sample, radiance) M(path_sample, rays)              \
       M(path_sample, cut)                                                     \

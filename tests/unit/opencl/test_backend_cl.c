@@ -406,9 +406,10 @@ static void edited_worlds_are_equal(void **state)
     close_pair(&p);
 }
 
-/* Lamps of each kind come and go. */
+/* Lamps of each kind come and go, with caustics of those that have a size. */
 static void lamps_are_equal(void **state)
 {
+    uint32_t has_caustics = 0;
     struct pair p;
 
     (void)state;
@@ -433,10 +434,13 @@ static void lamps_are_equal(void **state)
         if (i == 6)
             lamps_free(&p.view.lamps);
         assert_true(lamps_add(&p.view.lamps, &lamp));
-        check_or_say(world_set_lamps(&p.world, &p.scene, &p.view, &err),
+        check_or_say(world_set_lamps(&p.world, &p.scene, &p.view, &err) &&
+                         world_guide(&p.world, &p.scene, &p.view, &err),
                      err.text);
+        has_caustics |= world_features(&p.world) & FEATURE_CAUSTICS;
         render_both(&p, (struct rect){0, 0, 48, 48}, 2, i);
     }
+    assert_int_not_equal(has_caustics, 0);
     close_pair(&p);
 }
 
@@ -640,8 +644,8 @@ static void only_changes_are_uploaded(void **state)
         assert_int_equal(uploads(&p), 2);
     }
     paint(&p, 1, 0.5, 2);
-    /* Lights, their owners, point lights and their tree. */
-    assert_int_equal(uploads(&p), 2 + 4);
+    /* Lights, their owners, point lights, profiles and the tree. */
+    assert_int_equal(uploads(&p), 2 + 5);
     load_again(&p, "scenes/cornell.obj");
     /* All but nodes and leaves. */
     assert_int_equal(uploads(&p), CL_ARRAY_COUNT - 2);

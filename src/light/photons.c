@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+#include "light/photons.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "bvh/bvh8_traverse.h"
+#include "picture/color.h"
+#include "light/triangle_cdf.h"
+#include "kernels/guide.h"
+#include "kernels/light.h"
+#include "kernels/rng.h"
+
+/* Dimensions and key of photons, so that their random numbers are not shared
+ * with pixel samples. */
+#define PHOTON_DIMENSION 0x10000u
+#define PHOTON_STRIDE    2u
+#define PHOTON_KEY       0x6a09e667u
+
+/* Largest number of vertices of a photon. It ends there even within glass. */
+#define PHOTON_VERTICES 12u
+
+/* Least squared distance of a point on a light and one on a caster. The flux,
+ * which is inversely proportional to it, stays finite. */
+#define DISTANCE2_LEAST 1e-30f
+
+struct search {
+    const struct bvh8_world *w;
+    /* by power: triangles, or spheres and then discs */
+    struct triangle_cdf lights;
+    struct triangle_cdf casters; /* by area */
+    enum photon_source source;
+    double box;  /* surface area of the box around the scene */
+    float reach; /* a distance at which rays begin outside of it */
+    struct landing *landings;
+    uint32_t landings_each;
+};
+
+struct photon {
+    struct ray ray;
+    float flux;
+    uint32_t aim; /* triangle of the caster, which it has to hit first */
+};
+
+bool photons_cast(const struct material *m)
+{
+    return m->alpha < GUIDE_ALPHA_MAX &&
+           (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS ||
+            m->kind == MATERIAL_METAL ||
+            (m->kind == MATERIAL_PRINCIPLED &&
+             m->metalness + m->transmission >= 0.5f));
+}
+
+struct material photons_material(struct material m)
+{
+    float grey = photons_cast(&m) ? 1.0f : 0.5f;
+
+    m.color = m.specular = v3(grey, grey, grey);
+    m.color_texture = m.specular_texture = NO_INDEX;
+    return m;
+}
+
+static bool has_lights(const struct world *w, enum photon_source source)
+{
+    bool has = w->settings.sphere_count > 0;
+
+    if (source == PHOTONS_OF_TRIANGLES)
+        return w->settings.light_count > 0;
+    for (uint32_t i = 0; i < w->settings.directional_light_count && !has; i++)
+        has = w->directional_lights[i].size > 0.0f;
+    return has;
+}
+
+/* Looks through the triangles only if there is a material that casts. */
+bool photons_possible(const struct world *w, enum photon_source source)
+{
+    bool may = false, found = false;
+
+    for (uint32_t i = 0; i < w->settings.material_count && !may; i++)
+        may = has_lights(w, source) && photons_cast(&w->materials[i]);
+    for (uint32_t i = 0; may && i < w->settings.tri_count && !found; i++)
+        found = photons_cast(&w->materials[w->tris[i].material]);
+    return found;
+}
+
+/* Power of a surface that gives the box of the scene as much light as a disc:
+ * a convex body shows a quarter of its surface to a direction, on average. */
+static double disc_power(const struct search *s, uint32_t i)
+{
+    return (double)s->w->world.directional_lights[i].power * s->box /
+           (8 * M_PI);
+}
+
+static void add_triangles(struct search *s, const struct lights *lights)
+{
+    for (uint32_t i = 0; i < lights->light_count; i++)
+        for (int k = 0; k < 2; k++)
+            if (lights->lights[i].tris[k] != NO_INDEX)
+                triangle_cdf_add(&s->lights, lights->lights[i].tris[k],
+                                 lights->powers[i][k]);
+}
+
+static void add_lamps(struct search *s)
+{
+    const struct world *w = &s->w->world;
+    uint32_t spheres = w->settings.sphere_count;
+
+    for (uint32_t i = 0; i < spheres; i++)
+        triangle_cdf_add(&s->lights, i,
+                         point_light_power(w, &w->point_lights[i]));
+    for (uint32_t i = 0; i < w->settings.directional_light_count; i++)
+        if (w->directional_lights[i].size > 0.0f)
+            triangle_cdf_add(&s->lights, spheres + i, disc_power(s, i));
+}
+
+static bool find_lists(struct search *s, const struct lights *lights)
+{
+    const struct world *w = &s->w->world;
+    uint32_t lamps =
+        w->settings.sphere_count + w->settings.directional_light_count;
+
+    if (!triangle_cdf_init(&s->lights, s->source == PHOTONS_OF_LAMPS
+                                           ? lamps
+                                           : 2 * w->settings.light_count) ||
+        !triangle_cdf_init(&s->casters, w->settings.tri_count))
+        return false;
+    if (s->source == PHOTONS_OF_LAMPS)
+        add_lamps(s);
+    else
+        add_triangles(s, lights);
+    for (uint32_t i = 0; i < w->settings.tri_count; i++)
+        if (photons_cast(&w->materials[w->tris[i].material]))
+            triangle_cdf_add(&s->casters, i, tri_area(w, i));
+    return true;
+}
+
+static struct vec2 photon_2d(uint32_t photon, uint32_t vertex, uint32_t kind)
+{
+    struct sampler s = {PHOTON_KEY, reverse_bits(photon)};
+
+    return random_2d(s, PHOTON_DIMENSION + PHOTON_STRIDE * vertex + kind);
+}
+
+/* Aims a photon of a triangle from a uniform point on it. Like the functions
+ * below, it sets the flux to the irradiance of a caster that faces the light,
+ * and returns the density by which the flux has to be divided, or 0. */
+static float leave_triangle(const struct world *w, uint32_t light,
+                            struct vec3 to, struct vec2 u, struct photon *p)
+{
+    struct vec3 n = w->tris[light].ng, a[3], from, error, d;
+    float square;
+
+    tri_corners(w, light, a);
+    from = hit_point_inset(triangle_point(u), a[0], a[1], a[2], &error);
+    d = v3_sub(to, from);
+    square = v3_dot(d, d);
+    if (!(square > DISTANCE2_LEAST))
+        return 0.0f;
+    p->ray.d = v3_unit(d);
+    p->flux = v3_dot(n, p->ray.d);
+    p->ray.o = offset_ray_origin(from, error, p->flux > 0.0f ? n : v3_neg(n));
+    p->ray.from = light + 1;
+    return square;
+}
+
+/* Aims a photon of a sphere from a point that is uniform in the cone in which
+ * the caster sees the sphere. */
+static float leave_sphere(const struct world *w, uint32_t i, struct vec3 to,
+                          struct vec2 u, struct photon *p)
+{
+    struct vec3 radiance, wi;
+    float pdf;
+
+    if (!point_light_sample(w, i, to, u, &p->ray.o, &wi, &radiance, &pdf))
+        return 0.0f;
+    p->ray.d = v3_neg(wi);
+    p->ray.from = 0;
+    p->flux = (float)color_mean(radiance);
+    return pdf * (float)point_light_power(w, &w->point_lights[i]);
+}
+
+/* Aims a photon of a disc from outside of the scene. */
+static float leave_disc(const struct search *s, uint32_t i, struct vec3 to,
+                        struct vec2 u, struct photon *p)
+{
+    const struct directional_light *l = &s->w->world.directional_lights[i];
+    struct vec3 wi = cone_around(l->d, l->size, u);
+
+    p->ray.o = v3_add(to, v3_scale(wi, s->reach));
+    p->ray.d = v3_neg(wi);
+    p->ray.from = 0;
+    p->flux = l->power;
+    return (float)disc_power(s, i);
+}
+
+static float leave_light(const struct search *s, uint32_t light, struct vec3 to,
+                         struct vec2 u, struct photon *p)
+{
+    const struct world *w = &s->w->world;
+    uint32_t spheres = w->settings.sphere_count;
+
+    if (s->source == PHOTONS_OF_TRIANGLES)
+        return leave_triangle(w, light, to, u, p);
+    return light < spheres ? leave_sphere(w, light, to, u, p)
+                           : leave_disc(s, light - spheres, to, u, p);
+}
+
+/* Samples a point on a light and a uniform one on a caster. Those factors of
+ * the photon's flux are left out that are the same for all photons. Returns
+ * false if the caster is not visible from there: solid glass has to be hit from
+ * outside. */
+static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
+{
+    const struct world *w = &s->w->world;
+    struct vec2 choice = photon_2d(i, 0, 0);
+    uint32_t light = triangle_cdf_choose(&s->lights, choice.x);
+    struct vec3 b[3], to, error;
+    float cosine, density;
+
+    p->aim = triangle_cdf_choose(&s->casters, choice.y);
+    p->ray.key = hash_u32(i);
+    tri_corners(w, p->aim, b);
+    to =
+        hit_point(triangle_point(photon_2d(i, 1, 0)), b[0], b[1], b[2], &error);
+    density = leave_light(s, light, to, photon_2d(i, 1, 1), p);
+    if (!(density > 0.0f))
+        return false;
+    cosine = v3_dot(w->tris[p->aim].ng, p->ray.d);
+    p->flux = fabsf(p->flux * cosine) / density;
+    return !(cosine > 0.0f &&
+             w->materials[w->tris[p->aim].material].kind == MATERIAL_GLASS);
+}
+
+/* Scatters the photon at a surface. Russian roulette keeps its flux. Returns
+ * false if the photon is absorbed. */
+static bool photon_scatter(struct photon *p, const struct bsdf *b,
+                           const struct surface_point *v, uint32_t i,
+                           uint32_t vertex)
+{
+    struct vec3 wo = surface_to_local(v, v3_neg(p->ray.d));
+    struct vec2 choice = photon_2d(i, vertex + 1, 1);
+    struct bsdf_sample s;
+    struct vec3 wi;
+
+    if (!surface_scatter(v, b, wo, photon_2d(i, vertex + 1, 0), choice.x, &s,
+                         &wi) ||
+        !(choice.y < v3_max_component(s.weight)))
+        return false;
+    surface_spawn_ray(v, wi, s.wi.z, &p->ray);
+    return true;
+}
+
+static void photon_follow(const struct search *s, struct photon p, uint32_t i)
+{
+    const struct world *w = &s->w->world;
+    struct landing *landings = &s->landings[(size_t)i * s->landings_each];
+    uint32_t landed = 0;
+
+    for (uint32_t vertex = 1; vertex <= PHOTON_VERTICES; vertex++) {
+        struct material m;
+        struct surface_point v;
+        struct bsdf b;
+        struct hit h;
+
+        p.ray.t_max = FLOAT_MAX;
+        if (!hit_closest(w, p.ray, &h) || (vertex == 1 && h.tri != p.aim))
+            return;
+        m = photons_material(w->materials[w->tris[h.tri].material]);
+        if (!surface_at(w, &m, p.ray, h, &v))
+            return;
+        b = bsdf_at(w, &m, &v);
+        if (guide_helps(&b)) {
+            landings[landed++] =
+                (struct landing){v.p, v.ng, v3_neg(p.ray.d), p.flux};
+            if (landed == s->landings_each)
+                return;
+        }
+        if (!photon_scatter(&p, &b, &v, i, vertex))
+            return;
+    }
+}
+
+static void photon_send(void *context, uint32_t i, int worker)
+{
+    const struct search *s = context;
+    struct photon p;
+
+    (void)worker;
+    if (photon_open(s, i, &p))
+        photon_follow(s, p, i);
+}
+
+/* Returns twice the diagonal of the box around the triangles, or more. */
+static float far_away(const struct world *w)
+{
+    float most = 0.0f;
+
+    for (uint32_t i = 0; i < w->settings.position_count; i++)
+        most = f_max(most, v3_length(w->positions[i]));
+    return 4.0f * most;
+}
+
+bool photons_trace(const struct bvh8_world *w, const struct lights *lights,
+                   enum photon_source source, uint32_t count,
+                   uint32_t landings_each, double box, struct pool *pool,
+                   struct photons *photons)
+{
+    struct search s = {.w = w,
+                       .source = source,
+                       .box = box,
+                       .reach = far_away(&w->world),
+                       .landings_each = landings_each};
+    bool ok = find_lists(&s, lights);
+
+    *photons = (struct photons){.count = count,
+                                .landing_count = count * landings_each};
+    photons->landings =
+        alloc_array(photons->landing_count, sizeof *photons->landings);
+    s.landings = photons->landings;
+    ok = ok && s.landings != NULL;
+    if (ok && triangle_cdf_total(&s.lights) > 0 &&
+        triangle_cdf_total(&s.casters) > 0) {
+        photons->caster_area = triangle_cdf_total(&s.casters);
+        pool_each(pool, count, photon_send, &s);
+    }
+    triangle_cdf_free(&s.lights);
+    triangle_cdf_free(&s.casters);
+    return ok;
+}
+
+void photons_free(struct photons *photons)
+{
+    free(photons->landings);
+    *photons = (struct photons){.landings = NULL};
+}
