@@ -237,8 +237,7 @@ static bool enqueue_task(struct backend_cl *b, struct slot *s,
                          sizeof none.samples, 0, sizeof none, 0, NULL, NULL),
                      "clEnqueueFillBuffer", err) &&
            cl_machine_set(&b->machine, k->generate, 1,
-                          (cl_mem[]){b->cancel,
-                                     b->world.buffers[CL_ARRAY_SETTINGS],
+                          (cl_mem[]){b->cancel, b->world.buffers[CL_SETTINGS],
                                      b->film.counts, b->shares, s->starts},
                           5, err) &&
            cl_machine_set(&b->machine, k->trace, 1,
@@ -246,7 +245,7 @@ static bool enqueue_task(struct backend_cl *b, struct slot *s,
                                      s->surfaces},
                           4, err) &&
            cl_machine_set(&b->machine, k->trace, 5, b->world.buffers,
-                          CL_ARRAY_COUNT, err) &&
+                          CL_BUFFER_COUNT, err) &&
            cl_machine_set(&b->machine, k->add, 1,
                           (cl_mem[]){s->samples, s->surfaces, b->film.sums,
                                      b->film.odd_sums, b->film.surfaces,

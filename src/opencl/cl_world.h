@@ -15,42 +15,18 @@
 #include <stdint.h>
 
 #include "bvh/bvh.h"
-#include "scene/world.h"
+#include "scene/world_list.h"
 #include "opencl/cl_machine.h"
 
-/* Arrays in the order of the arguments of trace_paths(). */
-enum cl_array {
-    CL_ARRAY_SETTINGS,
-    CL_ARRAY_POSITIONS,
-    CL_ARRAY_NORMALS,
-    CL_ARRAY_UVS,
-    CL_ARRAY_COLORS,
-    CL_ARRAY_TRIS,
-    CL_ARRAY_MATERIALS,
-    CL_ARRAY_TEXTURES,
-    CL_ARRAY_TEXELS,
-    CL_ARRAY_LINEAR_OF_SRGB,
-    CL_ARRAY_SKY_TEXELS,
-    CL_ARRAY_NODES,
-    CL_ARRAY_LEAF_TRIS,
-    CL_ARRAY_LIGHTS,
-    CL_ARRAY_TRI_LIGHTS,
-    CL_ARRAY_LIGHT_NODES,
-    CL_ARRAY_SKY_SUMS,
-    CL_ARRAY_GUIDE_CELLS,
-    CL_ARRAY_GUIDE_SUMS,
-    CL_ARRAY_POINT_LIGHTS,
-    CL_ARRAY_DIRECTIONAL_LIGHTS,
-    CL_ARRAY_PROFILES,
-    CL_ARRAY_CAUSTIC_CELLS,
-    CL_ARRAY_CAUSTIC_GROUPS,
-    CL_ARRAY_CAUSTIC_BINS,
-    CL_ARRAY_COUNT
-};
+/* Buffers in the order of the arguments of trace_paths(): the settings, and the
+ * arrays of world_list.h. */
+#define CL_SETTINGS     0
+#define CL_ARRAYS       1
+#define CL_BUFFER_COUNT (CL_ARRAYS + WORLD_LIST_COUNT)
 
 struct cl_world {
-    cl_mem buffers[CL_ARRAY_COUNT];
-    uint64_t versions[CL_ARRAY_COUNT]; /* versions of the contents */
+    cl_mem buffers[CL_BUFFER_COUNT];
+    uint64_t versions[WORLD_LIST_COUNT]; /* of the arrays in the buffers */
 };
 
 /* Uploads the settings, and the arrays whose version differs from the buffer's.

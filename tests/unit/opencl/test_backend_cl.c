@@ -635,7 +635,7 @@ static void only_changes_are_uploaded(void **state)
     if (!device)
         return;
     open_pair(&p, "scenes/cornell.obj", 32, 32);
-    assert_int_equal(uploads(&p), CL_ARRAY_COUNT);
+    assert_int_equal(uploads(&p), CL_BUFFER_COUNT);
     assert_int_equal(uploads(&p), 1);
     p.view.pose.eye[0] += 5;
     assert_int_equal(uploads(&p), 1);
@@ -648,7 +648,7 @@ static void only_changes_are_uploaded(void **state)
     assert_int_equal(uploads(&p), 2 + 5);
     load_again(&p, "scenes/cornell.obj");
     /* All but nodes and leaves. */
-    assert_int_equal(uploads(&p), CL_ARRAY_COUNT - 2);
+    assert_int_equal(uploads(&p), CL_BUFFER_COUNT - 2);
     close_pair(&p);
 }
 
