@@ -134,9 +134,7 @@ static bool is_now(const struct edit *e, const struct edit_step *s)
     case STEP_DUPLICATE: return s->value.is_there == now->is_there[s->index];
     case STEP_LIGHTING:
         return lighting_equal(&s->value.lighting, &view->lighting);
-    case STEP_LAMP:
-        return memcmp(s->value.rgb, view->lamps.items[s->index].rgb,
-                      sizeof s->value.rgb) == 0;
+    case STEP_LAMPS: return lamps_equal(&s->value.lamps, &view->lamps);
     case STEP_POSE: return is_same_pose(&s->value.pose, &view->pose);
     case STEP_SHOT:
         return s->value.shot.is_there == view->has_shot[s->index] &&
@@ -185,10 +183,8 @@ static void exchange(struct edit *e, struct edit_step *s)
     case STEP_LIGHTING:
         must_render = exchange_lighting(e, &s->value.lighting);
         break;
-    case STEP_LAMP:
-        for (int i = 0; i < 3; i++)
-            EXCHANGE(double, &view->lamps.items[s->index].rgb[i],
-                     &s->value.rgb[i]);
+    case STEP_LAMPS:
+        EXCHANGE(struct lamps, &view->lamps, &s->value.lamps);
         break;
     case STEP_POSE: EXCHANGE(struct pose, &view->pose, &s->value.pose); break;
     case STEP_SHOT:
@@ -257,14 +253,44 @@ void edit_lighting(struct edit *e, const struct lighting *lighting)
         change(e, step);
 }
 
-void edit_lamp(struct edit *e, uint32_t number, const double rgb[3])
+/* Begins a change of the lamps with a copy of them. */
+static struct edit_step lamps_step(const struct edit *e, uint32_t number)
 {
-    struct edit_step step = {.kind = STEP_LAMP,
-                             .index = number,
-                             .value.rgb = {rgb[0], rgb[1], rgb[2]}};
+    struct edit_step step = {.kind = STEP_LAMPS, .index = number};
 
-    if (!is_now(e, &step))
-        change(e, step);
+    xcheck(lamps_copy(&step.value.lamps, &e->now.view.lamps));
+    return step;
+}
+
+void edit_lamp(struct edit *e, uint32_t number, const struct lamp *lamp)
+{
+    struct edit_step step;
+
+    if (lamp_equal(lamp, &e->now.view.lamps.items[number]))
+        return;
+    step = lamps_step(e, number);
+    profile_share(lamp->profile);
+    profile_release(step.value.lamps.items[number].profile);
+    step.value.lamps.items[number] = *lamp;
+    change(e, step);
+}
+
+uint32_t edit_add_lamp(struct edit *e, const struct lamp *lamp)
+{
+    uint32_t number = e->now.view.lamps.count;
+    struct edit_step step = lamps_step(e, number);
+
+    xcheck(lamps_add(&step.value.lamps, lamp));
+    change(e, step);
+    return number;
+}
+
+void edit_remove_lamp(struct edit *e, uint32_t number)
+{
+    struct edit_step step = lamps_step(e, number);
+
+    lamps_remove(&step.value.lamps, number);
+    change(e, step);
 }
 
 void edit_pose(struct edit *e, const struct pose *pose)
@@ -348,7 +374,7 @@ static const char *name_step(struct edit *e, const struct edit_step *s)
     case STEP_DUPLICATE:
         snprintf(text, size, "copy %.60s", e->names[s->index]);
         break;
-    case STEP_LAMP:
+    case STEP_LAMPS:
     case STEP_LIGHTING: snprintf(text, size, "light"); break;
     case STEP_POSE: snprintf(text, size, "camera"); break;
     case STEP_SHOT: snprintf(text, size, "view %d", (int)s->index + 1); break;

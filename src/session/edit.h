@@ -65,8 +65,12 @@ void edit_material(struct edit *edit, uint32_t material,
                    const struct mtl_source *source);
 void edit_assign(struct edit *edit, uint32_t object, uint32_t material);
 void edit_lighting(struct edit *edit, const struct lighting *lighting);
-void edit_lamp(struct edit *edit, uint32_t number, const double rgb[3]);
+void edit_lamp(struct edit *edit, uint32_t number, const struct lamp *lamp);
 void edit_pose(struct edit *edit, const struct pose *pose);
+
+/* Appends a lamp, whose number is returned, and removes one. */
+uint32_t edit_add_lamp(struct edit *edit, const struct lamp *lamp);
+void edit_remove_lamp(struct edit *edit, uint32_t number);
 
 /* Stores the current camera as a numbered view, from 0. */
 void edit_shot(struct edit *edit, uint32_t number);

@@ -14,6 +14,8 @@ static void free_step(struct edit_step *step)
 {
     if (step->kind == STEP_MATERIAL)
         free(step->value.source);
+    if (step->kind == STEP_LAMPS)
+        lamps_free(&step->value.lamps);
 }
 
 /* Drops all steps from number `count` on. */

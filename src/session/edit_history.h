@@ -27,7 +27,7 @@ enum edit_step_kind {
     STEP_ASSIGN,
     STEP_DUPLICATE,
     STEP_LIGHTING,
-    STEP_LAMP,
+    STEP_LAMPS,
     STEP_POSE,
     STEP_SHOT
 };
@@ -48,7 +48,7 @@ struct edit_step {
         uint32_t material;
         bool is_there;
         struct lighting lighting; /* its sky_path is borrowed from the edit */
-        double rgb[3];            /* of a lamp */
+        struct lamps lamps;       /* the step's own */
         struct pose pose;
         struct edit_shot shot;
     } value;
@@ -74,7 +74,7 @@ bool edit_history_begin_gesture(struct edit_history *history, uint32_t gesture,
 
 /* Adds a step that was done, with the value before it, and drops all undone
  * steps. A step that continues the last one (same group, kind and index) is
- * merged with it, and its source is freed. Another kind or index during a
+ * merged with it, and what it owns is freed. Another kind or index during a
  * gesture begins a new group. Returns the last step, valid until the next
  * call. */
 const struct edit_step *edit_history_add(struct edit_history *history,

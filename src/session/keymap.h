@@ -100,6 +100,7 @@ enum panel_action {
     PANEL_HSV,
     PANEL_NEXT_PAGE,
     PANEL_COPY,
+    PANEL_REMOVE,
     PANEL_COMPARE,
     PANEL_SAVE,
     PANEL_LEAVE

@@ -130,6 +130,67 @@ static void compare(struct editor_panel *p)
     take_change(p);
 }
 
+/* Returns the lamp that has the selected parameter, or NO_INDEX. */
+static uint32_t selected_lamp(struct editor_panel *p)
+{
+    struct parameter_target target = selection_target(&p->selection);
+    struct parameter list[PARAMETERS_MAX];
+
+    panel_parameters(p, list);
+    return parameter_lamp(&target, list[p->parameter].id);
+}
+
+/* Selects the first parameter of a lamp, or the last of all. */
+static void select_lamp(struct editor_panel *p, uint32_t lamp)
+{
+    struct parameter_target target = selection_target(&p->selection);
+    struct parameter list[PARAMETERS_MAX];
+    int count = parameters_list(&target, list);
+
+    for (p->parameter = 0; p->parameter < count - 1; p->parameter++)
+        if (parameter_lamp(&target, list[p->parameter].id) == lamp)
+            break;
+}
+
+/* Copies the selected lamp, or adds a point light. */
+static void add_lamp(struct editor_panel *p)
+{
+    struct parameter_target target = selection_target(&p->selection);
+    struct edit *e = edit_of(p);
+    struct lamp lamp;
+
+    if (!may_change(p))
+        return;
+    if (e->now.view.lamps.count >= PARAMETER_LAMPS) {
+        render_control_say(p->control, "the panel lists %d lights at most",
+                           PARAMETER_LAMPS);
+        return;
+    }
+    lamp = parameter_new_lamp(&target, selected_lamp(p));
+    edit_end_step(e);
+    select_lamp(p, edit_add_lamp(e, &lamp));
+    edit_end_step(e);
+    take_change(p);
+}
+
+static void remove_lamp(struct editor_panel *p)
+{
+    uint32_t lamp =
+        p->selection.page == PARAMETER_LIGHT ? selected_lamp(p) : NO_INDEX;
+
+    if (lamp == NO_INDEX) {
+        render_control_say(p->control, "select a value of the light to remove "
+                                       "on the page of light");
+        return;
+    }
+    if (!may_change(p))
+        return;
+    edit_end_step(edit_of(p));
+    edit_remove_lamp(edit_of(p), lamp);
+    edit_end_step(edit_of(p));
+    take_change(p);
+}
+
 /* Copies the selected material. On the page of objects, the object gets the
  * copy. */
 static void duplicate(struct editor_panel *p)
@@ -139,7 +200,11 @@ static void duplicate(struct editor_panel *p)
     uint32_t object = s->index[PARAMETER_OBJECT];
     uint32_t *material = &s->index[PARAMETER_MATERIAL];
 
-    if (s->page == PARAMETER_LIGHT || !selection_has_one(s) || !may_change(p))
+    if (s->page == PARAMETER_LIGHT) {
+        add_lamp(p);
+        return;
+    }
+    if (!selection_has_one(s) || !may_change(p))
         return;
     edit_end_step(e);
     if (s->page == PARAMETER_OBJECT) {
@@ -328,6 +393,7 @@ bool editor_panel_key(struct editor_panel *p, int key)
                                            (PARAMETER_LIGHT + 1)));
         break;
     case PANEL_COPY: duplicate(p); break;
+    case PANEL_REMOVE: remove_lamp(p); break;
     case PANEL_COMPARE: compare(p); break;
     case PANEL_SAVE: save_edit(p->control); break;
     case PANEL_LEAVE: leave(p); break;

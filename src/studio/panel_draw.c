@@ -197,7 +197,10 @@ static void add_hints(const struct editor_panel *p, struct sheet *s)
         add_line(s, WINDOW_HINT, " number, #rrggbb, r g b or 3000K");
         add_line(s, WINDOW_HINT, " Enter takes it   Esc leaves it");
     } else if (p->is_in_parameters) {
-        add_line(s, WINDOW_HINT, " Left Right change  [ ] tenfold  Esc");
+        add_line(s, WINDOW_HINT,
+                 p->selection.page == PARAMETER_LIGHT
+                     ? " Left Right change  n new  N remove"
+                     : " Left Right change  [ ] tenfold  Esc");
         add_line(s, WINDOW_HINT, " type a value  h HSV  u undo  ^S save");
     } else {
         add_line(s, WINDOW_HINT, " Enter values  n copy  x compare");

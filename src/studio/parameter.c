@@ -89,6 +89,8 @@ static bool parse_number(const struct value_scale *s, const char *text,
 
 static const struct value_scale *scale_of(const struct owner *o, int part)
 {
+    if (o->row->scale == NULL)
+        return &o->place;
     if (part == 0 || !o->target->by_hsv)
         return o->row->scale;
     return part == 1 ? &scale_hue : &scale_unit;
@@ -210,6 +212,26 @@ int parameters_list(const struct parameter_target *t,
     return count;
 }
 
+uint32_t parameter_lamp(const struct parameter_target *t, int id)
+{
+    struct owner o = parameter_owner(t, edit_shown(t->edit));
+
+    return parameter_choose_row(&o, id / PARTS) ? o.lamp_number : NO_INDEX;
+}
+
+struct lamp parameter_new_lamp(const struct parameter_target *t,
+                               uint32_t number)
+{
+    const struct lamps *lamps = &t->edit->now.view.lamps;
+    struct lamp lamp;
+
+    if (number != NO_INDEX)
+        return lamps->items[number];
+    lamp_init(&lamp, LAMP_POINT);
+    memcpy(lamp.position, t->scene->center, sizeof lamp.position);
+    return lamp;
+}
+
 /* ---- changes ---- */
 
 /* Reads the parameter with this id. */
@@ -235,7 +257,7 @@ static void take_change(struct owner *o, const struct value *v)
     case PARAMETER_OBJECT: edit_assign(t->edit, t->index, o->assigned); break;
     case PARAMETER_LIGHT:
         if (o->lamp_number != NO_INDEX)
-            edit_lamp(t->edit, o->lamp_number, o->lamp.rgb);
+            edit_lamp(t->edit, o->lamp_number, &o->lamp);
         else
             edit_lighting(t->edit, &o->lighting);
         break;

@@ -45,11 +45,21 @@ struct parameter {
     double color[3]; /* linear */
 };
 
-#define PARAMETERS_MAX 64
+/* Lamps that are listed at most, and room for their parameters. */
+#define PARAMETER_LAMPS 16
+#define PARAMETERS_MAX  288
 
 /* Lists the target's parameters and returns their number. */
 int parameters_list(const struct parameter_target *target,
                     struct parameter list[PARAMETERS_MAX]);
+
+/* Returns the number of the lamp that has the parameter, or NO_INDEX. */
+uint32_t parameter_lamp(const struct parameter_target *target, int id);
+
+/* Returns a new lamp for the light: a copy of lamp `number`, or a point light
+ * in the middle of the scene for NO_INDEX. */
+struct lamp parameter_new_lamp(const struct parameter_target *target,
+                               uint32_t number);
 
 /* Changes a number by steps of its scale, and a choice to the next or previous
  * one. */

@@ -59,6 +59,15 @@ static const struct value_scale scale_turbidity = {
     0.1,
     3,
     .expected = "a number from 1.7 to 10"};
+static const struct value_scale scale_lamp_elevation = {
+    -90, 90, -90, 90, 1, 4, .expected = "an angle from -90 to 90 degrees"};
+static const struct value_scale scale_cone = {
+    0, 90, 0, 90, 1, 4, .expected = "an angle from 0 to 90 degrees"};
+static const struct value_scale scale_disc = {
+    0, 180, 0.01,           180,
+    0, 4,   .zero = "none", .expected = "an angle from 0 to 180 degrees"};
+static const struct value_scale scale_radius = {
+    0, RADIANCE_MAX, 1e-3, 1e3, 0, 4, .zero = "none", .expected = TO_MAX};
 static const struct value_scale scale_exposure = {
     -100,
     100,
@@ -180,9 +189,6 @@ static void set_background(struct owner *o, const struct value *v)
 
 /* ---- lamps ---- */
 
-/* Lamps that are listed at most, so that PARAMETERS_MAX is enough. */
-#define LAMPS_LISTED 8
-
 static double strongest(const double rgb[3])
 {
     return fmax(rgb[0], fmax(rgb[1], rgb[2]));
@@ -224,7 +230,90 @@ static void set_strength(struct owner *o, const struct value *v)
         o->lamp.rgb[i] = decimal_shortened(color.rgb[i] * v->number);
 }
 
+#define OF_POINT       (1u << LAMP_POINT)
+#define OF_SPOT        (1u << LAMP_SPOT)
+#define OF_DIRECTIONAL (1u << LAMP_DIRECTIONAL)
+
+static const char *const lamp_kinds[LAMP_KINDS] = {
+    [LAMP_POINT] = "point",
+    [LAMP_SPOT] = "spot",
+    [LAMP_DIRECTIONAL] = "direction",
+};
+
+static bool get_lamp_kind(const struct owner *o, struct value *v)
+{
+    v->number = o->lamp.kind;
+    return true;
+}
+
+/* Returns true if a spot has no direction. */
+static bool is_aimless(const struct lamp *l)
+{
+    return !(fabs(l->at[0] - l->position[0]) > 0 ||
+             fabs(l->at[1] - l->position[1]) > 0 ||
+             fabs(l->at[2] - l->position[2]) > 0);
+}
+
+/* Turns a spot down that has no direction. */
+static void settle_lamp(struct owner *o)
+{
+    if (o->lamp.kind == LAMP_SPOT && is_aimless(&o->lamp))
+        o->lamp.at[1] = o->lamp.position[1] - o->place.to / 10;
+}
+
+/* A new direction comes from above, since the default is the horizon. */
+static void set_lamp_kind(struct owner *o, const struct value *v)
+{
+    struct lamp *l = &o->lamp;
+
+    l->kind = (uint32_t)v->number;
+    if (l->kind == LAMP_DIRECTIONAL && !(l->azimuth_deg > 0) &&
+        !(l->elevation_deg > 0))
+        l->elevation_deg = 45;
+    settle_lamp(o);
+}
+
+static bool get_lamp(const struct owner *o, struct value *v)
+{
+    v->number = *(const double *)(const void *)((const char *)&o->lamp +
+                                                o->row->member);
+    return true;
+}
+
+/* The angles of a spot stay in their order. */
+static void set_lamp(struct owner *o, const struct value *v)
+{
+    struct lamp *l = &o->lamp;
+
+    *(double *)(void *)((char *)l + o->row->member) = v->number;
+    if (o->row->member == offsetof(struct lamp, inner_deg))
+        l->outer_deg = fmax(l->outer_deg, l->inner_deg);
+    l->inner_deg = fmin(l->inner_deg, l->outer_deg);
+    settle_lamp(o);
+}
+
+/* Sets the scale of coordinates: a step is a 200th of a power of ten that is
+ * larger than the scene. */
+static struct value_scale place_scale(const struct scene *scene)
+{
+    double reach = 1 / scene->scale, most;
+
+    for (int k = 0; k < 3; k++)
+        reach = fmax(reach, fabs(scene->center[k]) + 1 / scene->scale);
+    most = pow(10, ceil(log10(reach)));
+    return (struct value_scale){-RADIANCE_MAX,
+                                RADIANCE_MAX,
+                                -most,
+                                most,
+                                most / 200,
+                                5,
+                                .expected = "a number from -1e30 to 1e30"};
+}
+
 /* ---- table ---- */
+
+#define LAMP(name) \
+    .get = get_lamp, .set = set_lamp, .member = offsetof(struct lamp, name)
 
 #define LIGHTING(name)                        \
     .get = get_lighting, .set = set_lighting, \
@@ -265,6 +354,23 @@ static const struct parameter_row lamp_rows[] = {
      .set = set_lamp_color},
     {"strength", ALL, VALUE_NUMBER, &scale_emission, .get = get_strength,
      .set = set_strength},
+    {"kind", ALL, VALUE_CHOICE, NULL, .get = get_lamp_kind,
+     .set = set_lamp_kind, CHOICES(lamp_kinds),
+     .expected = "point, spot or direction"},
+    {"x", OF_POINT | OF_SPOT, VALUE_NUMBER, NULL, LAMP(position[0])},
+    {"y", OF_POINT | OF_SPOT, VALUE_NUMBER, NULL, LAMP(position[1])},
+    {"z", OF_POINT | OF_SPOT, VALUE_NUMBER, NULL, LAMP(position[2])},
+    {"to x", OF_SPOT, VALUE_NUMBER, NULL, LAMP(at[0])},
+    {"to y", OF_SPOT, VALUE_NUMBER, NULL, LAMP(at[1])},
+    {"to z", OF_SPOT, VALUE_NUMBER, NULL, LAMP(at[2])},
+    {"inner", OF_SPOT, VALUE_NUMBER, &scale_cone, LAMP(inner_deg)},
+    {"outer", OF_SPOT, VALUE_NUMBER, &scale_cone, LAMP(outer_deg)},
+    {"radius", OF_POINT | OF_SPOT, VALUE_NUMBER, &scale_radius, LAMP(radius)},
+    {"azimuth", OF_DIRECTIONAL, VALUE_NUMBER, &scale_azimuth,
+     LAMP(azimuth_deg)},
+    {"elevation", OF_DIRECTIONAL, VALUE_NUMBER, &scale_lamp_elevation,
+     LAMP(elevation_deg)},
+    {"angle", OF_DIRECTIONAL, VALUE_NUMBER, &scale_disc, LAMP(angle_deg)},
 };
 
 #define COUNT(rows) ((int)(sizeof rows / sizeof rows[0]))
@@ -290,7 +396,7 @@ bool parameter_choose_row(struct owner *o, int i)
     }
     if (o->lamps == NULL ||
         of_lamps / COUNT(lamp_rows) >= (int)o->lamps->count ||
-        of_lamps / COUNT(lamp_rows) >= LAMPS_LISTED)
+        of_lamps / COUNT(lamp_rows) >= PARAMETER_LAMPS)
         return false;
     o->row = &lamp_rows[of_lamps % COUNT(lamp_rows)];
     o->lamp_number = (uint32_t)(of_lamps / COUNT(lamp_rows));
@@ -300,13 +406,7 @@ bool parameter_choose_row(struct owner *o, int i)
 
 const char *parameter_label(const struct owner *o)
 {
-    static const char *const kinds[LAMP_KINDS] = {
-        [LAMP_POINT] = "point",
-        [LAMP_SPOT] = "spot",
-        [LAMP_DIRECTIONAL] = "direction",
-    };
-
-    return o->row->label != NULL ? o->row->label : kinds[o->lamp.kind];
+    return o->row->label != NULL ? o->row->label : lamp_kinds[o->lamp.kind];
 }
 
 struct owner parameter_owner(const struct parameter_target *t,
@@ -322,6 +422,7 @@ struct owner parameter_owner(const struct parameter_target *t,
     case PARAMETER_LIGHT:
         o.lighting = state->view.lighting;
         o.lamps = &state->view.lamps;
+        o.place = place_scale(t->scene);
         o.kind = o.lighting.sun.is_on          ? SKY_SUN
                  : o.lighting.sky_path != NULL ? SKY_IMAGE
                                                : SKY_CONSTANT;
@@ -332,6 +433,9 @@ struct owner parameter_owner(const struct parameter_target *t,
 
 bool parameter_read(const struct owner *o, struct value *v)
 {
+    bool is_lamp = o->lamps != NULL && o->lamp_number != NO_INDEX;
+    uint32_t kind = is_lamp ? o->lamp.kind : o->kind;
+
     *v = (struct value){.number = 0};
-    return (o->row->kinds >> o->kind & 1) != 0 && o->row->get(o, v);
+    return (o->row->kinds >> kind & 1) != 0 && o->row->get(o, v);
 }

@@ -58,6 +58,7 @@ struct owner {
     const struct lamps *lamps; /* all lamps of the light, lent */
     uint32_t lamp_number;      /* of the row's lamp; NO_INDEX: none */
     struct lamp lamp;
+    struct value_scale place; /* of coordinates: depends on the scene's size */
     uint32_t kind; /* enum material_kind; for the light enum sky_kind */
 };
 
@@ -80,14 +81,17 @@ struct value {
 
 struct parameter_row {
     const char *label; /* NULL: the kind of the lamp */
-    uint32_t kinds;    /* bits 1 << owner.kind of the owners that have it */
+    /* bits 1 << owner.kind of the owners that have it; for a lamp's parameters
+     * 1 << lamp.kind */
+    uint32_t kinds;
     enum value_type type;
-    const struct value_scale *scale; /* of the number, channels or kelvins */
+    /* of the number, channels or kelvins; NULL: owner.place */
+    const struct value_scale *scale;
 
     /* Returns false if the owner has no such parameter now. */
     bool (*get)(const struct owner *owner, struct value *value);
     void (*set)(struct owner *owner, const struct value *value);
-    size_t member; /* offset in mtl_source or lighting, for get and set */
+    size_t member; /* offset in mtl_source, lighting or lamp */
     size_t result; /* offset of a float in struct material, for get */
     enum mtl_map map;
 

@@ -187,7 +187,7 @@ static void change_anything(struct edit *e, char *name, char *thing)
     case 9:
         strcpy(thing, "lamp");
         lamp.rgb[1] = value();
-        edit_lamp(e, 0, lamp.rgb);
+        edit_lamp(e, 0, &lamp);
         break;
     }
 }

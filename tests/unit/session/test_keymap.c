@@ -279,7 +279,7 @@ static void panel_keys_are_in_the_help(void **state)
     }
     for (int key = 1; key <= TTY_KEY_F1; key++)
         seen += keymap_panel_action(key) != PANEL_NONE;
-    assert_int_equal(seen, 4 + 2 + 2 + 1 + 13 + 6);
+    assert_int_equal(seen, 4 + 2 + 2 + 1 + 13 + 7);
     assert_int_equal(keymap_panel_action(0), PANEL_NONE);
     assert_int_equal(keymap_panel_action('w'), PANEL_NONE);
     assert_int_equal(keymap_panel_action('x'), PANEL_COMPARE);

@@ -468,34 +468,144 @@ static void type(struct fixture *s, const char *label, const char *text)
 
 static void check_rgb(const double got[3], double r, double g, double b)
 {
-    check_close(got[0], r, 1e-3 * r);
-    check_close(got[1], g, 1e-3 * g);
-    check_close(got[2], b, 1e-3 * b);
+    check_close(got[0], r, 1e-3 * fabs(r));
+    check_close(got[1], g, 1e-3 * fabs(g));
+    check_close(got[2], b, 1e-3 * fabs(b));
 }
 
 /* A colour keeps the strength, and a strength the colour, of its own lamp. */
 static void typed_values_reach_the_lamp(void **state)
 {
     struct fixture s;
-    const struct lamp *lamps;
+    struct lamps *now = &s.edit.now.view.lamps;
 
     (void)state;
     open_fixture(&s);
-    lamps = s.edit.now.view.lamps.items;
     type(&s, "strength", "40"); /* the first one is the point's */
     type(&s, "point", "1 .5 .25");
-    check_rgb(lamps[LAMP_POINT].rgb, 40, 20, 10);
+    check_rgb(now->items[LAMP_POINT].rgb, 40, 20, 10);
     type(&s, "spot", "#0000ff");
-    check_rgb(lamps[LAMP_SPOT].rgb, 0, 0, 1);
+    check_rgb(now->items[LAMP_SPOT].rgb, 0, 0, 1);
     type(&s, "direction", "0.5 0.25 0");
-    check_rgb(lamps[LAMP_DIRECTIONAL].rgb, 1, 0.5, 0);
-    check_rgb(lamps[LAMP_POINT].rgb, 40, 20, 10);
+    check_rgb(now->items[LAMP_DIRECTIONAL].rgb, 1, 0.5, 0);
+    check_rgb(now->items[LAMP_POINT].rgb, 40, 20, 10);
     assert_true(edit_has_unsaved_view(&s.edit));
     for (int i = 0; i < 4; i++) {
         edit_end_step(&s.edit);
         edit_undo(&s.edit);
     }
     assert_true(lamps_equal(&s.edit.now.view.lamps, &s.view.lamps));
+    close_fixture(&s);
+}
+
+/* Sets the first parameter of lamp `number` with this label. */
+static void type_lamp(struct fixture *s, uint32_t number, const char *label,
+                      const char *text)
+{
+    struct parameter_target target = target_of(s, PARAMETER_LIGHT, 0, false);
+    struct parameter list[PARAMETERS_MAX];
+    int count = parameters_list(&target, list);
+    struct error err;
+
+    for (int i = 0; i < count; i++)
+        if (parameter_lamp(&target, list[i].id) == number &&
+            strcmp(list[i].label, label) == 0) {
+            check_or_say(parameter_set_text(&target, list[i].id, text, &err),
+                         err.text);
+            return;
+        }
+    print_error("no parameter '%s' of lamp %u\n", label, number);
+    assert_true(false);
+}
+
+/* Places, angles and sizes reach their lamp, and all are undone. A spot always
+ * has a direction, and its inner angle is within the outer one. */
+static void typed_numbers_reach_the_lamp(void **state)
+{
+    struct fixture s;
+    struct lamps *now = &s.edit.now.view.lamps;
+    static const struct {
+        uint32_t lamp;
+        const char *label, *text;
+    } typed[] = {
+        {LAMP_POINT, "x", "1"},
+        {LAMP_POINT, "y", "-2"},
+        {LAMP_POINT, "z", "3e9"},
+        {LAMP_POINT, "radius", "0.5"},
+        {LAMP_SPOT, "to y", "-4"},
+        {LAMP_SPOT, "to x", "5"},
+        {LAMP_SPOT, "to z", "6"},
+        {LAMP_SPOT, "inner", "60"},
+        {LAMP_SPOT, "outer", "50"},
+        {LAMP_DIRECTIONAL, "azimuth", "70"},
+        {LAMP_DIRECTIONAL, "angle", "0.5"},
+        {LAMP_DIRECTIONAL, "elevation", "-30"},
+    };
+    const struct lamp *l;
+
+    (void)state;
+    open_fixture(&s);
+    for (size_t i = 0; i < sizeof typed / sizeof *typed; i++) {
+        edit_end_step(&s.edit);
+        type_lamp(&s, typed[i].lamp, typed[i].label, typed[i].text);
+    }
+    l = now->items;
+    check_rgb(l[LAMP_POINT].position, 1, -2, 3e9);
+    check_close(l[LAMP_POINT].radius, 0.5, 0);
+    check_rgb(l[LAMP_SPOT].at, 5, -4, 6);
+    check_close(l[LAMP_SPOT].inner_deg, 50, 0);
+    check_close(l[LAMP_SPOT].outer_deg, 50, 0);
+    check_close(l[LAMP_DIRECTIONAL].azimuth_deg, 70, 0);
+    check_close(l[LAMP_DIRECTIONAL].elevation_deg, -30, 0);
+    check_close(l[LAMP_DIRECTIONAL].angle_deg, 0.5, 0);
+    type_lamp(&s, LAMP_SPOT, "x", "5");
+    type_lamp(&s, LAMP_SPOT, "y", "-4");
+    type_lamp(&s, LAMP_SPOT, "z", "6");
+    assert_true(now->items[LAMP_SPOT].at[1] < -4);
+    while (edit_undo(&s.edit) != NULL)
+        continue;
+    assert_true(lamps_equal(now, &s.view.lamps));
+    close_fixture(&s);
+}
+
+/* Lamps come, change their kind and go; undo brings them back. */
+static void lamps_come_and_go(void **state)
+{
+    struct fixture s;
+    struct lamps *now = &s.edit.now.view.lamps;
+    struct parameter_target target;
+    struct lamp lamp;
+    uint32_t number;
+
+    (void)state;
+    open_fixture(&s);
+    target = target_of(&s, PARAMETER_LIGHT, 0, false);
+    lamp = parameter_new_lamp(&target, NO_INDEX);
+    number = edit_add_lamp(&s.edit, &lamp);
+    edit_end_step(&s.edit);
+    assert_int_equal(number, LAMP_KINDS);
+    assert_int_equal(now->count, LAMP_KINDS + 1);
+    check_rgb(now->items[number].position, s.scene.center[0], s.scene.center[1],
+              s.scene.center[2]);
+    type_lamp(&s, number, "kind", "spot");
+    assert_true(now->items[number].at[1] < now->items[number].position[1]);
+    type_lamp(&s, number, "kind", "direction");
+    assert_true(now->items[number].elevation_deg > 0);
+    edit_end_step(&s.edit);
+    edit_remove_lamp(&s.edit, 0);
+    edit_end_step(&s.edit);
+    assert_int_equal(now->count, LAMP_KINDS);
+    assert_int_equal(now->items[0].kind, LAMP_SPOT);
+    assert_true(edit_has_unsaved_view(&s.edit));
+    edit_undo(&s.edit);
+    assert_int_equal(now->items[0].kind, LAMP_POINT);
+    while (edit_undo(&s.edit) != NULL)
+        continue;
+    assert_true(lamps_equal(now, &s.view.lamps));
+    while (edit_redo(&s.edit) != NULL)
+        continue;
+    assert_int_equal(now->count, LAMP_KINDS);
+    assert_int_equal(now->items[2].kind, LAMP_DIRECTIONAL);
     close_fixture(&s);
 }
 
@@ -527,6 +637,8 @@ int main(void)
         cmocka_unit_test(texts_can_be_typed),
         cmocka_unit_test(typed_values_reach_the_material),
         cmocka_unit_test(typed_values_reach_the_lamp),
+        cmocka_unit_test(typed_numbers_reach_the_lamp),
+        cmocka_unit_test(lamps_come_and_go),
         cmocka_unit_test(many_lamps_fit_the_list),
     };
 
