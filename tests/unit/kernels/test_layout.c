@@ -95,7 +95,8 @@
     S(sum) M(sum, lo) M(sum, hi)                                              \
     S(tally) M(tally, samples) M(tally, rays) M(tally, non_finite)            \
       M(tally, saturated) M(tally, cut_paths)                                 \
-    S(task) M(task, target) M(task, samples) M(task, first) M(task, count)    \
+    S(task) M(task, target) M(task, first_sample) M(task, samples)            \
+      M(task, first) M(task, count)                                           \
       M(task, columns) M(task, stride) M(task, width) M(task, x0)             \
       M(task, y0) M(task, has_shares) M(task, pad)                            \
     S(camera_sample) M(camera_sample, ray) M(camera_sample, sampler)
