@@ -109,6 +109,7 @@ static const struct subject {
     {"lamps2000", MADE, DIRECT_MIS, 5},
     {"sun", MADE, DIRECT_MIS, 50},
     {"balls", MADE, DIRECT_MIS, 5},
+    {"sunball", MADE, DIRECT_MIS, 100},
     {"coat", MADE, DIRECT_MIS, 0.95},
     {"sheen", MADE, DIRECT_MIS, 0.95},
     {"grain", MADE, DIRECT_MIS, 0.95},

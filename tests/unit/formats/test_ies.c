@@ -213,8 +213,8 @@ static void missing_angles_are_dark(void **state)
     (void)state;
     open_text(&t);
     fprintf(t.to,
-            "a lamp\rTILT=NONE\r1 0 %g 2 1 1 1 0 0 0\r2 .5 0\r"
-            "90 180\r0\r1 1\r",
+            "a lamp\rTILT=NONE\r1 0 %g 2 1 1 1 0 0 0\r2 .25 0\r"
+            "90 180\r0\r2 2\r",
             DAYLIGHT_UNIT);
     profile = close_text(&t);
     assert_int_equal(profile->columns, 1);
@@ -320,7 +320,7 @@ int main(void)
         cmocka_unit_test(angles_have_their_directions),
         cmocka_unit_test(missing_angles_are_dark),
         cmocka_unit_test(broken_files_have_their_message),
-        cmocka_unit_test_setup_teardown(view_files_name_profiles, make_folder,
+        cmocka_unit_test_setup_teardown(view_files_name_profiles, enter_folder,
                                         remove_folder),
     };
 

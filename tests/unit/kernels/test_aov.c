@@ -215,6 +215,49 @@ static void previews_show_colours_times_the_cosine(void **state)
     mesh_free(&mesh);
 }
 
+/* Spheres and discs have their hue; what is before them hides them. */
+static void previews_show_spheres_and_discs(void **state)
+{
+    struct point_light sphere = {.p = {0, 0, 0},
+                                 .radius = 0.1f,
+                                 .cone_offset = 1,
+                                 .emission = {8, 4, 2}};
+    struct directional_light disc = {.size = 1e-4f,
+                                     .emission = {50, 100, 0},
+                                     .power = 1};
+    double d[3];
+
+    (void)state;
+    mesh = (struct mesh){0};
+    mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, 0);
+    mesh_add_quad(&mesh, v3(-2, -1, 1), v3(0, -1, 1), v3(0, 1, 1), v3(-2, 1, 1),
+                  0);
+    look_down(&mesh.world, 1);
+    direction_of(SIDE - 1, SIDE / 2, d);
+    disc.d = v3((float)d[0], (float)d[1], (float)d[2]);
+    mesh.world.point_lights = &sphere;
+    mesh.world.settings.point_light_count = 1;
+    mesh.world.settings.sphere_count = 1;
+    mesh.world.directional_lights = &disc;
+    mesh.world.settings.directional_light_count = 1;
+    mesh_finish(&mesh);
+    direction_of(SIDE / 2, SIDE / 2, d);
+    sphere.p = v3_add(mesh.world.settings.camera.eye,
+                      v3((float)d[0], (float)d[1], (float)d[2]));
+    check_vector(sample_of(SAMPLE_PREVIEW, SIDE / 2, SIDE / 2, 0),
+                 (double[3]){1, 0.5, 0.25}, 1e-6);
+    check_vector(sample_of(SAMPLE_PREVIEW, SIDE - 1, SIDE / 2, 0),
+                 (double[3]){0.5, 1, 0}, 1e-6);
+    assert_true(v3_is_zero(sample_of(SAMPLE_PREVIEW, SIDE - 1, 0, 0)));
+    assert_true(v3_is_zero(sample_of(SAMPLE_DEPTH, SIDE - 1, SIDE / 2, 0)));
+    direction_of(2, SIDE / 2, d);
+    sphere.p =
+        v3_add(mesh.world.settings.camera.eye,
+               v3((float)(20 * d[0]), (float)(20 * d[1]), (float)(20 * d[2])));
+    assert_true(v3_is_zero(sample_of(SAMPLE_PREVIEW, 2, SIDE / 2, 0)));
+    mesh_free(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -222,6 +265,7 @@ int main(void)
         cmocka_unit_test(features_of_a_wall_are_exact),
         cmocka_unit_test(faces_keep_their_winding),
         cmocka_unit_test(previews_show_colours_times_the_cosine),
+        cmocka_unit_test(previews_show_spheres_and_discs),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -177,6 +177,34 @@ static void make_ball(struct lit_mesh *s, struct directional_light *sun)
     lit_mesh_finish(s);
 }
 
+/* A floor of albedo .5 that emits .5 has radiance 1 where all else has, also
+ * below a pane: tables change no mean. */
+static void tables_keep_the_mean(void **state)
+{
+    struct directional_light sun = sun_at(.2, 2);
+    struct path_guide g = {.cells = NULL};
+    struct lit_mesh s;
+    struct claim c = {.eye = {.03f, .1f, .02f},
+                      .at = {0, 0, 0},
+                      .truth = GREY(1),
+                      .paths = 4000,
+                      .without = NOT_BY_LIGHTS};
+
+    (void)state;
+    make_floor(&s, PANE);
+    s.mesh.materials[0].emission = v3(.5f, .5f, .5f);
+    s.mesh.world.settings.sky.color = v3(1, 1, 1);
+    set_sun(&s, &sun);
+    lit_mesh_finish(&s);
+    build(&s, &g);
+    assert_int_not_equal(caustic_table_at(&s.mesh.world, c.at, v3(0, 1, 0)),
+                         NO_INDEX);
+    s.mesh.world.settings.directional_light_count = 0;
+    check_claim(&s, c);
+    path_guide_free(&g);
+    lit_mesh_free(&s);
+}
+
 /* Density of a direction by a look at every bin of every group. */
 static double density_of(const struct world *w, uint32_t first, struct vec3 p,
                          struct vec3 d)
@@ -355,6 +383,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(suns_shine_through_glass),
         cmocka_unit_test(spheres_shine_through_panes),
+        cmocka_unit_test(tables_keep_the_mean),
         cmocka_unit_test(samples_have_their_density),
         cmocka_unit_test(bins_have_their_probability),
         cmocka_unit_test(tables_exist_only_with_lamps_of_a_size),

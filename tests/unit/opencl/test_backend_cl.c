@@ -406,7 +406,19 @@ static void edited_worlds_are_equal(void **state)
     close_pair(&p);
 }
 
-/* Lamps of each kind come and go, with caustics of those that have a size. */
+/* A profile without symmetry. */
+static struct profile *make_profile(void)
+{
+    struct profile *p = profile_create("a.ies", 8);
+
+    assert_non_null(p);
+    for (uint32_t i = 0; i < profile_value_count(p); i++)
+        p->values[i] = (float)(1 + i % 13) / 13;
+    return p;
+}
+
+/* Lamps of each kind come and go, with caustics of those that have a size, and
+ * with a profile. */
 static void lamps_are_equal(void **state)
 {
     uint32_t has_caustics = 0;
@@ -433,7 +445,9 @@ static void lamps_are_equal(void **state)
         }
         if (i == 6)
             lamps_free(&p.view.lamps);
+        lamp.profile = i == 1 || i == 6 ? make_profile() : NULL;
         assert_true(lamps_add(&p.view.lamps, &lamp));
+        profile_release(lamp.profile);
         check_or_say(world_set_lamps(&p.world, &p.scene, &p.view, &err) &&
                          world_guide(&p.world, &p.scene, &p.view, &err),
                      err.text);
