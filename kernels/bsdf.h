@@ -105,7 +105,7 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
         return eon_terms(m, wo, wi, pdf);
     e = bsdf_albedos(m, bsdf_albedo(m, wo), wi);
     if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
-        return metal_terms(m, wo, wi, &e, pdf);
+        return metal_terms(m, m->color, wo, wi, &e, pdf);
     return plastic_terms(m, wo, wi, &e, pdf);
 }
 

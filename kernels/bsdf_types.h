@@ -25,6 +25,8 @@ struct bsdf {
     float sheen_alpha;
     float anisotropy; /* of metal, plastic and sheets, 0 to 1 along x */
     uint32_t is_thin; /* 1: the glass of a mixture is a thin sheet */
+    float film;       /* weight of a thin film on a mixture: thin_film.h */
+    float film_ior, film_thickness; /* refractive index; nanometres */
 };
 
 /* Returns the microfacets of metal, plastic and sheets. The widths have the
@@ -45,6 +47,11 @@ struct bsdf_sample {
     float eta_scale;    /* 1/eta^2 for a transmission into glass, else 1 */
     bool is_delta;      /* a delta lobe was sampled */
 };
+
+static inline float mean_channel(struct vec3 c)
+{
+    return (c.x + c.y + c.z) * (1.0f / 3.0f);
+}
 
 /* True if the surface is smooth, so that its specular lobes are deltas. */
 static inline bool is_smooth(const struct bsdf *m)

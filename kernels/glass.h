@@ -17,6 +17,7 @@
 #include "kernels/energy.h"
 #include "kernels/fresnel.h"
 #include "kernels/ggx.h"
+#include "kernels/thin_film.h"
 
 /* An index closer to 1 counts as matched: the half vector wo + eta wi would
  * cancel. */
@@ -32,6 +33,20 @@ static inline bool glass_is_index_matched(const struct bsdf *m)
     return fabsf(m->eta - 1.0f) < ETA_MATCHED;
 }
 
+/* Albedo of rough glass under any film: that of reflection or of transmission
+ * alone, whichever is more. With it samples are scaled to at most all light,
+ * and rough white glass with a film loses up to 4 %. */
+static inline float glass_film_albedo(const struct bsdf *m, struct vec3 wo)
+{
+    float cos_t;
+    float f = fresnel_dielectric(wo.z, m->eta, &cos_t);
+    float reflected = 1.0f - ggx_albedo(wo.z, m->alpha).loss;
+    float both = glass_albedo(wo.z, m->alpha, m->eta);
+    float passed = f < 1.0f ? (both - f * reflected) / (1.0f - f) : reflected;
+
+    return f_min(f_max(f_max(reflected, passed), both), 1.0f);
+}
+
 /* f |cosine| and the density of rough faces. */
 static inline struct vec3 glass_terms(const struct bsdf *m, struct vec3 wo,
                                       struct vec3 wi, float *pdf)
@@ -42,6 +57,7 @@ static inline struct vec3 glass_terms(const struct bsdf *m, struct vec3 wo,
     struct ggx g = {m->alpha, 1.0f};
     float t_o = ggx_root(wo, g);
     float t_i = ggx_root(wi, g);
+    struct vec3 tint = is_crossing ? m->color : v3(1.0f, 1.0f, 1.0f);
     float o_dot_h, i_dot_h, cos_t, part, jacobian, gain;
 
     *pdf = 0.0f;
@@ -60,11 +76,16 @@ static inline struct vec3 glass_terms(const struct bsdf *m, struct vec3 wo,
         part = fresnel_dielectric(o_dot_h, m->eta, &cos_t);
         jacobian = 0.25f / o_dot_h;
     }
+    if (has_film(m))
+        tint =
+            v3_mul(tint, film_tint(film_glass(m, o_dot_h, is_crossing), &part));
     *pdf = part * jacobian * 2.0f * o_dot_h * ggx_density(h, g) / (wo.z + t_o);
     /* G2 / G1, over a common denominator */
     gain = mu_i * (wo.z + t_o) / (wo.z * t_i + mu_i * t_o);
-    gain /= f_max(glass_albedo(wo.z, m->alpha, m->eta), GLASS_ALBEDO_MIN);
-    return v3_scale(is_crossing ? m->color : v3(1.0f, 1.0f, 1.0f), *pdf * gain);
+    gain /= f_max(has_film(m) ? glass_film_albedo(m, wo)
+                              : glass_albedo(wo.z, m->alpha, m->eta),
+                  GLASS_ALBEDO_MIN);
+    return v3_scale(tint, *pdf * gain);
 }
 
 /* Factor of radiance that comes from wi: 1/eta^2 for transmission. */
@@ -81,8 +102,11 @@ static inline struct vec3 glass_reflect_or_refract(const struct bsdf *m,
 {
     float c = v3_dot(wo, h);
     float cos_t;
+    float f = fresnel_dielectric(c, m->eta, &cos_t);
 
-    if (choice < fresnel_dielectric(c, m->eta, &cos_t))
+    if (has_film(m))
+        f = mean_channel(film_glass(m, c, false));
+    if (choice < f)
         return reflect_at(wo, h);
     /* unit length up to rounding, which is large at extreme indices */
     return v3_unit(v3_sub(v3_scale(v3_sub(v3_scale(h, c), wo), 1.0f / m->eta),
@@ -93,10 +117,14 @@ static inline bool glass_sample_smooth(const struct bsdf *m, struct vec3 wo,
                                        float choice, struct bsdf_sample *s)
 {
     struct vec3 wi = v3_neg(wo);
+    float mean;
 
     if (!glass_is_index_matched(m))
         wi = glass_reflect_or_refract(m, wo, v3(0.0f, 0.0f, 1.0f), choice);
     sample_delta(s, wi, wi.z < 0.0f ? m->color : v3(1.0f, 1.0f, 1.0f));
+    if (has_film(m) && !glass_is_index_matched(m))
+        s->weight = v3_mul(s->weight,
+                           film_tint(film_glass(m, wo.z, wi.z < 0.0f), &mean));
     s->eta_scale = glass_eta_scale(m, wi);
     return true;
 }

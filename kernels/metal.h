@@ -71,18 +71,18 @@ bsdf_albedos(const struct bsdf *m, struct ggx_albedo o, struct vec3 wi)
     return is_smooth(m) ? none : facet_albedos_at(o, wi, bsdf_facets(m));
 }
 
-/* e: bsdf_albedos(). The loss at wo is also the probability to sample the
- * multiscatter lobe. */
-static inline struct vec3 metal_terms(const struct bsdf *m, struct vec3 wo,
-                                      struct vec3 wi,
+/* color: reflectance at normal incidence; e: bsdf_albedos(). The loss at wo is
+ * also the probability to sample the multiscatter lobe. */
+static inline struct vec3 metal_terms(const struct bsdf *m, struct vec3 color,
+                                      struct vec3 wo, struct vec3 wi,
                                       const struct facet_albedos *e, float *pdf)
 {
     struct vec3 h = half_vector(wo, wi);
     struct ggx g = bsdf_facets(m);
     float loss_o = e->o.loss;
     float loss_mean = e->mean.loss;
-    struct vec3 f = fresnel_schlick_mean(m->color);
-    struct vec3 single = v3_scale(fresnel_schlick(m->color, v3_dot(wo, h)),
+    struct vec3 f = fresnel_schlick_mean(color);
+    struct vec3 single = v3_scale(fresnel_schlick(color, v3_dot(wo, h)),
                                   ggx_reflection(wo, wi, h, g));
     struct vec3 multiple = v3_scale(v3(multiscatter_color(f.x, loss_mean),
                                        multiscatter_color(f.y, loss_mean),
@@ -96,15 +96,16 @@ static inline struct vec3 metal_terms(const struct bsdf *m, struct vec3 wo,
 
 /* Samples a direction; only that of a mirror gets its weight. o: bsdf_albedo()
  * at wo. */
-static inline bool metal_direction(const struct bsdf *m, struct vec3 wo,
-                                   struct ggx_albedo o, struct vec2 u,
-                                   float choice, struct bsdf_sample *s)
+static inline bool metal_direction(const struct bsdf *m, struct vec3 color,
+                                   struct vec3 wo, struct ggx_albedo o,
+                                   struct vec2 u, float choice,
+                                   struct bsdf_sample *s)
 {
     struct vec3 wi;
 
     if (is_smooth(m))
         return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
-                            fresnel_schlick(m->color, wo.z));
+                            fresnel_schlick(color, wo.z));
     wi = choice < o.loss ? multiscatter_direction(m->alpha, u)
                          : ggx_reflect(wo, bsdf_facets(m), u);
     return wi.z > COSINE_MIN && sample_direction(s, wi, 1.0f);
@@ -119,12 +120,12 @@ static inline bool metal_sample(const struct bsdf *m, struct vec3 wo,
     struct vec3 f;
     float pdf;
 
-    if (!metal_direction(m, wo, o, u, choice, s))
+    if (!metal_direction(m, m->color, wo, o, u, choice, s))
         return false;
     if (s->is_delta)
         return true;
     e = bsdf_albedos(m, o, s->wi);
-    f = metal_terms(m, wo, s->wi, &e, &pdf);
+    f = metal_terms(m, m->color, wo, s->wi, &e, &pdf);
     return sample_density(s, s->wi, f, pdf);
 }
 

@@ -8,8 +8,9 @@
  * refractive index 1.5 lies over the base, and sheen over both. What a layer
  * reflects, E(wo), those below lose: they are scaled by 1 - E(wo), as in the
  * surfaces of other renderers (Georgiev et al. 2019, "Autodesk Standard
- * Surface"). That conserves energy; under a coat or sheen the mixture is not
- * reciprocal.
+ * Surface"). A thin film between base and coat changes the colours of metal and
+ * of plastic's face to those with its reflectance seen from wo. All of this
+ * conserves energy, but is not reciprocal.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
  */
@@ -19,6 +20,7 @@
 #include "kernels/glass.h"
 #include "kernels/plastic.h"
 #include "kernels/sheen.h"
+#include "kernels/thin_film.h"
 #include "kernels/thin_glass.h"
 
 /* Reflectance of the coat at normal incidence. */
@@ -36,6 +38,7 @@ enum lobe {
 /* The lobes of a mixture, as seen from wo. */
 struct lobes {
     struct ggx_albedo facets; /* of the base: bsdf_albedo() */
+    struct vec3 metal;        /* its colour at normal incidence */
     float weight[LOBES];      /* factors of their f */
     float chance[LOBES]; /* probabilities to sample them; all are 0 if black */
 };
@@ -66,15 +69,48 @@ static inline struct bsdf principled_glass(const struct bsdf *m)
     return glass;
 }
 
+/* Least cosine for which the reflectance of a film is computed. Below, that of
+ * any surface goes to 1, and F0 would have large errors. */
+#define FILM_COSINE_MIN 0.05f
+
+/* Returns the colour of metal under the film as seen from wo. At grazing angles
+ * it reflects at least what Schlick's approximation has for black. */
+static inline struct vec3 film_metal(const struct bsdf *m, struct vec3 wo)
+{
+    float c = f_max(wo.z, FILM_COSINE_MIN);
+    float weight = schlick_weight(c);
+    struct vec3 r =
+        v3_lerp(fresnel_schlick(m->color, c),
+                film_reflectance(m->color, m->film_ior, m->film_thickness, c),
+                m->film);
+
+    return v3(film_f0(r.x, 1.0f, weight), film_f0(r.y, 1.0f, weight),
+              film_f0(r.z, 1.0f, weight));
+}
+
+/* Returns the mixture with the reflectance of plastic's face under the film as
+ * seen from wo. It may bring specular_grazing() below 1. */
+static inline struct bsdf film_plastic(const struct bsdf *m, struct vec3 wo)
+{
+    struct bsdf plastic = *m;
+    float c = f_max(wo.z, FILM_COSINE_MIN);
+    float weight = schlick_weight(c);
+    struct vec3 r = v3_lerp(specular_fresnel(m->specular, weight),
+                            film_reflectance(m->specular, m->film_ior,
+                                             m->film_thickness, c),
+                            m->film);
+    float f90 =
+        f_min(50.0f * v3_max_component(r) / (1.0f + 49.0f * weight), 1.0f);
+
+    plastic.specular = v3(film_f0(r.x, f90, weight), film_f0(r.y, f90, weight),
+                          film_f0(r.z, f90, weight));
+    return plastic;
+}
+
 /* True if there are no facets but those of solid glass. */
 static inline bool principled_is_solid(const struct bsdf *m)
 {
     return m->metalness == 0.0f && m->transmission == 1.0f && m->is_thin == 0;
-}
-
-static inline float mean_channel(struct vec3 c)
-{
-    return (c.x + c.y + c.z) * (1.0f / 3.0f);
 }
 
 /* Returns an estimate of the plastic's albedo. */
@@ -94,6 +130,7 @@ static inline struct lobes principled_lobes(const struct bsdf *m,
     struct lobes l;
     float below = 1.0f, sum = 0.0f;
 
+    l.metal = has_film(m) ? film_metal(m, wo) : m->color;
     l.facets.loss = 0.0f;
     l.facets.schlick = 0.0f;
     if (!principled_is_solid(m))
@@ -120,7 +157,7 @@ static inline struct lobes principled_lobes(const struct bsdf *m,
     l.weight[LOBE_GLASS] = below * m->transmission;
     l.weight[LOBE_PLASTIC] = below - l.weight[LOBE_GLASS];
     l.chance[LOBE_METAL] =
-        l.weight[LOBE_METAL] * mean_channel(fresnel_schlick(m->color, wo.z));
+        l.weight[LOBE_METAL] * mean_channel(fresnel_schlick(l.metal, wo.z));
     l.chance[LOBE_GLASS] = l.weight[LOBE_GLASS];
     l.chance[LOBE_PLASTIC] = 0.0f;
     if (l.weight[LOBE_PLASTIC] > 0.0f)
@@ -208,7 +245,7 @@ static inline struct vec3 principled_terms_of(const struct bsdf *m,
     if (l->weight[LOBE_COAT] > 0.0f)
         principled_add_coat(m, l, wo, wi, &sum, pdf);
     if (l->weight[LOBE_METAL] > 0.0f && !is_smooth(m)) {
-        f = metal_terms(m, wo, wi, &e, &lobe_pdf);
+        f = metal_terms(m, l->metal, wo, wi, &e, &lobe_pdf);
         principled_add(l, LOBE_METAL, f, lobe_pdf, &sum, pdf);
     }
     if (l->weight[LOBE_PLASTIC] > 0.0f) {
@@ -221,8 +258,14 @@ static inline struct vec3 principled_terms_of(const struct bsdf *m,
 static inline struct vec3 principled_terms(const struct bsdf *m, struct vec3 wo,
                                            struct vec3 wi, float *pdf)
 {
-    struct lobes l = principled_lobes(m, wo);
+    struct bsdf plastic;
+    struct lobes l;
 
+    if (has_film(m)) {
+        plastic = film_plastic(m, wo);
+        m = &plastic;
+    }
+    l = principled_lobes(m, wo);
     return principled_terms_of(m, &l, wo, wi, pdf);
 }
 
@@ -272,7 +315,7 @@ static inline bool principled_direction(const struct bsdf *m,
         return s->wi.z > COSINE_MIN;
     }
     if (lobe == LOBE_METAL)
-        return metal_direction(m, wo, l->facets, u, choice, s);
+        return metal_direction(m, l->metal, wo, l->facets, u, choice, s);
     if (lobe == LOBE_PLASTIC)
         return plastic_direction(m, wo, l->facets, u, choice, s);
     if (lobe == LOBE_GLASS) {
@@ -288,12 +331,19 @@ static inline bool principled_sample(const struct bsdf *m, struct vec3 wo,
                                      struct vec2 u, float choice,
                                      struct bsdf_sample *s)
 {
-    struct lobes l = principled_lobes(m, wo);
-    uint32_t lobe = principled_choose(&l, &choice);
+    struct bsdf plastic;
+    struct lobes l;
+    uint32_t lobe;
     float eta_scale;
     struct vec3 f;
     float pdf;
 
+    if (has_film(m)) {
+        plastic = film_plastic(m, wo);
+        m = &plastic;
+    }
+    l = principled_lobes(m, wo);
+    lobe = principled_choose(&l, &choice);
     if (lobe == LOBES || !principled_direction(m, &l, lobe, wo, u, choice, s))
         return false;
     if (s->is_delta) {

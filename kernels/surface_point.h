@@ -149,6 +149,9 @@ static inline void principled_at(const struct world *w,
             v3_mul(b->sheen, texture_at(w, m->sheen_texture, v->uv).color);
     b->sheen_alpha = m->sheen_alpha;
     b->is_thin = m->is_thin;
+    b->film = m->film;
+    b->film_ior = m->film_ior;
+    b->film_thickness = m->film_thickness;
 }
 
 static inline struct bsdf bsdf_at(const struct world *w,

@@ -123,13 +123,11 @@ static inline bool has_coverage(const struct world *w)
            (w->settings.features & FEATURE_COVERAGE) != 0;
 }
 
-/* The probability with which a hit stops a ray: the opacity times the alphas of
- * the colour texture and of the opacity texture. */
-static inline float coverage_at(const struct world *w, struct hit h)
+/* The opacity times the alphas of the colour texture and of the opacity
+ * texture. */
+static inline float opacity_at(const struct world *w, struct material m,
+                               struct tri t, struct hit h)
 {
-    struct tri t = w->tris[h.tri];
-    struct material m = w->materials[t.material];
-
     if (HAS(FEATURE_TEXTURES) && t.vt[0] != NO_INDEX &&
         (m.color_texture != NO_INDEX || m.opacity_texture != NO_INDEX)) {
         struct vec2 uv = uv_at(w, t, h);
@@ -138,6 +136,18 @@ static inline float coverage_at(const struct world *w, struct hit h)
                alpha_at(w, m.opacity_texture, uv);
     }
     return m.opacity;
+}
+
+/* The probability with which a hit stops a ray. */
+static inline float coverage_at(const struct world *w, struct hit h)
+{
+    struct tri t = w->tris[h.tri];
+    struct material m = w->materials[t.material];
+    float opacity = opacity_at(w, m, t, h);
+
+    if (m.cutoff > 0.0f)
+        return opacity < m.cutoff ? 0.0f : 1.0f;
+    return opacity;
 }
 
 #endif

@@ -76,6 +76,10 @@ struct material {
     uint32_t bump_texture;   /* heights in alpha */
     float bump_scale;        /* height of an alpha of 1, in texels */
     float normal_strength;   /* 0: the map of normals has no effect; 1: all */
+    float film; /* weight of a thin film on MATERIAL_PRINCIPLED: thin_film.h */
+    float film_ior;
+    float film_thickness; /* in nanometres */
+    float cutoff; /* above 0: coverage from here on is 1, below it is 0 */
 };
 
 /* Roughness below which a microfacet lobe is a delta lobe. */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "scene/statement.h"
+#include "kernels/energy.h"
 #include "kernels/light.h"
 
 /* Least Ns that gives a perfect mirror: exporters write 1000 for mirrors.
@@ -294,19 +295,40 @@ static double metalness(const struct mtl_source *s, int illum,
     return illum == 1 && ka < 1 ? ka : 0; /* Ks is 0 */
 }
 
-/* Roughness of sheen, for which MTL has no statement. Blender's default. */
-#define SHEEN_ROUGHNESS 0.5f
+/* Sets the film. One without thickness, or without a surface that reflects, has
+ * no effect. */
+static void set_film(struct material *m, bool has_facets,
+                     const struct mtl_source *s,
+                     const struct statement_place *at)
+{
+    double weight = statement_unit(&s->pf, "Pf", at);
+    double ior = statement_within(&s->pf_ior, "Pf_ior", 1,
+                                  MATERIAL_FILM_IOR_MAX, MATERIAL_FILM_IOR, at);
+    double thickness = statement_within(&s->pf_thickness, "Pf_thickness", 0,
+                                        MATERIAL_FILM_THICKNESS_MAX,
+                                        MATERIAL_FILM_THICKNESS, at);
+
+    if (!(weight > 0) || !(thickness > 0) || !has_facets)
+        return;
+    m->film = (float)weight;
+    m->film_ior = (float)ior;
+    m->film_thickness = (float)thickness;
+}
 
 static void set_sheen_and_grain(struct material *m, const struct mtl_source *s,
                                 const struct statement_place *at)
 {
     float ps = (float)statement_weight(s, &s->ps, "Ps", MTL_MAP_PS, at);
+    double roughness =
+        s->ps_roughness.line != 0
+            ? statement_unit(&s->ps_roughness, "Ps_roughness", at)
+            : MATERIAL_SHEEN_ROUGHNESS;
     double turn = s->anisor.line != 0 ? s->anisor.value : 0;
 
     m->sheen = (struct vec3){ps, ps, ps};
     m->sheen_texture = mtl_source_map(s, MTL_MAP_PS);
     if (ps > 0)
-        m->sheen_alpha = SHEEN_ROUGHNESS * SHEEN_ROUGHNESS;
+        m->sheen_alpha = fmaxf((float)(roughness * roughness), SHEEN_ALPHA_MIN);
     m->anisotropy = (float)statement_unit(&s->aniso, "aniso", at);
     if (m->anisotropy > 0 && isfinite(turn)) {
         turn = 2 * M_PI * (turn - floor(turn));
@@ -335,7 +357,8 @@ static bool make_principled(struct material *m, int illum, bool has_ks,
     set_sheen_and_grain(m, s, at);
     if (m->metalness == 0 && !has_ks)
         m->anisotropy = 0;
-    return m->sheen.x > 0 || m->anisotropy > 0 ||
+    set_film(m, m->metalness > 0 || has_ks || m->transmission > 0, s, at);
+    return m->sheen.x > 0 || m->anisotropy > 0 || m->film > 0 ||
            m->metal_texture != NO_INDEX || m->transmission > 0 || m->coat > 0 ||
            (m->metalness > 0 && m->metalness < 1);
 }
@@ -359,6 +382,7 @@ static void make_opaque(struct material *m, int illum,
                      s->d.line != 0 ? "d" : "Tr",
                      s->d.line != 0 ? s->d.value : s->tr.value);
     m->opacity_texture = mtl_source_map(s, MTL_MAP_D);
+    m->cutoff = (float)statement_unit(&s->d_cutoff, "d_cutoff", at);
     m->color =
         statement_reflectance(&s->kd, "Kd",
                               map_kd != NO_INDEX ? 0 : MATERIAL_GREY, at);

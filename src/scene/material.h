@@ -7,16 +7,20 @@
  *   glass        illum 6 or 7; colour Tf times map_Kd
  *   thin glass   illum 4 or 9, unless Tf is white or absent and d is below 1 or
  *                Ni is 1; colour Tf times map_Kd
- *   principled   Pm between 0 and 1, map_Pm, Pc, Ps or aniso above 0, map_Pc,
- *                map_Ps, or map_Tf or Tf that is not black beside Pr: a mixture
- * of metal of colour Kd (weight Pm times map_Pm), glass (mean of Tf) and
- * plastic, under a coat (weight Pc, roughness Pcr) and grey sheen (Ps); aniso
- * stretches highlights along u, turned by anisor of a turn metal        Pm 1;
- * colour Kd metal        illum 3 or 5 with map_Ks or with Ks that is not black;
+ *   principled   Pm between 0 and 1, map_Pm, Pc, Ps, Pf or aniso above 0,
+ *                map_Pc, map_Ps, or map_Tf or Tf that is not black beside Pr
+ *   metal        Pm 1; colour Kd
+ *   metal        illum 3 or 5 with map_Ks or with Ks that is not black;
  *                colour Ks
  *   plastic      map_Ks, or Ks that is not black: diffuse of colour Kd under a
  *                clear surface of reflectance MATERIAL_SPECULAR times Ks
  *   diffuse      all others; colour Kd, roughness Kd_roughness (default 0)
+ * The principled surface is a mixture of metal of colour Kd (weight Pm times
+ * map_Pm), glass (mean of Tf) and plastic, under a thin film (weight Pf, index
+ * Pf_ior, Pf_thickness nanometres), a coat (weight Pc, roughness Pcr) and grey
+ * sheen (weight Ps, roughness Ps_roughness). aniso stretches highlights along
+ * u, turned by anisor of a turn. With d_cutoff coverage is 0 or 1.
+ *
  * A map multiplies its colour. Roughness alpha is Pr squared; without Pr it is
  * sqrt(2 / (Ns + 2)), or 0 if Ns is absent, 0, or at least 1000. Pr defaults
  * to 1 if there is map_Pr; Pm, Pc, Pcr, Ps and Tf to 1 likewise. With
@@ -48,6 +52,16 @@
 
 /* Colour of a material whose file gives none. */
 #define MATERIAL_GREY 0.8f
+
+/* Roughness of sheen without Ps_roughness, as in Blender. */
+#define MATERIAL_SHEEN_ROUGHNESS 0.5
+
+/* A film without Pf_ior and Pf_thickness, as in KHR_materials_iridescence of
+ * glTF, and the greatest numbers. */
+#define MATERIAL_FILM_IOR           1.3
+#define MATERIAL_FILM_THICKNESS     400
+#define MATERIAL_FILM_IOR_MAX       10
+#define MATERIAL_FILM_THICKNESS_MAX 2000
 
 /* Maps of a material. */
 #define MATERIAL_MAPS 12

@@ -44,6 +44,8 @@ uint32_t material_features(const struct material *m,
         features |= FEATURE_ANISOTROPY;
     if (m->kind == MATERIAL_PRINCIPLED && !v3_is_zero(m->sheen))
         features |= FEATURE_SHEEN;
+    if (m->kind == MATERIAL_PRINCIPLED && m->film > 0)
+        features |= FEATURE_THIN_FILM;
     if (!v3_is_zero(m->attenuation))
         features |= FEATURE_ATTENUATION;
     if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)

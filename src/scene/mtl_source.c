@@ -28,6 +28,11 @@ const struct mtl_property mtl_properties[MTL_PROPERTIES] = {
     {"anisor", MEMBER(anisor), false},
     {"Tf_distance", MEMBER(tf_distance), false},
     {"Tf_thin", MEMBER(tf_thin), false},
+    {"Ps_roughness", MEMBER(ps_roughness), false},
+    {"Pf", MEMBER(pf), false},
+    {"Pf_ior", MEMBER(pf_ior), false},
+    {"Pf_thickness", MEMBER(pf_thickness), false},
+    {"d_cutoff", MEMBER(d_cutoff), false},
 };
 
 const char *const mtl_map_keys[MTL_MAPS] = {

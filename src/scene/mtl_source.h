@@ -58,7 +58,8 @@ struct mtl_source {
     /* the two numbers of Ke_blackbody, which replaces Ke */
     struct mtl_number kelvin, luminance;
     struct mtl_number illum, ns, ni, d, tr, pr, pm, pc, pcr, kd_roughness;
-    struct mtl_number ps, aniso, anisor, tf_distance, tf_thin;
+    struct mtl_number ps, ps_roughness, aniso, anisor, tf_distance, tf_thin;
+    struct mtl_number pf, pf_ior, pf_thickness, d_cutoff;
     uint32_t maps[MTL_MAPS]; /* numbers of textures, or NO_INDEX */
     uint32_t maps_off; /* bit set of 1 << enum mtl_map: maps to be ignored */
     double bump_scale; /* factor for the heights of MTL_MAP_BUMP */
@@ -73,7 +74,7 @@ struct mtl_property {
     bool is_color;
 };
 
-#define MTL_PROPERTIES 19
+#define MTL_PROPERTIES 24
 
 /* All statements of one colour or number, colours first. */
 extern const struct mtl_property mtl_properties[MTL_PROPERTIES];

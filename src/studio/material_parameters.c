@@ -141,7 +141,7 @@ static void set_color(struct owner *o, const struct value *v)
 
 static void set_opaque(struct mtl_source *s, uint32_t bits, const double rgb[3])
 {
-    struct mtl_number *const layers[] = {&s->pc, &s->ps, &s->aniso};
+    struct mtl_number *const layers[] = {&s->pc, &s->ps, &s->pf, &s->aniso};
 
     put_number(&s->illum, bits == METAL ? 3 : 2);
     put_color(&s->kd, rgb);
@@ -261,6 +261,39 @@ static bool get_distance(const struct owner *o, struct value *v)
            (o->material.transmission > 0 && o->material.is_thin == 0);
 }
 
+/* Reads a number of the source, or what it is if it is absent. */
+static bool get_number_or(const struct owner *o, struct value *v, double absent)
+{
+    const void *at = (const char *)&o->source + o->row->member;
+    const struct mtl_number *number = at;
+
+    v->number = number->line != 0 ? number->value : absent;
+    return true;
+}
+
+static bool get_sheen_roughness(const struct owner *o, struct value *v)
+{
+    return get_number_or(o, v, MATERIAL_SHEEN_ROUGHNESS);
+}
+
+static bool get_film_index(const struct owner *o, struct value *v)
+{
+    return get_number_or(o, v, MATERIAL_FILM_IOR);
+}
+
+static bool get_film_thickness(const struct owner *o, struct value *v)
+{
+    return get_number_or(o, v, MATERIAL_FILM_THICKNESS);
+}
+
+/* Reads the coverage from which a surface is whole. */
+static bool get_cutoff(const struct owner *o, struct value *v)
+{
+    v->number = o->source.d_cutoff.value;
+    return o->source.d_cutoff.line != 0 ||
+           o->source.maps[MTL_MAP_D] != NO_INDEX;
+}
+
 static bool get_specular(const struct owner *o, struct value *v)
 {
     v->number = largest(o->source.ks.rgb);
@@ -377,6 +410,10 @@ static void set_emission_color(struct owner *o, const struct value *v)
     .get = get_source_number, .set = set_statement, \
     .member = offsetof(struct mtl_source, name)
 
+#define DEFAULTED(name, getter)          \
+    .get = getter, .set = set_statement, \
+    .member = offsetof(struct mtl_source, name)
+
 static const char *const map_states[] = {"on", "off"};
 
 #define MAP(which) \
@@ -409,10 +446,19 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"coat rough", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(pcr)},
     {"sheen", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      STATEMENT(ps, sheen.x)},
+    {"sheen rough", MIXED, VALUE_NUMBER, &scale_unit,
+     DEFAULTED(ps_roughness, get_sheen_roughness)},
+    {"film", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(pf)},
+    {"film index", MIXED, VALUE_NUMBER, &scale_film_ior,
+     DEFAULTED(pf_ior, get_film_index)},
+    {"film nm", MIXED, VALUE_NUMBER, &scale_film_thickness,
+     DEFAULTED(pf_thickness, get_film_thickness)},
     {"grain", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      STATEMENT(aniso, anisotropy)},
     {"grain turn", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(anisor)},
     {"cover", OPAQUE, VALUE_NUMBER, &scale_unit, STATEMENT(d, opacity)},
+    {"cut at", OPAQUE, VALUE_NUMBER, &scale_unit,
+     DEFAULTED(d_cutoff, get_cutoff)},
     {"light", ALL, VALUE_NUMBER, &scale_emission, .get = get_emission,
      .set = set_emission},
     {"of colour", ALL, VALUE_LIGHT_COLOR, &scale_kelvin,

@@ -22,6 +22,17 @@ const struct value_scale scale_hue = {
     0, 360, 0, 360, 1, 3, .wraps = true, .expected = "an angle from 0 to 360"};
 const struct value_scale scale_ior = {
     1e-6, 1e6, 1, 3, 0.01, 4, .expected = "a number above 0"};
+const struct value_scale scale_film_ior = {
+    1, 10, 1, 3, 0.01, 4, .expected = "a number from 1 to 10"};
+const struct value_scale scale_film_thickness = {
+    0,
+    2000,
+    0,
+    1000,
+    10,
+    4,
+    .zero = "off",
+    .expected = "a number from 0 to 2000"};
 const struct value_scale scale_emission = {
     0, RADIANCE_MAX, 0.01, 1e4, 0, 4, .zero = "off", .expected = TO_MAX};
 const struct value_scale scale_distance = {

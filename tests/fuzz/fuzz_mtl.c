@@ -38,6 +38,13 @@ static void check_material(const struct scene *scene, const struct material *m)
     require(m->coat >= 0 && m->coat <= 1, "coat");
     require(m->coat_alpha >= 0 && m->coat_alpha <= 1, "roughness of the coat");
     require(m->sheen.x >= 0 && m->sheen.x <= 1, "sheen");
+    require(m->sheen_alpha >= 0 && m->sheen_alpha <= 1, "width of sheen");
+    require(m->film >= 0 && m->film <= 1, "film");
+    require(m->film == 0 || (m->film_ior >= 1 && m->film_ior <= 10),
+            "index of the film");
+    require(m->film_thickness >= 0 && m->film_thickness <= 2000,
+            "thickness of the film");
+    require(m->cutoff >= 0 && m->cutoff <= 1, "cutoff");
     require(is_light(m->attenuation), "absorption");
     require(is_texture(scene, m->color_texture) &&
                 is_texture(scene, m->emission_texture) &&

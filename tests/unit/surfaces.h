@@ -140,6 +140,11 @@ static inline struct bsdf random_mixture(uint64_t *seed)
         m.sheen_alpha =
             SHEEN_ALPHA_MIN + (1 - SHEEN_ALPHA_MIN) * (1 - x[4] * x[4]);
     }
+    if (x[6] > 0.6f) {
+        m.film = 2.5f * x[6] - 1.5f;
+        m.film_ior = 1.2f + x[7];
+        m.film_thickness = 1000 * x[5];
+    }
     return m;
 }
 

@@ -8,6 +8,7 @@
 #include "scene/material.h"
 #include "formats/mtl.h"
 #include "tests/unit/files.h"
+#include "kernels/energy.h"
 
 struct loaded {
     struct scene scene;
@@ -444,6 +445,42 @@ static void statements_weigh_the_lobes(void **state)
     assert_int_equal(m.kind, MATERIAL_METAL);
 }
 
+static void sheen_has_the_roughness_of_the_file(void **state)
+{
+    (void)state;
+    check_close((double)only_material("Ps .5", 0).sheen_alpha, .25, 0);
+    check_close((double)only_material("Ps .5\nPs_roughness .8", 0).sheen_alpha,
+                .64, 1e-7);
+    check_close((double)only_material("Ps .5\nPs_roughness 0", 0).sheen_alpha,
+                (double)SHEEN_ALPHA_MIN, 0);
+    check_close((double)only_material("Ps .5\nPs_roughness 2", 1).sheen_alpha,
+                1, 0);
+    assert_int_equal(only_material("Kd .5\nPs_roughness .8", 0).kind,
+                     MATERIAL_DIFFUSE);
+}
+
+static void films_are_on_surfaces_that_reflect(void **state)
+{
+    struct material m = only_material("Pm 1\nPf .5", 0);
+
+    (void)state;
+    assert_int_equal(m.kind, MATERIAL_PRINCIPLED);
+    check_close((double)m.film, .5, 0);
+    check_close((double)m.film_ior, 1.3, 1e-7);
+    check_close((double)m.film_thickness, 400, 0);
+    m = only_material("Ks .5\nPf 1\nPf_ior 1.8\nPf_thickness 250", 0);
+    check_close((double)m.film_ior, 1.8, 1e-7);
+    check_close((double)m.film_thickness, 250, 0);
+    assert_int_equal(only_material("Ks .5\nPf 1\nPf_thickness 0", 0).kind,
+                     MATERIAL_PLASTIC);
+    assert_int_equal(only_material("Kd .5\nPf 1", 0).kind, MATERIAL_DIFFUSE);
+    assert_int_equal(only_material("Pm 1\nPf 0", 0).kind, MATERIAL_METAL);
+    m = only_material("Pm 1\nPf 7\nPf_ior .5\nPf_thickness 1e9", 1);
+    check_close((double)m.film, 1, 0);
+    check_close((double)m.film_ior, 1.3, 1e-7);
+    check_close((double)m.film_thickness, 400, 0);
+}
+
 /* Absorption per unit of length of the file. */
 static void solids_absorb_their_colour(void **state)
 {
@@ -621,6 +658,8 @@ int main(void)
         cmocka_unit_test(equal_maps_are_shared),
         cmocka_unit_test(maps_of_other_scales_are_not_shared),
         cmocka_unit_test(statements_weigh_the_lobes),
+        cmocka_unit_test(sheen_has_the_roughness_of_the_file),
+        cmocka_unit_test(films_are_on_surfaces_that_reflect),
         cmocka_unit_test(solids_absorb_their_colour),
         cmocka_unit_test(sheets_are_rough_if_the_file_says_so),
         cmocka_unit_test(maps_weigh_the_layers),

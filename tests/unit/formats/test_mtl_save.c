@@ -63,6 +63,15 @@ static void absorb(struct mtl_source *s)
     s->maps_off ^= 1u << MTL_MAP_PC;
 }
 
+static void layer(struct mtl_source *s)
+{
+    s->ps_roughness = number(0.25);
+    s->pf = number(1);
+    s->pf_ior = number(1.5);
+    s->pf_thickness = number(300);
+    s->d_cutoff = number(0.5);
+}
+
 static void keep(struct mtl_source *s)
 {
     (void)s;
@@ -100,6 +109,9 @@ static void only_changed_statements_are_written(void **state)
         {"newmtl m\nNs 30\n", roughen, "newmtl m\nNs 30\nPr 0.5\n"},
         {"newmtl m\nTf_thin 1\nmap_Pc a.png\n", absorb,
          "newmtl m\nTf_thin 0\n#map_Pc a.png\nTf_distance 2.5\n"},
+        {"newmtl m\nPs 1\nPf 0\n", layer,
+         "newmtl m\nPs 1\nPf 1\nPs_roughness 0.25\nPf_ior 1.5\n"
+         "Pf_thickness 300\nd_cutoff 0.5\n"},
         {"newmtl m\nd -halo 0.5\n", fade, "newmtl m\nd -halo 0.25\n"},
         {"newmtl m\nTr 0.5\n", fade, "newmtl m\nTr 0.5\nd 0.25\n"},
         /* Either statement gives light. */

@@ -64,6 +64,11 @@ static struct mtl_source changed(const struct mtl_source *from)
     change_number(&s.kd_roughness, 1);
     change_number(&s.tf_distance, 9);
     change_number(&s.tf_thin, 1);
+    change_number(&s.ps_roughness, 1);
+    change_number(&s.pf, 1);
+    change_number(&s.pf_ior, 3);
+    change_number(&s.pf_thickness, 1000);
+    change_number(&s.d_cutoff, 1);
     change_number(&s.kelvin, 9000);
     s.luminance = s.kelvin.line != 0 ? number(random_unit() * 50)
                                      : (struct mtl_number){.line = 0};
@@ -89,7 +94,7 @@ static char *foreign_lines(const char *text, size_t size_bytes)
         const char *word = p + strspn(p, " \t");
         const char *hash = memchr(p, '#', (size_t)(line_end - p));
         bool is_foreign =
-            strncmp(word, "Ka", 2) == 0 || strncmp(word, "Ps", 2) == 0 ||
+            strncmp(word, "Ka", 2) == 0 || strncmp(word, "Ps ", 3) == 0 ||
             strncmp(word, "refl", 4) == 0 || strncmp(word, "disp", 4) == 0;
 
         if (is_foreign)

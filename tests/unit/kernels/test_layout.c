@@ -38,6 +38,8 @@
       M(material, attenuation) M(material, is_thin)                           \
       M(material, transmission_texture) M(material, coat_texture)             \
       M(material, coat_alpha_texture) M(material, sheen_texture)              \
+      M(material, film) M(material, film_ior) M(material, film_thickness)     \
+      M(material, cutoff)                                                     \
     S(texture) M(texture, first) M(texture, width) M(texture, height)         \
       M(texture, has_alpha) M(texture, scale) M(texture, offset)              \
       M(texture, is_clamped) M(texture, is_data)                              \

@@ -345,6 +345,13 @@ static void maps_are_the_share_of_stopped_rays(void **state)
     load(&l, "Kd .3\nd .5\nmap_d two.tga");
     check_close(stopped(&l, 0.75f, 0.125f), 0.4, 0.02);
     unload(&l);
+    load(&l, "Kd .3\nd .5\nmap_d two.tga\nd_cutoff .39");
+    check_close(stopped(&l, 0.75f, 0.125f), 1, 0);
+    check_close(stopped(&l, 0.25f, 0.125f), 0, 0);
+    unload(&l);
+    load(&l, "Kd .3\nd .5\nmap_d two.tga\nd_cutoff .41");
+    check_close(stopped(&l, 0.75f, 0.125f), 0, 0);
+    unload(&l);
     load(&l, "Kd .3\nmap_d leaf.tga"); /* uses its alpha channel */
     check_close(stopped(&l, 0.25f, 0.25f), 0, 0);
     check_close(stopped(&l, 0.75f, 0.125f), 1, 0);
@@ -465,7 +472,7 @@ static void vertices_have_colors(void **state)
     for (int i = 0; i < 16; i++) {
         struct hit h = {.b1 = 0.06f * (float)i, .b2 = 0.002f * (float)(i * i)};
         struct ray r = {.o = {0, 0, 1}, .d = {0, 0, -1}};
-        struct surface_point at;
+        struct surface_point at = {.has_uv = false};
         struct bsdf b;
         double c[3];
 

@@ -54,6 +54,11 @@ static struct mtl_source any_source(void)
     s.aniso = maybe(check_random(&seed));
     s.anisor = maybe(check_random(&seed));
     s.kd_roughness = maybe(check_random(&seed));
+    s.ps_roughness = maybe(check_random(&seed));
+    s.pf = maybe(check_random(&seed));
+    s.pf_ior = maybe(1 + check_random(&seed));
+    s.pf_thickness = maybe(1000 * check_random(&seed));
+    s.d_cutoff = maybe(check_random(&seed));
     s.kelvin = maybe(1000 + 8000 * check_random(&seed));
     if (s.kelvin.line != 0) {
         s.luminance = (struct mtl_number){20 * check_random(&seed), 7};
@@ -188,6 +193,10 @@ static void set_values_reach_the_material(void **state)
         set(&s, "transmits", &(struct value){.number = .25});
         set(&s, "metal", &(struct value){.number = .75});
         set(&s, "sheen", &(struct value){.number = .125});
+        set(&s, "sheen rough", &(struct value){.number = .75});
+        set(&s, "film", &(struct value){.number = .25});
+        set(&s, "film index", &(struct value){.number = 1.5});
+        set(&s, "film nm", &(struct value){.number = 350});
         set(&s, "grain", &(struct value){.number = .5});
         set(&s, "grain turn", &(struct value){.number = .25});
         m = material_of(&s);
@@ -196,6 +205,10 @@ static void set_values_reach_the_material(void **state)
             check_close((double)m.transmission, .25, 1e-7);
             check_close((double)m.metalness, .75, 0);
             check_close((double)m.sheen.x, .125, 0);
+            check_close((double)m.sheen_alpha, .5625, 0);
+            check_close((double)m.film, .25, 0);
+            check_close((double)m.film_ior, 1.5, 0);
+            check_close((double)m.film_thickness, 350, 0);
             check_close((double)m.anisotropy, .5, 0);
             check_close((double)m.grain.y, 1, 1e-7);
         }
