@@ -10,10 +10,12 @@
 #include "light/photons.h"
 #include "kernels/caustic_table.h"
 
-/* Number of photons. */
+/* Number of photons. On a glass ball under the sun four times as many leave no
+ * less error after 128 samples, and take .3 s more. */
 #define PHOTONS 65536u
 
-/* Cubes along the longest side of the inner grid. */
+/* Cubes along the longest side of the inner grid. On that ball 30 to 60 leave
+ * the same error. */
 #define CUBES_A_SIDE 40.0f
 
 /* Part of the landings on either side of the inner grid, along each axis. */
