@@ -77,9 +77,15 @@ PATHS := $(patsubst %,$(B)/paths_%.o,$(ISAS) \
 	$(foreach isa,plain $(ISAS),$(SETS:%=$(isa)_%)))
 # src/filter/filter_loops.c is built for each instruction set.
 FILTERS := $(ISAS:%=$(B)/filter_loops_%.o)
-SOURCES := $(wildcard src/*.c src/*/*.c)
+# With MPI=1 the program has src/cluster/; otherwise cluster_none.c replaces it.
+MPI_SOURCES := $(addprefix src/cluster/,cluster.c cluster_backend.c \
+	cluster_worker.c wire.c)
+SOURCES := $(filter-out $(MPI_SOURCES),$(wildcard src/*.c src/*/*.c))
 OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(SOURCES)) $(B)/kernels.o \
 	$(PATHS) $(FILTERS)
+PROGRAM := $(B)/$(if $(MPI),mpi/)glim
+# Tests of clusters need the program for them, where MPI is installed.
+MPI_PROGRAM := $(if $(SAN),,$(if $(shell command -v mpicc),$(B)/mpi/glim))
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 # libglim: the folders up to src/api/ in the table of CONTRIBUTING.md.
 LIB_FOLDERS := base picture filter bvh light scene formats render opencl api
@@ -115,8 +121,9 @@ C_FILES = $(foreach d,include/glim src src/* kernels scenes tests/unit tests/uni
 	tests/api tests/bench/error tests/bench/rays tests/fuzz tests/stress tests/tools, \
 	$(wildcard $(d)/*.[ch])) $(wildcard kernels/*.cl)
 
-## all: the program, build/release/glim (the default)
-all: $(B)/glim
+## all: the program, build/release/glim (the default); with MPI=1 for clusters,
+##       build/release/mpi/glim
+all: $(PROGRAM)
 
 $(B)/glim: $(OBJECTS) $(B)/flags
 	$(SAY) LINK $@
@@ -126,6 +133,15 @@ $(B)/%.o: src/%.c $(B)/flags
 	@mkdir -p $(@D)
 	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+
+$(B)/cluster/wire.o: private ALL_CFLAGS += $(shell mpicc --showme:compile)
+
+$(B)/mpi/glim: $(filter-out %/cluster_none.o,$(OBJECTS)) \
+		$(MPI_SOURCES:src/%.c=$(B)/%.o) $(B)/flags
+	@mkdir -p $(@D)
+	$(SAY) LINK $@
+	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(LIBS) \
+		$(shell mpicc --showme:link)
 
 # The program that tries OpenCL devices for the library.
 $(B)/api/glim_render.o: private ALL_CFLAGS += -DGLIM_PROGRAM='"$(BINDIR)/glim"'
@@ -298,7 +314,7 @@ test:
 	@+$(MAKE_ALL) tests
 	@BUILD=$(B) SAN='$(SAN)' CC='$(CC)' tests/run.sh
 
-tests: $(B)/glim lib $(UNITS) $(TOOLS) $(B)/scenes/generate $(BENCHES) $(STRESSES) \
+tests: $(B)/glim $(MPI_PROGRAM) lib $(UNITS) $(TOOLS) $(B)/scenes/generate $(BENCHES) $(STRESSES) \
 	$(FUZZERS) $(B)/error/error
 
 ## fuzz: tests parsers of files, options and keys with random inputs;
@@ -352,7 +368,7 @@ bench-cycles: $(B)/glim
 ## stress: runs checks at numerical limits, and others that take minutes;
 ##         FILTER=NAME selects one: samples geometry light error filter blender
 ##         extremes sizes keys rays oclgrind valgrind
-stress: $(B)/glim $(STRESSES) $(B)/unit/terminal/test_tty
+stress: $(B)/glim $(MPI_PROGRAM) $(STRESSES) $(B)/unit/terminal/test_tty
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 
 ## mutants: breaks one factor after another, which a test must notice;
@@ -375,7 +391,7 @@ gallery: $(B)/glim
 
 ## install: installs program, library, man pages and scenes; DESTDIR PREFIX
 ##          BINDIR LIBDIR INCLUDEDIR PKGCONFIGDIR MANDIR DATADIR
-install: $(B)/glim lib
+install: $(PROGRAM) lib
 	$(INSTALL) -d '$(DESTDIR)$(BINDIR)' '$(DESTDIR)$(LIBDIR)' \
 		'$(DESTDIR)$(INCLUDEDIR)/glim' '$(DESTDIR)$(PKGCONFIGDIR)' \
 		'$(DESTDIR)$(MANDIR)/man1' '$(DESTDIR)$(MANDIR)/man3' \
@@ -387,7 +403,7 @@ install: $(B)/glim lib
 	$(INSTALL) -m 644 $(PUBLIC_HEADERS) '$(DESTDIR)$(INCLUDEDIR)/glim'
 	$(INSTALL) -m 644 $(B)/glim.pc '$(DESTDIR)$(PKGCONFIGDIR)'
 	$(INSTALL) -m 644 man/libglim.3 '$(DESTDIR)$(MANDIR)/man3'
-	$(INSTALL) -m 755 $(B)/glim '$(DESTDIR)$(BINDIR)/glim'
+	$(INSTALL) -m 755 $(PROGRAM) '$(DESTDIR)$(BINDIR)/glim'
 	$(INSTALL) -m 644 man/glim.1 '$(DESTDIR)$(MANDIR)/man1/glim.1'
 	$(INSTALL) -m 644 $(SCENE_FILES) '$(DESTDIR)$(DATADIR)/scenes'
 
@@ -404,7 +420,7 @@ uninstall:
 
 ## deps: lists packages missing for build and tests, and installs them
 deps:
-	@CC='$(CC)' tests/tools/deps.sh -v build test
+	@CC='$(CC)' tests/tools/deps.sh -v build test $(if $(MPI),mpi)
 
 ## format: formats the code with clang-format
 format:
@@ -455,7 +471,7 @@ help:
 .PHONY: all lib run test tests fuzz search bench bench-error bench-rays \
 	bench-cycles results stress mutants scenes tables gallery install \
 	uninstall deps format lint clean help FORCE
--include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
+-include $(OBJECTS:.o=.d) $(MPI_SOURCES:src/%.c=$(B)/%.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
 	$(STRESSES:=.d) $(FUZZERS:=.d) $(B)/fuzz/replay.d $(TOOLS:=.d) \
 	$(ERROR_BENCH:.o=.d) $(RAYS_BENCH:.o=.d) $(B)/rays/scaling.d \
 	$(B)/error/scenes.d

@@ -26,6 +26,8 @@
 #include "opencl/cl_device.h"
 #include "opencl/cl_environment.h"
 #include "opencl/cl_probe.h"
+#include "opencl/cl_source.h"
+#include "cluster/cluster.h"
 #include "terminal/xmalloc.h"
 #include "session/command_line.h"
 #include "session/config.h"
@@ -57,8 +59,12 @@ static void fill_standard_files(void)
     }
 }
 
+/* Prints the error. Mistakes in the command line, which all ranks of a cluster
+ * have, are printed by rank 0. */
 static int complain(enum exit_status status, const struct error *err)
 {
+    if (status == EXIT_USAGE && cluster_rank() > 0)
+        return status;
     print_line(stderr, "glim: %s", err->text);
     return status;
 }
@@ -133,6 +139,52 @@ static bool check_terminal(const struct options *o, struct error *err)
                     "render to a file",
                     isatty(STDOUT_FILENO) ? "input" : "output");
     return true;
+}
+
+/* Renders for rank 0 with the CPU, or with the device that the options name. */
+static bool work(const struct options *o, struct error *err)
+{
+    struct backends b;
+    char *log = NULL;
+    bool ok = backends_open(&b, o, err);
+
+    if (ok && o->backend != BACKEND_CPU &&
+        backends_begin_device(&b, FEATURES_ALL, err) &&
+        !backends_end_device(&b, &log, err) && o->device)
+        ok = false;
+    free(log);
+    ok = ok && cluster_work(b.device ? b.device : b.cpu, err);
+    backends_close(&b);
+    return ok;
+}
+
+/* Starts the ranks, with the options of rank 0 that workers need. */
+static bool begin_cluster(const struct options *o, struct error *err)
+{
+    static char worker[] = "--worker", t[] = "-t", backend[] = "--backend";
+    static char device[] = "--device";
+    static char cpu[] = "cpu", opencl[] = "opencl", automatic[] = "auto";
+    char *const backend_names[] = {cpu, opencl, automatic};
+    char threads[16];
+    char *arguments[8] = {worker, backend, backend_names[o->backend]};
+    int count = 3;
+    char *kernels = cl_source_text(o->kernels_path, err);
+    uint64_t version;
+
+    if (!kernels)
+        return false;
+    version = cl_source_hash(kernels);
+    free(kernels);
+    if (o->thread_count != 0) {
+        snprintf(threads, sizeof threads, "%d", o->thread_count);
+        arguments[count++] = t;
+        arguments[count++] = threads;
+    }
+    if (o->device) {
+        arguments[count++] = device;
+        arguments[count++] = (char *)(uintptr_t)o->device;
+    }
+    return cluster_begin(o->ranks, arguments, version, err);
 }
 
 static bool run(struct session *s, const struct options *o, uint64_t start_ns,
@@ -267,18 +319,32 @@ int main(int argc, char **argv)
         return list_devices();
     if (options.probe)
         return probe(&options);
-    if (!check_terminal(&options, &err))
+    if (!options.is_worker && cluster_rank() == 0 &&
+        !check_terminal(&options, &err))
         return complain(EXIT_USAGE, &err);
     /* the failing write returns the error */
     signal(SIGXFSZ, SIG_IGN);
-    if (options.batch)
+    if (options.batch || options.is_worker)
         signal(SIGPIPE, SIG_IGN);
+    if ((options.ranks > 1 || options.is_worker || cluster_is_launched()) &&
+        !begin_cluster(&options, &err)) {
+        status = cluster_rank() > 0 ? EXIT_FAILED : complain(EXIT_FAILED, &err);
+        cluster_end(true);
+        return status;
+    }
+    if (cluster_rank() > 0) {
+        if (!work(&options, &err))
+            status = complain(EXIT_FAILED, &err);
+        cluster_end(status != EXIT_DONE);
+        return status;
+    }
     if (!run(&session, &options, start_ns, &status, &err))
         /* as cmp(1): 1 means that the pictures differ */
         status = complain(options.command == COMMAND_COMPARE ? EXIT_USAGE
                                                              : EXIT_FAILED,
                           &err);
     session_close(&session);
+    cluster_end(false);
     free(chosen);
     return status;
 }

@@ -10,6 +10,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "picture/film_merge.h"
 
 #include "kernels/sample_share.h"
 
@@ -483,28 +484,6 @@ bool film_file_read(struct film_file *f, const char *path, struct error *err)
 
 /* ---- join ---- */
 
-static void join_sums(struct sum *to, const struct sum *from, int count)
-{
-    for (int i = 0; i < count; i++)
-        sum_join(&to[i], from[i]);
-}
-
-static void join_surfaces(struct surface_sums *to,
-                          const struct surface_sums *from)
-{
-    struct surface_numbers a = numbers_of(to), b = numbers_of(from);
-
-    join_sums(to->direct, from->direct, 3);
-    join_sums(to->odd_direct, from->odd_direct, 3);
-    join_sums(to->seen, from->seen, 3);
-    join_sums(to->odd_seen, from->odd_seen, 3);
-    join_sums(&to->depth, &from->depth, 1);
-    join_sums(&to->depth_square, &from->depth_square, 1);
-    for (int i = 0; i < 10; i++)
-        a.n[i] += b.n[i];
-    set_numbers(to, a.n);
-}
-
 /* Fails for films whose samples are not those of their ranges alone. */
 static bool check_whole(const struct film_file *f, const char *path,
                         struct error *err)
@@ -526,22 +505,13 @@ bool film_file_join(struct film_file *f, const char *path,
                     const struct film_file *more, const char *more_path,
                     struct error *err)
 {
-    size_t pixels = (size_t)f->film.width * (size_t)f->film.height;
-
     if (!film_identity_check(&more->header.identity, more_path,
                              &f->header.identity, path, err) ||
         !check_whole(f, path, err) || !check_whole(more, more_path, err) ||
         !film_header_join(&f->header, path, &more->header, more_path, err))
         return false;
-    for (size_t i = 0; i < pixels; i++) {
-        join_sums(f->film.sums + 3 * i, more->film.sums + 3 * i, 3);
-        join_sums(f->film.odd_sums + 3 * i, more->film.odd_sums + 3 * i, 3);
-        if (f->film.surfaces != NULL)
-            join_surfaces(&f->film.surfaces[i], &more->film.surfaces[i]);
-        f->film.counts[i] += more->film.counts[i];
-    }
+    film_merge(&f->film, 0, &more->film);
     f->film.first_sample = f->header.ranges[0].first;
-    set_counters(&f->film, &f->header);
     return true;
 }
 

@@ -4,6 +4,21 @@
 #include <stdlib.h>
 
 #include "render/cpu_dispatch.h"
+#include "cluster/cluster.h"
+
+/* Lets all ranks of a cluster render what this backend is given. A worker gets
+ * its work from rank 0. */
+static bool share_out(struct backend **b, struct error *err)
+{
+    struct backend *cluster;
+
+    if (cluster_size() == 1 || cluster_rank() > 0)
+        return true;
+    cluster = cluster_backend_create(*b, err);
+    if (cluster != NULL)
+        *b = cluster;
+    return cluster != NULL;
+}
 
 bool backends_open(struct backends *m, const struct options *options,
                    struct error *err)
@@ -13,7 +28,7 @@ bool backends_open(struct backends *m, const struct options *options,
 
     *m = (struct backends){.options = options};
     m->cpu = backend_cpu_create(options_threads(options), paths, err);
-    return m->cpu != NULL;
+    return m->cpu != NULL && share_out(&m->cpu, err);
 }
 
 /* A running device only gets new kernels. */
@@ -30,16 +45,17 @@ bool backends_begin_device(struct backends *m, uint32_t features,
     };
 
     m->features = features;
-    m->start = cl_start_begin(&request, m->device, err);
+    m->start = cl_start_begin(&request, m->raw_device, err);
     return m->start != NULL;
 }
 
 bool backends_end_device(struct backends *m, char **log, struct error *err)
 {
     free(m->verdict);
-    m->device = cl_start_end(m->start, &m->verdict, log, err);
+    m->raw_device = cl_start_end(m->start, &m->verdict, log, err);
     m->start = NULL;
-    return m->device != NULL;
+    m->device = m->raw_device;
+    return m->device != NULL && share_out(&m->device, err);
 }
 
 void backends_specialise(struct backends *m, uint32_t features)

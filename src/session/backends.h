@@ -21,6 +21,8 @@ struct backends {
     const struct options *options;
     struct backend *cpu;
     struct backend *device; /* NULL if there is none */
+    /* the device of this process, which is `device` or belongs to it */
+    struct backend *raw_device;
     struct cl_start *start; /* NULL unless it is starting */
     char *verdict;          /* of the device's self-test */
     uint32_t features; /* features that its kernels support, or will after the

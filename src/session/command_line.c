@@ -394,7 +394,7 @@ static bool check_show(const struct options *o, struct error *err)
 /* Refuses combinations of options. */
 static bool check_together(const struct options *o, struct error *err)
 {
-    if (o->list_devices || o->probe)
+    if (o->list_devices || o->probe || o->is_worker)
         return true;
     return check_batch(o, err) && check_denoise(o, err) &&
            check_error_map(o, err) && check_films(o, err) && check_show(o, err);
@@ -519,7 +519,7 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
         return false;
     if (o->command != COMMAND_RENDER)
         return sub_command_check(o, err);
-    if (o->scene_path || o->list_devices || o->probe)
+    if (o->scene_path || o->list_devices || o->probe || o->is_worker)
         return true;
     o->lacks_scene = !o->batch;
     return fail(

@@ -114,6 +114,8 @@ struct options {
         text_rows; /* size of text output in batch mode; 0: a picture */
     bool show_help, show_version;
     bool list_devices; /* list devices; no scene is needed */
+    int ranks;         /* processes of a cluster to start; 0: none */
+    bool is_worker;    /* render for rank 0; no scene is needed */
     bool probe;        /* test a device, see cl_probe.h; no scene is needed */
     uint32_t features; /* features for the test */
 };

@@ -22,6 +22,7 @@
 #define SEEDS_MIN   4
 #define SEEDS_MAX   64
 #define SHARES_MAX  100000
+#define RANKS_MAX   65536
 
 /* Limits of the time between checkpoints. */
 #define INTERVAL_NS_MIN 100000000u
@@ -51,6 +52,8 @@ static const struct option_rule rules[] = {
     {"isa", OPTION_ISA, "the name of a set of instructions"},
     {"probe", OPTION_PROBE,
      "a number of features"}, /* internal, see cl_probe.h */
+    {"ranks", OPTION_RANKS, "a number of processes"},
+    {"worker", OPTION_WORKER, NULL}, /* internal, see cluster.h */
     {"b", OPTION_BATCH, NULL},
     {"o", OPTION_OUTPUT, "the name of a picture"},
     {"ansi", OPTION_ANSI, "COLSxROWS in characters"},
@@ -459,6 +462,8 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_COLOR:
     case OPTION_SHOW:
     case OPTION_GLYPH: return set_word(o, g, err);
+    case OPTION_RANKS: return whole_int(g, 1, RANKS_MAX, &o->ranks, err);
+    case OPTION_WORKER: o->is_worker = true; return true;
     case OPTION_BATCH: o->batch = true; return true;
     case OPTION_LIST_DEVICES: o->list_devices = true; return true;
     case OPTION_FILTER:

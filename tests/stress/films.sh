@@ -6,13 +6,16 @@
 #
 # Each scene is rendered in forty ways: with other numbers of threads, other
 # instruction sets, on an OpenCL device, stopped and resumed, killed and
-# resumed, and in shares that are merged. All of them have one SHA-256. Then a
+# resumed, in shares that are merged, and where MPI is installed by the ranks of
+# a cluster. All of them have one SHA-256. Then a
 # render is killed a thousand times: its checkpoint is always a whole film, with
 # at least the samples of the one before. Prints a row for each scene.
 set -u
 glim=$1
 folder=$2
 shift 2
+mpi=$(dirname "$glim")/mpi/glim
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 RANDOM=20
 
 size='-w 120 -h 90'
@@ -88,6 +91,43 @@ merged() # NUMBER...
     count
 }
 
+# Ranks of a cluster, also with a device, and four that are killed and go on as
+# two.
+cluster()
+{
+    local count command
+
+    [ -x "$mpi" ] && command -v mpirun >/dev/null || return
+    for count in 4 3 2; do
+        way="$count ranks"
+        # shellcheck disable=SC2086 # words
+        timeout -k 5 120 mpirun --oversubscribe -n $count "$mpi" -b $size \
+            -s $spp -t 1 -o "$folder/way.png" "$scene" >"$folder/said" 2>&1
+        count
+    done
+    way='2 ranks with OpenCL'
+    # shellcheck disable=SC2086 # words
+    timeout -k 5 240 mpirun --oversubscribe -n 2 "$mpi" -b $size -s $spp \
+        --backend opencl -o "$folder/way.png" "$scene" >"$folder/said" 2>&1
+    count
+    way='4 ranks, killed, and resumed by 2'
+    rm -f "$folder/check.film"
+    for command in 'timeout -s KILL 1.4 mpirun --oversubscribe -n 4' \
+        'timeout -k 5 120 mpirun --oversubscribe -n 2'; do
+        rm -f "$folder/way.png"
+        # shellcheck disable=SC2086 # words
+        $command "$mpi" -b $size -s $spp -t 1 --resume "$folder/check.film" \
+            --checkpoint "$folder/check.film" --checkpoint-interval 0.1 \
+            -o "$folder/way.png" "$scene" >"$folder/said" 2>&1
+    done
+    count
+    way='--ranks 3'
+    # shellcheck disable=SC2086 # words
+    timeout -k 5 120 "$mpi" -b $size -s $spp -t 1 --ranks 3 \
+        -o "$folder/way.png" "$scene" >"$folder/said" 2>&1
+    count
+}
+
 forty_ways() # SCENE
 {
     local isa threads
@@ -135,6 +175,7 @@ forty_ways() # SCENE
     merged 3 2 1
     merged 2 31
     merged 1 cl 3
+    cluster
     way=developed
     "$glim" develop -o way.png whole.film 2>said
     count

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # deps.sh - installs missing packages from Debian
 #
-# usage: deps.sh [-v] build|test|fuzz|lint...
+# usage: deps.sh [-v] build|test|mpi|fuzz|lint...
 # Looks for the headers and the programs themselves, so that a library from
 # elsewhere counts. -v also lists what was found. When nothing is missing, a
 # stamp in build/ makes the next call fast; `make clean` removes it.
@@ -97,6 +97,10 @@ look()
             need_program readelf binutils
             need_program mandoc mandoc
             ;;
+        mpi)
+            need_program mpicc libopenmpi-dev
+            need_program mpirun openmpi-bin
+            ;;
         fuzz)
             need_program "${compiler%% *}" "$compiler_package"
             # Debian packages libFuzzer with the other runtimes of its clang
@@ -110,7 +114,7 @@ look()
             need_program mandoc mandoc
             ;;
         *)
-            echo "deps.sh: what is '$part'? build, test, fuzz or lint" >&2
+            echo "deps.sh: what is '$part'? build, test, mpi, fuzz or lint" >&2
             exit 2
             ;;
         esac

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "cluster/cluster.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "cluster/band_thread.h"
+#include "cluster/wire.h"
+
+/* A worker, its copy of rank 0's world, and the band in progress. */
+struct worker {
+    struct backend *local;
+    struct band_thread *thread;
+    struct host_world host; /* versions and the tree; arrays are below */
+    struct world world;
+    void *arrays[WORLD_LIST_COUNT];
+    uint64_t versions[WORLD_LIST_COUNT];
+    struct rank_order picture; /* the last ORDER_BEGIN */
+    struct rank_order band_order;
+    struct band band;
+    uint64_t begin_ns;
+    struct cancel cancel;
+    uint32_t cancelled_epoch;
+    struct error error; /* of the picture; "" */
+};
+
+/* ---- world ---- */
+
+static bool lacks_memory(const char *what, struct error *err)
+{
+    return fail(err, "rank %d: out of memory for %s", wire_rank(), what);
+}
+
+/* Receives the arrays that have changed. */
+static bool receive_arrays(struct worker *w, struct error *err)
+{
+    struct world_array list[WORLD_LIST_COUNT];
+
+    world_list(&w->world, list);
+    for (int i = 0; i < WORLD_LIST_COUNT; i++) {
+        uint64_t version = w->picture.versions[list[i].part];
+        size_t size = w->picture.sizes[i];
+
+        if (i == WORLD_LIST_nodes || i == WORLD_LIST_leaf_tris ||
+            version == w->versions[i])
+            continue;
+        free(w->arrays[i]);
+        w->arrays[i] = size > 0 ? alloc_aligned(size, 1) : NULL;
+        if (size > 0 && w->arrays[i] == NULL)
+            return lacks_memory("the scene", err);
+        wire_broadcast(w->arrays[i], size);
+        w->versions[i] = version;
+    }
+    for (int i = 0; i < WORLD_LIST_COUNT; i++)
+        world_list_set(&w->world, (enum world_list_index)i, w->arrays[i]);
+    return true;
+}
+
+static bool begin_picture(struct worker *w, const struct rank_order *o,
+                          struct error *err)
+{
+    struct backend *b = w->local;
+    uint64_t shape = o->versions[WORLD_SHAPE];
+
+    w->picture = *o;
+    w->world.settings = o->settings;
+    if (!receive_arrays(w, err))
+        return false;
+    memcpy(w->host.versions, o->versions, sizeof w->host.versions);
+    w->error.text[0] = '\0';
+    if (b->shape == shape)
+        return true;
+    world_drop_tree(&w->host);
+    b->shape = b->load(b, &w->host, &w->world, &w->error) ? shape : 0;
+    return true;
+}
+
+/* ---- bands ---- */
+
+static void send_answer(struct worker *w, bool has_failed, const char *reason)
+{
+    const struct film *f = &w->band.film;
+    size_t pixels = (size_t)f->width * (size_t)f->height;
+    struct rank_answer a = {.has_failed = has_failed,
+                            .y = w->band_order.y,
+                            .rows = w->band_order.rows,
+                            .seconds = seconds_between(w->begin_ns, clock_ns()),
+                            .samples = atomic_load(&f->samples),
+                            .rays = atomic_load(&f->rays),
+                            .non_finite = atomic_load(&f->non_finite),
+                            .saturated = atomic_load(&f->saturated),
+                            .cut_paths = atomic_load(&f->cut_paths)};
+
+    snprintf(a.error, sizeof a.error, "%.255s", reason);
+    wire_send(0, WIRE_ANSWER, &a, sizeof a);
+    if (a.samples == 0)
+        return;
+    wire_send(0, WIRE_DATA, f->counts, pixels * sizeof *f->counts);
+    wire_send(0, WIRE_DATA, f->sums, 3 * pixels * sizeof *f->sums);
+    wire_send(0, WIRE_DATA, f->odd_sums, 3 * pixels * sizeof *f->odd_sums);
+    if (f->surfaces != NULL)
+        wire_send(0, WIRE_DATA, f->surfaces, pixels * sizeof *f->surfaces);
+}
+
+static bool begin_band(struct worker *w, const struct rank_order *o,
+                       struct error *err)
+{
+    const struct rank_order *p = &w->picture;
+    size_t pixels = (size_t)p->width * (size_t)o->rows;
+    static const uint16_t some_shares;
+    struct pass pass = o->pass;
+    struct error why;
+
+    w->band_order = *o;
+    w->begin_ns = clock_ns();
+    pass.shares = o->has_shares ? &some_shares : NULL;
+    if (!band_init(&w->band, p->width, o->y, o->rows, p->has_surfaces, &pass,
+                   &why))
+        return fail(err, "rank %d: %.900s", wire_rank(), why.text);
+    wire_receive(0, WIRE_DATA, w->band.before, pixels * sizeof *w->band.before);
+    if (o->has_shares)
+        wire_receive(0, WIRE_DATA, w->band.shares,
+                     pixels * sizeof *w->band.shares);
+    if (w->error.text[0] != '\0' || o->epoch <= w->cancelled_epoch) {
+        send_answer(w, w->error.text[0] != '\0', w->error.text);
+        band_free(&w->band);
+        return true;
+    }
+    cancel_reset(&w->cancel);
+    band_thread_begin(w->thread,
+                      &(struct band_work){.band = &w->band,
+                                          .backend = w->local,
+                                          .host = &w->host,
+                                          .world = &w->world,
+                                          .x0 = p->x0,
+                                          .y0 = p->y0,
+                                          .first_sample = p->first_sample,
+                                          .cancel = &w->cancel});
+    return true;
+}
+
+/* Answers if the band is done. Returns false if it is not. */
+static bool end_band(struct worker *w)
+{
+    struct error err = {""};
+    enum pass_result result;
+
+    if (band_thread_end(w->thread, &result, &err) == NULL)
+        return false;
+    send_answer(w, result == PASS_FAILED, err.text);
+    band_free(&w->band);
+    return true;
+}
+
+/* ---- loop ---- */
+
+static bool take_cancel(struct worker *w)
+{
+    int from = 0;
+
+    if (!wire_has(&from, WIRE_CANCEL))
+        return false;
+    wire_receive(0, WIRE_CANCEL, &w->cancelled_epoch,
+                 sizeof w->cancelled_epoch);
+    if (band_thread_is_busy(w->thread) &&
+        w->band_order.epoch <= w->cancelled_epoch)
+        cancel_request(&w->cancel);
+    return true;
+}
+
+/* Does the next order. *is_ended is set at the last. Messages that were not
+ * received stay with MPI after a failure, so the job cannot go on. */
+static bool do_order(struct worker *w, bool *is_ended, struct error *err)
+{
+    struct rank_order o;
+
+    wire_receive(0, WIRE_ORDER, &o, sizeof o);
+    if (o.kind == ORDER_BEGIN)
+        return begin_picture(w, &o, err);
+    if (o.kind == ORDER_BAND)
+        return begin_band(w, &o, err);
+    *is_ended = true;
+    return true;
+}
+
+static bool has_order(const struct worker *w)
+{
+    int from = 0;
+
+    return !band_thread_is_busy(w->thread) && wire_has(&from, WIRE_ORDER);
+}
+
+/* Serves rank 0 until it ends. */
+static bool serve(struct worker *w, struct error *err)
+{
+    for (bool is_ended = false; !is_ended;) {
+        bool did_something = take_cancel(w);
+
+        if (has_order(w)) {
+            if (!do_order(w, &is_ended, err))
+                return false;
+            did_something = true;
+        }
+        if (band_thread_is_busy(w->thread) && end_band(w))
+            did_something = true;
+        if (!did_something)
+            wire_rest();
+    }
+    return true;
+}
+
+bool cluster_work(struct backend *local, struct error *err)
+{
+    struct worker *w = alloc_array(1, sizeof *w);
+    bool ok;
+
+    if (w == NULL)
+        return lacks_memory("a worker", err);
+    w->local = local;
+    w->host.thread_count = local->thread_count;
+    w->thread = band_thread_create(err);
+    ok = w->thread != NULL && serve(w, err);
+    band_thread_destroy(w->thread);
+    local->unload(local);
+    world_drop_tree(&w->host);
+    for (int i = 0; i < WORLD_LIST_COUNT; i++)
+        free(w->arrays[i]);
+    free(w);
+    return ok;
+}

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+# Several ranks make the bytes that one makes: started by mpirun, or by the
+# program itself.
+mpi=${BUILD:-build/release}/mpi/glim
+case $mpi in
+/*) ;;
+*) mpi=$root/$mpi ;;
+esac
+command -v mpirun >/dev/null || skip no mpirun
+[ -x "$mpi" ] || skip no program with MPI
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+take box
+
+ranks() # COUNT OPTION...
+{
+    count=$1
+    shift
+    timeout -k 5 60 mpirun --oversubscribe -n $count "$mpi" "$@" 2>&1 |
+        grep -E 'glim|spp' | untimed
+}
+
+b="-b -w 48 -h 36 -t 1"
+for options in '-s 40' '-s 24 --adaptive --denoise' '-e 20%'; do
+    glim $b $options -o one.png box.obj 2>/dev/null
+    for count in 2 4; do
+        ranks $count $b $options -o many.png box.obj >/dev/null
+        same many.png one.png
+    done
+    timeout -k 5 60 "$mpi" $b $options --ranks 3 -o many.png box.obj 2>/dev/null
+    same many.png one.png
+done
+
+# a killed job goes on, with another number of ranks
+glim $b -s 300 -w 96 -o one.png box.obj 2>/dev/null
+timeout -s KILL 1.5 mpirun --oversubscribe -n 4 "$mpi" $b -w 96 -s 300 \
+    --checkpoint c.film --checkpoint-interval 0.1 -o many.png box.obj \
+    >/dev/null 2>&1
+ranks 2 $b -s 300 -w 96 --checkpoint c.film --resume c.film -o many.png box.obj
+same many.png one.png
+
+# one line about a mistake, from rank 0
+ranks 4 -b none.obj
+ranks 4 --none
+run -b --ranks 4 box.obj
