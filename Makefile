@@ -331,6 +331,12 @@ search: $(FUZZERS)
 bench: $(B)/glim $(BENCHES) $(B)/rays/scaling
 	@BUILD=$(B) FILTER='$(FILTER)' tests/bench/run.sh
 
+## bench-mpi: measures one and two ranks of a cluster, if Open MPI is installed;
+##            ROUNDS=3
+bench-mpi: $(B)/mpi/glim
+	@ROUNDS=$(if $(filter file,$(origin ROUNDS)),3,$(ROUNDS)) \
+		tests/bench/mpi.sh $<
+
 ## bench-error: measures error against time, each technique on and off; text,
 ##              CSV and diagrams in build/bench-error/; FILTER=PART of the
 ##              scenes' names, THREADS=1 ROUNDS=5 (seeds)
@@ -366,8 +372,8 @@ bench-cycles: $(B)/glim
 		ROUNDS)),3,$(ROUNDS)) tests/bench/cycles/run.sh
 
 ## stress: runs checks at numerical limits, and others that take minutes;
-##         FILTER=NAME selects one: samples geometry light error filter blender
-##         extremes sizes keys rays oclgrind valgrind
+##         FILTER=NAME selects one: samples geometry light films error filter
+##         blender extremes sizes keys rays oclgrind valgrind
 stress: $(B)/glim $(MPI_PROGRAM) $(STRESSES) $(B)/unit/terminal/test_tty
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 
@@ -468,7 +474,7 @@ help:
 	@sed -n 's/^## //p' Makefile
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
-.PHONY: all lib run test tests fuzz search bench bench-error bench-rays \
+.PHONY: all lib run test tests fuzz search bench bench-mpi bench-error bench-rays \
 	bench-cycles results stress mutants scenes tables gallery install \
 	uninstall deps format lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(MPI_SOURCES:src/%.c=$(B)/%.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
