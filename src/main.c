@@ -203,7 +203,7 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
         return batch_films_info(o, err);
     if (o->command == COMMAND_MERGE || o->command == COMMAND_DEVELOP)
         return batch_films_merge(o, start_ns, err);
-    if (batch_picture_is_wanted(o))
+    if (cluster_size() == 1 && batch_picture_is_wanted(o))
         return batch_picture_run(o, start_ns, status, err);
     ok = session_open(s, o, start_ns, err);
     /* warnings about a file matter only if it is rendered */

@@ -17,11 +17,14 @@
 #include "picture/film_merge.h"
 #include "kernels/sample_share.h"
 
-/* Bands of a worker at a time, one of which waits. */
+/* Bands of a worker at a time, one of which waits so that the worker does not;
+ * only one in the last part of the rows, where others would wait for the worker
+ * that has two. */
 #define BANDS_WAITING 2
+#define LAST_PART     4
 
 /* A band has this part of a rank's share of the rows that are left. */
-#define ROWS_PART 2
+#define ROWS_PART 4
 
 struct backend_cluster {
     struct backend base;
@@ -304,10 +307,12 @@ static void stop_workers(struct progress *p)
 static void give_bands(struct progress *p)
 {
     struct backend_cluster *c = p->c;
+    int height = c->film->height;
+    int most = p->y < height - height / LAST_PART ? BANDS_WAITING : 1;
 
     if (!band_thread_is_busy(c->thread))
         start_local(p);
-    for (int i = 0; i < BANDS_WAITING; i++)
+    for (int i = 0; i < most; i++)
         for (int rank = 1; rank < wire_size(); rank++)
             if (c->waiting[rank] <= i)
                 send_band(p, rank);
