@@ -49,6 +49,6 @@ void cluster_end(bool has_failed)
 
     if (wire_size() > 1 && wire_rank() == 0)
         for (int rank = 1; rank < wire_size(); rank++)
-            wire_send(rank, WIRE_ORDER, &end, sizeof end);
+            wire_post(rank, WIRE_ORDER, &end, sizeof end);
     wire_end(has_failed && wire_rank() > 0);
 }

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "cluster/band_thread.h"
 #include "cluster/wire.h"
@@ -23,6 +24,13 @@
 #define BANDS_WAITING 2
 #define LAST_PART     4
 
+/* Time for answers after a halt, beyond which they are late: their samples are
+ * lost, and the next pass does without that worker until it has answered. */
+#define LATE_NS 250000000
+
+/* Time after which a late worker is lost. */
+#define LOST_NS 10000000000
+
 /* A band has this part of a rank's share of the rows that are left. */
 #define ROWS_PART 4
 
@@ -30,8 +38,8 @@ struct backend_cluster {
     struct backend base;
     struct backend *local;
     struct band_thread *thread;
-    int *waiting; /* bands of each rank that it has not answered */
-    int waiting_count;
+    int *waiting;                    /* bands of each rank without an answer */
+    int waiting_count;               /* bands of this pass without an answer */
     uint64_t sent[WORLD_LIST_COUNT]; /* versions that the workers have */
     uint32_t epoch;                  /* passes so far */
     /* of begin() */
@@ -50,7 +58,7 @@ struct progress {
     const struct cancel *cancel;
     int y; /* first row that is in no band */
     struct band local;
-    bool is_stopped; /* workers were told to stop */
+    uint64_t stopped_ns; /* when the workers were told to stop; 0: not yet */
     bool has_failed;
     struct error *err;
 };
@@ -116,7 +124,7 @@ static void announce(struct backend_cluster *c)
     for (int i = 0; i < WORLD_LIST_COUNT; i++)
         o.sizes[i] = list[i].size_bytes;
     for (int rank = 1; rank < wire_size(); rank++)
-        wire_send(rank, WIRE_ORDER, &o, sizeof o);
+        wire_post(rank, WIRE_ORDER, &o, sizeof o);
     for (int i = 0; i < WORLD_LIST_COUNT; i++) {
         uint64_t version = o.versions[list[i].part];
 
@@ -222,18 +230,17 @@ static void send_band(struct progress *p, int rank)
         return;
     at = (size_t)o.y * width;
     pixels = (size_t)o.rows * width;
-    wire_send(rank, WIRE_ORDER, &o, sizeof o);
-    /* these rows stay as they are until the answer, and so the pass */
-    wire_begin_send(rank, WIRE_DATA, c->film->counts + at,
-                    pixels * sizeof *c->film->counts);
+    wire_post(rank, WIRE_ORDER, &o, sizeof o);
+    wire_post(rank, WIRE_DATA, c->film->counts + at,
+              pixels * sizeof *c->film->counts);
     if (o.has_shares)
-        wire_begin_send(rank, WIRE_DATA, p->pass->shares + at,
-                        pixels * sizeof *p->pass->shares);
+        wire_post(rank, WIRE_DATA, p->pass->shares + at,
+                  pixels * sizeof *p->pass->shares);
     c->waiting[rank]++;
     c->waiting_count++;
 }
 
-static bool receive_film(struct film *f, int rank, const struct rank_answer *a)
+static void receive_film(struct film *f, int rank, const struct rank_answer *a)
 {
     size_t pixels = (size_t)f->width * (size_t)f->height;
 
@@ -249,31 +256,29 @@ static bool receive_film(struct film *f, int rank, const struct rank_answer *a)
     atomic_store(&f->non_finite, a->non_finite);
     atomic_store(&f->saturated, a->saturated);
     atomic_store(&f->cut_paths, a->cut_paths);
-    return true;
 }
 
-/* Adds the samples of an answer to the film. */
-static void take_samples(struct progress *p, int rank,
-                         const struct rank_answer *a)
+/* Receives the samples of an answer, and adds them to the film unless they come
+ * too late. */
+static bool take_samples(struct backend_cluster *c, int rank,
+                         const struct rank_answer *a, struct error *err)
 {
-    struct film *film = p->c->film, part = {0};
-    struct error err;
+    struct film part = {0};
+    bool ok = film_init(&part, a->width, a->rows, err) &&
+              (!a->has_surfaces || film_init_surfaces(&part, err));
 
-    if (!film_init(&part, film->width, a->rows, &err) ||
-        (film->surfaces != NULL && !film_init_surfaces(&part, &err))) {
-        /* the samples stay with MPI, which ends the job */
-        *p->err = err;
-        p->has_failed = true;
-        film_free(&part);
-        return;
-    }
-    receive_film(&part, rank, a);
-    film_merge(film, a->y, &part);
+    if (ok) /* otherwise the samples stay with MPI, and the render fails */
+        receive_film(&part, rank, a);
+    if (ok && a->epoch == c->epoch)
+        film_merge(c->film, a->y, &part);
     film_free(&part);
+    return ok;
 }
 
-/* Returns true if a worker had an answer. */
-static bool take_answer(struct progress *p)
+/* Takes an answer if there is one. Returns false if there is none; *failed is
+ * set if the worker or the memory failed. */
+static bool take_answer(struct backend_cluster *c, bool *failed,
+                        struct error *err)
 {
     struct rank_answer a;
     int rank = -1;
@@ -281,15 +286,45 @@ static bool take_answer(struct progress *p)
     if (!wire_has(&rank, WIRE_ANSWER))
         return false;
     wire_receive(rank, WIRE_ANSWER, &a, sizeof a);
-    p->c->waiting[rank]--;
-    p->c->waiting_count--;
-    if (a.has_failed && !p->has_failed) {
-        p->has_failed = true;
-        fail(p->err, "rank %d: %.240s", rank, a.error);
+    c->waiting[rank]--;
+    if (a.epoch == c->epoch)
+        c->waiting_count--;
+    if (a.has_failed) {
+        *failed = true;
+        fail(err, "rank %d: %.240s", rank, a.error);
     }
-    if (a.samples > 0)
-        take_samples(p, rank, &a);
+    if (a.samples > 0 && !take_samples(c, rank, &a, err))
+        *failed = true;
     return true;
+}
+
+/* Returns true if a worker owes an answer. */
+static bool has_late(const struct backend_cluster *c)
+{
+    for (int rank = 1; rank < wire_size(); rank++)
+        if (c->waiting[rank] > 0)
+            return true;
+    return false;
+}
+
+/* Waits for answers to earlier passes: a worker that has something to say does
+ * not listen to a broadcast. */
+static enum pass_result wait_for_late(struct backend_cluster *c,
+                                      const struct cancel *cancel,
+                                      struct error *err)
+{
+    uint64_t begin_ns = clock_ns();
+    bool failed = false;
+
+    while (has_late(c) && !failed && !cancel_requested(cancel)) {
+        if (!take_answer(c, &failed, err))
+            wire_rest();
+        if (clock_ns() > begin_ns + LOST_NS)
+            failed = !fail(err, "a rank of the cluster does not answer");
+    }
+    if (failed)
+        return PASS_FAILED;
+    return cancel_requested(cancel) ? PASS_CANCELLED : PASS_DONE;
 }
 
 /* Tells the workers to send what they have. */
@@ -299,8 +334,8 @@ static void stop_workers(struct progress *p)
 
     for (int rank = 1; rank < wire_size(); rank++)
         if (c->waiting[rank] > 0)
-            wire_send(rank, WIRE_CANCEL, &c->epoch, sizeof c->epoch);
-    p->is_stopped = true;
+            wire_post(rank, WIRE_CANCEL, &c->epoch, sizeof c->epoch);
+    p->stopped_ns = clock_ns();
 }
 
 /* Gives bands to the ranks that have too few. */
@@ -318,6 +353,18 @@ static void give_bands(struct progress *p)
                 send_band(p, rank);
 }
 
+/* Returns true if all bands are done, or if those that are not are late. */
+static bool is_complete(const struct progress *p, bool is_stopping)
+{
+    const struct backend_cluster *c = p->c;
+
+    if (band_thread_is_busy(c->thread))
+        return false;
+    if (is_stopping)
+        return c->waiting_count == 0 || clock_ns() > p->stopped_ns + LATE_NS;
+    return c->waiting_count == 0 && p->y >= c->film->height;
+}
+
 static enum pass_result run_bands(struct progress *p)
 {
     struct backend_cluster *c = p->c;
@@ -328,13 +375,12 @@ static enum pass_result run_bands(struct progress *p)
 
         if (!is_stopping)
             give_bands(p);
-        else if (!p->is_stopped)
+        else if (p->stopped_ns == 0)
             stop_workers(p);
+        wire_is_sent();
         did_something = end_local(p);
-        did_something = take_answer(p) || did_something;
-        if (wire_sent() && c->waiting_count == 0 &&
-            !band_thread_is_busy(c->thread) &&
-            (is_stopping || p->y >= c->film->height))
+        did_something = take_answer(c, &p->has_failed, p->err) || did_something;
+        if (is_complete(p, is_stopping))
             break;
         if (!did_something)
             wire_rest();
@@ -365,8 +411,14 @@ static enum pass_result pass(struct backend *base, const struct pass *pass,
         return c->local->pass(c->local, pass, cancel, err);
     }
     c->epoch++;
-    if (!c->is_announced)
+    c->waiting_count = 0;
+    if (!c->is_announced) {
+        enum pass_result result = wait_for_late(c, cancel, err);
+
+        if (result != PASS_DONE)
+            return result;
         announce(c);
+    }
     return run_bands(&p);
 }
 

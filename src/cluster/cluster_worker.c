@@ -84,7 +84,10 @@ static void send_answer(struct worker *w, bool has_failed, const char *reason)
 {
     const struct film *f = &w->band.film;
     size_t pixels = (size_t)f->width * (size_t)f->height;
-    struct rank_answer a = {.has_failed = has_failed,
+    struct rank_answer a = {.epoch = w->band_order.epoch,
+                            .has_failed = has_failed,
+                            .width = f->width,
+                            .has_surfaces = f->surfaces != NULL,
                             .y = w->band_order.y,
                             .rows = w->band_order.rows,
                             .seconds = seconds_between(w->begin_ns, clock_ns()),

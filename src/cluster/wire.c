@@ -23,9 +23,12 @@
 static MPI_Comm ranks_of_all;
 static MPI_Comm spawned; /* between rank 0 and the ranks that it has started */
 static bool has_begun;
-/* of messages that are being sent */
-static MPI_Request *requests;
-static size_t request_count, request_capacity;
+/* Messages that are being sent. */
+static struct message {
+    MPI_Request request;
+    void *bytes;
+} * posted;
+static size_t posted_count, posted_capacity;
 static int size = 1, rank;
 
 /* Starts copies of this program and joins them to one group. */
@@ -106,33 +109,43 @@ void wire_send(int to, enum wire_tag tag, const void *bytes, size_t count)
     } while (count > 0);
 }
 
-void wire_begin_send(int to, enum wire_tag tag, const void *bytes, size_t count)
+void wire_post(int to, enum wire_tag tag, const void *bytes, size_t count)
 {
     const char *p = bytes;
 
     do {
         size_t part = count < MESSAGE_BYTES ? count : MESSAGE_BYTES;
-        void *array = requests;
+        void *array = posted;
+        struct message m = {.bytes = alloc_array(part, 1)};
 
-        if (!grow_array(&array, &request_capacity, request_count + 1,
-                        sizeof *requests))
+        if (m.bytes == NULL || !grow_array(&array, &posted_capacity,
+                                           posted_count + 1, sizeof *posted))
             MPI_Abort(ranks_of_all, 1);
-        requests = array;
-        MPI_Isend(p, (int)part, MPI_BYTE, to, (int)tag, ranks_of_all,
-                  &requests[request_count++]);
+        posted = array;
+        memcpy(m.bytes, p, part);
+        MPI_Isend(m.bytes, (int)part, MPI_BYTE, to, (int)tag, ranks_of_all,
+                  &m.request);
+        posted[posted_count++] = m;
         p += part;
         count -= part;
     } while (count > 0);
 }
 
-bool wire_sent(void)
+bool wire_is_sent(void)
 {
-    int is_done = 1;
+    size_t left = 0;
 
-    MPI_Testall((int)request_count, requests, &is_done, MPI_STATUSES_IGNORE);
-    if (is_done)
-        request_count = 0;
-    return is_done != 0;
+    for (size_t i = 0; i < posted_count; i++) {
+        int is_sent;
+
+        MPI_Test(&posted[i].request, &is_sent, MPI_STATUS_IGNORE);
+        if (is_sent)
+            free(posted[i].bytes);
+        else
+            posted[left++] = posted[i];
+    }
+    posted_count = left;
+    return left == 0;
 }
 
 void wire_receive(int from, enum wire_tag tag, void *bytes, size_t count)
@@ -176,11 +189,23 @@ void wire_rest(void)
     nanosleep(&(struct timespec){.tv_nsec = REST_NS}, NULL);
 }
 
+/* Waits for a while until all is sent. */
+static bool is_sent_soon(void)
+{
+    for (int i = 0; i < END_NS / REST_NS; i++) {
+        if (wire_is_sent())
+            return true;
+        wire_rest();
+    }
+    return false;
+}
+
 void wire_end(bool ends_job)
 {
     if (!has_begun)
         return;
-    if (ends_job && size > 1)
+    /* a rank that is lost takes no messages, and MPI would wait for it */
+    if (size > 1 && (ends_job || !is_sent_soon()))
         MPI_Abort(ranks_of_all, 1);
     /* ranks that rank 0 has started would be disconnected first, but in Open
      * MPI 4.1 MPI_Comm_disconnect() then never returns. They end after rank 0,
@@ -188,8 +213,8 @@ void wire_end(bool ends_job)
     if (spawned != MPI_COMM_NULL && rank > 0)
         nanosleep(&(struct timespec){.tv_nsec = END_NS}, NULL);
     MPI_Finalize();
-    free(requests);
-    requests = NULL;
+    free(posted);
+    posted = NULL;
     has_begun = false;
     size = 1;
 }

@@ -37,9 +37,11 @@ struct rank_order {
 };
 
 struct rank_answer {
+    uint32_t epoch; /* of the band */
     uint32_t has_failed;
     char error[256];
-    int y, rows;
+    int width, y, rows;
+    bool has_surfaces;
     double seconds; /* time that the band took */
     /* counters; the arrays of the film follow if there are samples */
     uint64_t samples, rays, non_finite, saturated, cut_paths;
@@ -60,13 +62,13 @@ int wire_rank(void);
 /* Sends bytes to a rank and returns when they may be reused. */
 void wire_send(int rank, enum wire_tag tag, const void *bytes, size_t size);
 
-/* Begins to send bytes, which stay unchanged until wire_sent() is true. Two
- * ranks that send large messages to each other and wait would wait for ever. */
-void wire_begin_send(int rank, enum wire_tag tag, const void *bytes,
-                     size_t size);
+/* Begins to send a copy of the bytes. Rank 0 sends in this way: a worker that
+ * is lost takes no message, and one that sends a large one itself waits until
+ * it is received. */
+void wire_post(int rank, enum wire_tag tag, const void *bytes, size_t size);
 
-/* Returns true if all that wire_begin_send() has begun is sent. */
-bool wire_sent(void);
+/* Returns true if all that was posted is sent, and frees what is. */
+bool wire_is_sent(void);
 
 /* Receives bytes of this size. Blocks. */
 void wire_receive(int rank, enum wire_tag tag, void *bytes, size_t size);
