@@ -134,15 +134,22 @@ static void powers_are_those_of_the_flux(void **state)
     }
 }
 
-/* Brightness by angles, the same for opposite ones and across the axes. */
-static double shape(double vertical, double horizontal)
+/* Brightness by angles, the same on both sides of the planes of an enum
+ * symmetry. */
+enum symmetry { BOTH_PLANES, PLANE_OF_0, PLANE_OF_90 };
+
+static double shape(enum symmetry symmetry, double vertical, double horizontal)
 {
     double angle = horizontal * M_PI / 180;
+    double wave = symmetry == BOTH_PLANES  ? cos(2 * angle)
+                  : symmetry == PLANE_OF_0 ? cos(angle)
+                                           : sin(angle);
 
-    return (1 + .5 * cos(2 * angle)) * (1 + vertical / 180);
+    return (1 + .5 * wave) * (1 + vertical / 180);
 }
 
-static struct profile *make_shape(int first, int last, int step)
+static struct profile *make_shape(enum symmetry symmetry, int first, int last,
+                                  int step)
 {
     struct text t;
 
@@ -153,26 +160,29 @@ static struct profile *make_shape(int first, int last, int step)
         fprintf(t.to, "%d ", i);
     for (int i = first; i <= last; i += step)
         for (int k = 0; k <= 180; k += 45)
-            fprintf(t.to, "\r\n%.9g", shape(k, i));
+            fprintf(t.to, "\r\n%.9g", shape(symmetry, k, i));
     return close_text(&t);
 }
 
 static void symmetric_files_are_like_full_ones(void **state)
 {
-    static const int ranges[][2] = {{0, 90}, {0, 180}, {90, 270}};
-    struct profile *full = make_shape(0, 360, 5);
+    static const int ranges[][2] = {[BOTH_PLANES] = {0, 90},
+                                    [PLANE_OF_0] = {0, 180},
+                                    [PLANE_OF_90] = {90, 270}};
 
     (void)state;
-    assert_true(full->columns > 1);
     for (int i = 0; i < 3; i++) {
-        struct profile *p = make_shape(ranges[i][0], ranges[i][1], 5);
+        enum symmetry symmetry = (enum symmetry)i;
+        struct profile *full = make_shape(symmetry, 0, 360, 5);
+        struct profile *p = make_shape(symmetry, ranges[i][0], ranges[i][1], 5);
 
+        assert_true(full->columns > 1);
         assert_int_equal(p->columns, full->columns);
         for (uint32_t k = 0; k < profile_value_count(p); k++)
             check_close((double)p->values[k], (double)full->values[k], 1e-6);
         profile_release(p);
+        profile_release(full);
     }
-    profile_release(full);
 }
 
 /* Horizontal angle 0 is towards +x, 90 towards -z: counter-clockwise seen from
@@ -198,6 +208,15 @@ static void angles_have_their_directions(void **state)
     check_close((double)profile_at(&w, 0, v3(0, 0, -1)), 3, 1e-5);
     check_close((double)profile_at(&w, 0, v3(-1, 0, 0)), 4, 1e-5);
     check_close((double)profile_at(&w, 0, v3(0, 0, 1)), 5, 1e-5);
+    /* between the angles */
+    for (int degrees = 1; degrees < 90; degrees += 11) {
+        double angle = (degrees + 0.37) * M_PI / 180;
+
+        check_close((double)profile_at(&w, 0,
+                                       v3((float)cos(angle), 0,
+                                          (float)-sin(angle))),
+                    2 + (degrees + 0.37) / 90, 1e-4);
+    }
     check_close((double)profile_at(&w, 0, v3(0, 1, 0)), 6, 1e-5);
     check_close((double)profile_at(&w, 0, v3_unit(v3(1, 0, -1))), 2.5, 1e-3);
     check_close((double)profile_at(&w, 0, v3_unit(v3(1, -1, 0))), 1.5, 1e-3);
