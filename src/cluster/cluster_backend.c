@@ -439,6 +439,15 @@ static void destroy(struct backend *base)
     free(c);
 }
 
+/* The exchange at the end of a pass takes the longer, beside the samples, the
+ * more ranks there are. */
+static uint32_t pass_least(void)
+{
+    int least = SAMPLE_BLOCK * wire_size();
+
+    return least < PASS_JOINED_MAX ? (uint32_t)least : PASS_JOINED_MAX;
+}
+
 struct backend *cluster_backend_create(struct backend *local, struct error *err)
 {
     struct backend_cluster *c = alloc_array(1, sizeof *c);
@@ -461,6 +470,7 @@ struct backend *cluster_backend_create(struct backend *local, struct error *err)
                                .device = local->device,
                                .driver = local->driver,
                                .thread_count = local->thread_count,
+                               .pass_least = pass_least(),
                                .pool = local->pool,
                                .load = load,
                                .unload = unload,

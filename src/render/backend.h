@@ -20,6 +20,8 @@ enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 /* Most samples of a pixel in a pass. */
 #define PASS_SAMPLES_MAX 160
 
+#define PASS_JOINED_MAX 64
+
 /* One pass over the pixels of a grid (0, stride, 2 stride, ... in both
  * directions). Pixels with fewer samples than their target get up to that
  * many. */
@@ -38,7 +40,10 @@ struct backend {
     const char *device; /* name of the device and */
     const char *driver; /* version of its driver, or NULL */
     int thread_count;
-    struct pool *pool;   /* of the host, idle between passes; NULL: none */
+    struct pool *pool; /* of the host, idle between passes; NULL: none */
+    /* samples that a pass should have at least, since its end takes time; up to
+     * PASS_JOINED_MAX, 0: those of the plan */
+    uint32_t pass_least;
     uint64_t tree_bytes; /* size of the tree that load() built or found */
     /* version of the loaded WORLD_SHAPE; 0 if none is loaded */
     uint64_t shape;

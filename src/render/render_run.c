@@ -208,12 +208,32 @@ static enum pass_result decide_shares(struct render *r)
     return PASS_DONE;
 }
 
+/* Returns the samples at the end of the next pass. Passes of the plan are
+ * joined if the backend wants longer ones, where nothing depends on their ends.
+ */
+static uint64_t next_target(const struct render *r)
+{
+    uint64_t done = r->spp_done, spp = r->limits.spp;
+    uint64_t least = r->limits.error > 0 ? 0 : r->backend->pass_least;
+    bool shares = pass_plan_has_shares(done, is_adaptive(r));
+    uint64_t target = pass_plan_next(done, &r->limits, is_adaptive(r));
+
+    while (done >= least && target - done < least &&
+           (spp == 0 || target < spp) &&
+           pass_plan_has_shares(target, is_adaptive(r)) == shares) {
+        uint64_t next = pass_plan_next(target, &r->limits, is_adaptive(r));
+
+        if (next - done > PASS_JOINED_MAX)
+            break;
+        target = next;
+    }
+    return target;
+}
+
 static enum pass_result run_film_pass(struct render *r)
 {
     uint64_t *spp_done = &r->spp_done;
-    uint64_t target =
-        is_stepping(r) ? *spp_done + 1
-                       : pass_plan_next(*spp_done, &r->limits, is_adaptive(r));
+    uint64_t target = is_stepping(r) ? *spp_done + 1 : next_target(r);
     enum pass_result result = decide_shares(r);
 
     if (result == PASS_DONE)
