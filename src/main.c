@@ -31,6 +31,7 @@
 #include "terminal/xmalloc.h"
 #include "session/command_line.h"
 #include "session/config.h"
+#include "session/kept_folder.h"
 #include "session/recent.h"
 #include "session/session.h"
 #include "session/sub_command.h"
@@ -191,7 +192,6 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
                 int *status, struct error *err)
 {
     bool ok;
-    char *lost;
 
     if (o->command == COMMAND_COMPARE)
         return batch_compare_run(o, status, err);
@@ -212,11 +212,8 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
     warnings_print(&s->report, stderr);
     if (o->batch)
         return batch_run(s, status, err);
-    lost = recent_find_lost();
     recent_add(o->scene_path);
-    ok = event_loop_run(s, lost, status, err);
-    free(lost);
-    return ok;
+    return event_loop_run(s, status, err);
 }
 
 /* Lets the user choose one of the scenes that were opened last, for free().
@@ -317,6 +314,9 @@ int main(int argc, char **argv)
     cl_environment_prepare(options.thread_count);
     if (options.list_devices)
         return list_devices();
+    if (options.list_sessions)
+        return kept_print_list(stdout, &err) ? print_out("")
+                                             : complain(EXIT_FAILED, &err);
     if (options.probe)
         return probe(&options);
     if (!options.is_worker && cluster_rank() == 0 &&

@@ -94,6 +94,7 @@ const char options_help[] =
     "                   mode (default)\n"
     "  --no-filter      show the picture with its noise\n"
     "  --watch          load the scene's files again when they change\n"
+    "  --sessions       list kept sessions\n"
     "  --phoe-keys      W S A D Q E move up, down, left, right, forward, back\n"
     "\n"
     "  --help           print this text\n"
@@ -391,10 +392,16 @@ static bool check_show(const struct options *o, struct error *err)
     return true;
 }
 
+/* Returns true for options that ask for something else than a render. */
+static bool needs_no_scene(const struct options *o)
+{
+    return o->list_devices || o->list_sessions || o->probe || o->is_worker;
+}
+
 /* Refuses combinations of options. */
 static bool check_together(const struct options *o, struct error *err)
 {
-    if (o->list_devices || o->probe || o->is_worker)
+    if (needs_no_scene(o))
         return true;
     return check_batch(o, err) && check_denoise(o, err) &&
            check_error_map(o, err) && check_films(o, err) && check_show(o, err);
@@ -519,7 +526,7 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
         return false;
     if (o->command != COMMAND_RENDER)
         return sub_command_check(o, err);
-    if (o->scene_path || o->list_devices || o->probe || o->is_worker)
+    if (o->scene_path || needs_no_scene(o))
         return true;
     o->lacks_scene = !o->batch;
     return fail(

@@ -113,11 +113,12 @@ struct options {
     int text_cols,
         text_rows; /* size of text output in batch mode; 0: a picture */
     bool show_help, show_version;
-    bool list_devices; /* list devices; no scene is needed */
-    int ranks;         /* processes of a cluster to start; 0: none */
-    bool is_worker;    /* render for rank 0; no scene is needed */
-    bool probe;        /* test a device, see cl_probe.h; no scene is needed */
-    uint32_t features; /* features for the test */
+    bool list_devices;  /* list devices; no scene is needed */
+    bool list_sessions; /* list kept sessions; no scene is needed */
+    int ranks;          /* processes of a cluster to start; 0: none */
+    bool is_worker;     /* render for rank 0; no scene is needed */
+    bool probe;         /* test a device, see cl_probe.h; no scene is needed */
+    uint32_t features;  /* features for the test */
 };
 
 /* Sets the defaults. There are no keys yet. */

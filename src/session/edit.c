@@ -343,9 +343,8 @@ static char *new_name(const struct edit *e, const char *name)
     }
 }
 
-uint32_t edit_duplicate(struct edit *e, uint32_t material)
+uint32_t edit_duplicate_as(struct edit *e, uint32_t material, const char *name)
 {
-    char *name = new_name(e, e->names[material]);
     struct edit_step step = {.kind = STEP_DUPLICATE,
                              .index = e->material_count,
                              .value.is_there = true};
@@ -356,8 +355,42 @@ uint32_t edit_duplicate(struct edit *e, uint32_t material)
     e->saved.sources[step.index] = mtl_source_empty();
     e->saved.is_there[step.index] = false;
     change(e, step);
-    free(name);
     return step.index;
+}
+
+uint32_t edit_duplicate(struct edit *e, uint32_t material)
+{
+    char *name = new_name(e, e->names[material]);
+    uint32_t index = edit_duplicate_as(e, material, name);
+
+    free(name);
+    return index;
+}
+
+/* Carries out a change unless it has the value of now. */
+static void change_to(struct edit *e, struct edit_step step)
+{
+    if (!is_now(e, &step))
+        change(e, step);
+}
+
+void edit_take_view(struct edit *e, const struct view *view,
+                    const uint32_t *assigned)
+{
+    struct edit_step lamps = {.kind = STEP_LAMPS};
+
+    edit_pose(e, &view->pose);
+    edit_lighting(e, &view->lighting);
+    if (!lamps_equal(&view->lamps, &e->now.view.lamps)) {
+        xcheck(lamps_copy(&lamps.value.lamps, &view->lamps));
+        change(e, lamps);
+    }
+    for (uint32_t i = 0; i < VIEW_SHOTS; i++)
+        change_to(e, (struct edit_step){.kind = STEP_SHOT,
+                                        .index = i,
+                                        .value.shot = shot_of(view, i)});
+    for (uint32_t i = 0; i < e->object_count; i++)
+        edit_assign(e, i, assigned[i]);
 }
 
 /* Writes step_text, the words for a group of steps: those of its first one. */

@@ -75,9 +75,16 @@ void edit_remove_lamp(struct edit *edit, uint32_t number);
 /* Stores the current camera as a numbered view, from 0. */
 void edit_shot(struct edit *edit, uint32_t number);
 
-/* Duplicates a material under a new name. Returns the number of the
- * duplicate. */
+/* Duplicates a material under a new name, or under `name`, which no material
+ * has. Returns the number of the duplicate. */
 uint32_t edit_duplicate(struct edit *edit, uint32_t material);
+uint32_t edit_duplicate_as(struct edit *edit, uint32_t material,
+                           const char *name);
+
+/* Takes camera, numbered views, light and lamps of a view, and a material or
+ * NO_INDEX for each object, in the present step. */
+void edit_take_view(struct edit *edit, const struct view *view,
+                    const uint32_t *assigned);
 
 /* Returns the number of the sky image with this path, which is added if new. */
 uint32_t edit_sky(struct edit *edit, const char *path);

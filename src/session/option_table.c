@@ -79,6 +79,7 @@ static const struct option_rule rules[] = {
     {"no-filter", OPTION_NO_FILTER, NULL},
     {"watch", OPTION_WATCH, NULL},
     {"phoe-keys", OPTION_PHOE_KEYS, NULL},
+    {"sessions", OPTION_SESSIONS, NULL},
     {"csv", OPTION_CSV, "the name of a file"},
     {"seeds", OPTION_SEEDS, "a number of seeds"},
     {"tiles", OPTION_TILES, "a number of tiles"},
@@ -466,6 +467,7 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_WORKER: o->is_worker = true; return true;
     case OPTION_BATCH: o->batch = true; return true;
     case OPTION_LIST_DEVICES: o->list_devices = true; return true;
+    case OPTION_SESSIONS: o->list_sessions = true; return true;
     case OPTION_FILTER:
     case OPTION_NO_FILTER: /* the last one counts */
         o->no_filter = g->rule->id == OPTION_NO_FILTER;

@@ -85,34 +85,6 @@ void recent_add(const char *path)
     free(whole);
 }
 
-char *recent_lost_path(void)
-{
-    return xdg_state_path("lost.png");
-}
-
-static bool is_later(struct timespec a, struct timespec b)
-{
-    return a.tv_sec != b.tv_sec ? a.tv_sec > b.tv_sec : a.tv_nsec > b.tv_nsec;
-}
-
-char *recent_find_lost(void)
-{
-    char *lost = recent_lost_path();
-    char *list = xdg_state_path("recent");
-    struct file_identity picture = {0}, last = {0};
-
-    if (lost && list) {
-        picture = file_identify(lost);
-        last = file_identify(list);
-    }
-    if (!picture.exists || !is_later(picture.modified, last.modified)) {
-        free(lost);
-        lost = NULL;
-    }
-    free(list);
-    return lost;
-}
-
 static char *path_of_answer(const struct recent *r, const char *answer)
 {
     char *end;

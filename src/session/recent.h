@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * recent.h - the scenes that were opened last, and the picture of a lost
- * session
+ * recent.h - the scenes that were opened last
  *
  * The file `recent` in the user's state folder has one path a line, the last
- * one first. The file `lost.png` beside it has the picture of the last session
- * that was lost. Without such a folder nothing is remembered.
+ * one first. Without such a folder nothing is remembered.
  *
  * Ownership: recent_free() frees a list
  * Threads:   main only
@@ -27,15 +25,6 @@ void recent_read(struct recent *r);
 
 /* Adds a scene in the first place. */
 void recent_add(const char *path);
-
-/* Returns the path for the picture of a session that is being lost, for free();
- * NULL without a state folder. */
-char *recent_lost_path(void);
-
-/* Returns the path of a picture that was lost since the last recent_add(), for
- * free(); NULL if there is none. So it is reported once, by the next
- * session. */
-char *recent_find_lost(void);
 
 /* Shows the list and lets the user choose by number or enter another path.
  * Returns the path for free(), or NULL. */

@@ -2,40 +2,27 @@
 #include "session/save_thread.h"
 
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
-#include "base/event_fd.h"
-#include "base/thread.h"
 #include "picture/image_write.h"
 #include "terminal/xmalloc.h"
 
 bool save_thread_init(struct save_thread *s, struct error *err)
 {
-    *s = (struct save_thread){.event_fd = event_fd_open("saver", err)};
-    if (s->event_fd < 0)
-        return false;
-    pthread_mutex_init(&s->lock, NULL);
-    pthread_cond_init(&s->copied, NULL);
-    return true;
+    *s = (struct save_thread){.stem = NULL};
+    return copy_thread_init(&s->copying, "saver", err);
 }
 
-static void *saver_main(void *argument)
+static void save(void *context)
 {
-    struct save_thread *s = argument;
+    struct save_thread *s = context;
     struct film copy = {0};
     bool ok = film_copy(&copy, s->film, &s->error);
 
-    pthread_mutex_lock(&s->lock);
-    s->has_copied = true;
-    pthread_cond_signal(&s->copied);
-    pthread_mutex_unlock(&s->lock);
+    copy_thread_has_copied(&s->copying);
     if (ok)
         s->name = image_write_numbered(&copy, s->how, &s->metadata, s->stem,
                                        s->ending, &s->error);
     film_free(&copy);
-    event_fd_set(s->event_fd);
-    return NULL;
 }
 
 bool save_thread_begin(struct save_thread *s, struct film *film,
@@ -43,9 +30,10 @@ bool save_thread_begin(struct save_thread *s, struct film *film,
                        const struct image_metadata *metadata, const char *stem,
                        const char *ending, struct error *err)
 {
-    int reason;
+    char *what;
+    bool ok;
 
-    if (s->is_busy)
+    if (s->copying.is_busy)
         return fail(err, "%s.%s: the previous picture is still being saved",
                     stem, ending);
     s->film = film;
@@ -53,35 +41,20 @@ bool save_thread_begin(struct save_thread *s, struct film *film,
     s->metadata = *metadata;
     s->stem = xstrdup(stem);
     s->ending = ending;
-    s->has_copied = false;
     s->name = NULL;
-    reason = thread_start(&s->thread, saver_main, s);
-    if (reason != 0) {
+    what = xformat("%s.%s", stem, ending);
+    ok = copy_thread_begin(&s->copying, save, s, what, err);
+    free(what);
+    if (!ok)
         free(s->stem);
-        return fail(err, "%s.%s: cannot start a thread to save it: %s", stem,
-                    ending, strerror(reason));
-    }
-    s->is_busy = true;
-    return true;
-}
-
-void save_thread_wait_copied(struct save_thread *s)
-{
-    if (!s->is_busy)
-        return;
-    pthread_mutex_lock(&s->lock);
-    while (!s->has_copied)
-        pthread_cond_wait(&s->copied, &s->lock);
-    pthread_mutex_unlock(&s->lock);
+    return ok;
 }
 
 char *save_thread_finish(struct save_thread *s, struct error *err)
 {
-    pthread_join(s->thread, NULL);
-    s->is_busy = false;
+    copy_thread_finish(&s->copying);
     free(s->stem);
     s->stem = NULL;
-    event_fd_clear(s->event_fd);
     if (!s->name)
         *err = s->error;
     return s->name;
@@ -91,9 +64,7 @@ void save_thread_free(struct save_thread *s)
 {
     struct error ignored;
 
-    if (s->is_busy)
+    if (s->copying.is_busy)
         free(save_thread_finish(s, &ignored));
-    pthread_cond_destroy(&s->copied);
-    pthread_mutex_destroy(&s->lock);
-    close(s->event_fd);
+    copy_thread_free(&s->copying);
 }

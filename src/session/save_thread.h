@@ -13,26 +13,18 @@
 #ifndef GLIM_SAVE_THREAD_H
 #define GLIM_SAVE_THREAD_H
 
-#include <pthread.h>
-#include <stdbool.h>
-
 #include "picture/film.h"
 #include "picture/image_metadata.h"
+#include "session/copy_thread.h"
 
 struct save_thread {
-    int event_fd; /* readable when a picture is complete */
-    bool is_busy; /* between save_thread_begin() and save_thread_finish() */
-    pthread_t thread;
+    struct copy_thread copying;
     /* set before the thread starts */
     struct film *film;
     struct develop how;
     struct image_metadata metadata;
     char *stem;
     const char *ending;
-    /* guarded by lock */
-    pthread_mutex_t lock;
-    pthread_cond_t copied;
-    bool has_copied;
     /* owned by the thread until save_thread_finish() joins it */
     char *name;
     struct error error;
@@ -47,9 +39,6 @@ bool save_thread_begin(struct save_thread *s, struct film *film,
                        struct develop how,
                        const struct image_metadata *metadata, const char *stem,
                        const char *ending, struct error *err);
-
-/* Blocks until the film may be cleared: a few milliseconds for common sizes. */
-void save_thread_wait_copied(struct save_thread *s);
 
 /* Blocks until the picture is written. Returns its name, for free(), or NULL
  * after a failure. */

@@ -77,19 +77,12 @@ static const char *end_of(const char *path, size_t size_bytes)
     return path;
 }
 
-static bool identify(const struct session *s, struct film_identity *id,
-                     struct error *err)
+bool session_film_describe(const struct session *s, struct film_identity *id,
+                           struct world *world, struct error *err)
 {
     struct view view = edit_view(&s->edit);
     float exposure = (float)view.lighting.exposure;
-    struct world world;
-    char *kernels;
 
-    if (!world_lend(&s->world, &s->scene, &view, s->options->seed, &world, err))
-        return false;
-    kernels = cl_source_text(s->options->kernels_path, err);
-    if (kernels == NULL)
-        return false;
     *id = (struct film_identity){
         .seed = s->options->seed,
         .picture_width = view.width_px,
@@ -102,24 +95,40 @@ static bool identify(const struct session *s, struct film_identity *id,
         .is_adaptive = options_adaptive(s->options),
     };
     memcpy(&id->exposure_bits, &exposure, sizeof exposure);
-    world_hash(&world, id->hashes);
+    return world_lend(&s->world, &s->scene, &view, s->options->seed, world,
+                      err);
+}
+
+bool session_film_hash(const struct world *world, const struct options *o,
+                       struct film_identity *id, struct error *err)
+{
+    char *kernels = cl_source_text(o->kernels_path, err);
+
+    if (kernels == NULL)
+        return false;
+    world_hash(world, id->hashes);
     id->hashes[FILM_KERNELS] = cl_source_hash(kernels);
     free(kernels);
     return true;
 }
 
-/* Fills the head of the film as it is now; its one range is *range. The film
- * has at least these samples from here on. */
-static struct film_header header_of(const struct session *s,
-                                    struct film_range *range)
+bool session_film_identify(const struct session *s, struct film_identity *id,
+                           struct error *err)
 {
-    const struct options *o = s->options;
+    struct world world;
+
+    return session_film_describe(s, id, &world, err) &&
+           session_film_hash(&world, s->options, id, err);
+}
+
+struct film_header session_film_header(const struct session *s, uint64_t total,
+                                       struct film_range *range)
+{
     struct render_progress p = render_progress(s->render);
-    struct film_header h = {.identity = s->film_identity,
-                            .tone = session_develop(s).tone,
+    struct film_header h = {.tone = session_develop(s).tone,
                             .ranges = range,
                             .range_count = 1,
-                            .total = options_limits(o).spp,
+                            .total = total,
                             .render_ns = p.render_ns,
                             .samples = p.samples,
                             .rays = p.rays,
@@ -129,7 +138,7 @@ static struct film_header header_of(const struct session *s,
 
     snprintf(h.version, sizeof h.version, "%s", GLIM_VERSION);
     snprintf(h.scene, sizeof h.scene, "%s",
-             end_of(o->scene_path, sizeof h.scene));
+             end_of(s->options->scene_path, sizeof h.scene));
     *range = (struct film_range){s->first_sample, s->first_sample + p.spp_done};
     return h;
 }
@@ -145,12 +154,16 @@ static bool write_file(const struct session *s, const char *path,
                        struct error *err)
 {
     struct film_range range;
-    struct film_header h = header_of(s, &range);
+    struct film_header h =
+        session_film_header(s, options_limits(s->options).spp, &range);
     size_t size;
-    char *bytes = film_file_bytes(&h, render_film(s->render), shares_of,
-                                  s->render, &size, err);
-    bool ok = bytes != NULL && file_write(path, bytes, size, false, NULL, err);
+    char *bytes;
+    bool ok;
 
+    h.identity = s->film_identity;
+    bytes = film_file_bytes(&h, render_film(s->render), shares_of, s->render,
+                            &size, err);
+    ok = bytes != NULL && file_write(path, bytes, size, false, NULL, err);
     free(bytes);
     return ok;
 }
@@ -306,7 +319,7 @@ bool session_film_begin(struct session_film *f, struct session *s,
     if (o->checkpoint_path == NULL && o->film_path == NULL &&
         o->resume_path == NULL)
         return true;
-    return identify(s, &s->film_identity, err);
+    return session_film_identify(s, &s->film_identity, err);
 }
 
 void session_film_end(struct session_film *f)

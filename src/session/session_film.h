@@ -55,6 +55,23 @@ void session_film_stop(struct session_film *f);
  * halted. */
 bool session_film_write(struct session_film *f, struct error *err);
 
+/* Finds what decides the samples of the session's picture. */
+bool session_film_identify(const struct session *s, struct film_identity *id,
+                           struct error *err);
+
+/* The same in two steps: all but the hashes, with the world that they are of;
+ * and the hashes, which take a while, on any thread as long as the world stays
+ * as it is. */
+bool session_film_describe(const struct session *s, struct film_identity *id,
+                           struct world *world, struct error *err);
+bool session_film_hash(const struct world *world, const struct options *o,
+                       struct film_identity *id, struct error *err);
+
+/* Returns the head of the film as it is now, without its identity; *range
+ * becomes its one range. The film has at least these samples from here on. */
+struct film_header session_film_header(const struct session *s, uint64_t total,
+                                       struct film_range *range);
+
 /* Returns the index of the first sample of the options' share. */
 uint64_t session_film_first(const struct options *o);
 

@@ -12,7 +12,6 @@
 #include "base/clock.h"
 #include "base/event_fd.h"
 #include "base/print.h"
-#include "terminal/xmalloc.h"
 #include "session/stats_json.h"
 #include "studio/commands.h"
 #include "studio/panel_draw.h"
@@ -33,6 +32,8 @@ enum {
     FD_SIGNALS,
     FD_RENDER,
     FD_SAVER,
+    FD_KEEPER, /* a kept session is written */
+    FD_KEEPER_TIMER,
     FD_DEVICE, /* an OpenCL device has started, or cannot */
     FD_FILES,  /* files of the scene have changed */
     FD_RELOAD, /* the scene was loaded anew */
@@ -86,10 +87,11 @@ static void take_key(struct studio *studio, int key)
         keymap_action(&studio->control.session->options->keys, key);
 
     render_control_acknowledge_error(&studio->control);
+    if (!is_urgent(action) && studio->question != QUESTION_NONE &&
+        question_answer(studio, key))
+        return;
     if (is_urgent(action))
         command_run(studio, action);
-    else if (studio->question != QUESTION_NONE)
-        question_answer(studio, key);
     else if (workspace->help_left > 0)
         workspace_turn_help(workspace, action == ACTION_CANCEL);
     else if (workspace->screen.is_too_small && action != ACTION_QUIT)
@@ -228,6 +230,10 @@ static void take_events(struct studio *studio, struct pollfd fds[FDS])
         event_fd_clear(fds[FD_RENDER].fd); /* render_control_update() follows */
     if (fds[FD_SAVER].revents)
         save_finish(&studio->control);
+    if (fds[FD_KEEPER].revents)
+        session_keeper_finish(&studio->keeper);
+    if (fds[FD_KEEPER_TIMER].revents)
+        session_keeper_write(&studio->keeper);
     if (fds[FD_DEVICE].revents)
         render_control_end_device(&studio->control);
     if (fds[FD_FILES].revents)
@@ -249,7 +255,9 @@ static void wait_for_events(struct studio *studio)
         [FD_KEYS].fd = STDIN_FILENO,
         [FD_SIGNALS].fd = tty_signal_fd(),
         [FD_RENDER].fd = render_event_fd(studio->control.session->render),
-        [FD_SAVER].fd = studio->control.saver.event_fd,
+        [FD_SAVER].fd = studio->control.saver.copying.event_fd,
+        [FD_KEEPER].fd = studio->control.keeping.copying.event_fd,
+        [FD_KEEPER_TIMER].fd = studio->keeper.timer_fd,
         [FD_DEVICE].fd = start ? cl_start_event_fd(start) : -1,
         [FD_FILES].fd = studio->control.watch.fd,
         [FD_RELOAD].fd =
@@ -293,20 +301,13 @@ static void loop(struct studio *studio)
     }
 }
 
-/* Keeps the picture where the person had no chance to save it: when the line to
- * the terminal is lost, if it took a while; at SIGTERM, if q would have asked.
- * Ctrl-C and Ctrl-\ are typed, so nothing is kept then. */
-static void keep_picture(struct studio *studio)
-{
-    if (studio->status == 128 + SIGHUP ||
-        (studio->status == 128 + SIGTERM &&
-         render_control_has_unsaved(&studio->control)))
-        save_lost_picture(&studio->control);
-}
-
 static void close_screen(struct studio *studio)
 {
-    if (studio->status == 128 + SIGHUP || studio->status == 128 + SIGTERM)
+    /* Ctrl-C and Ctrl-\ are typed, as q is */
+    bool is_lost =
+        studio->status == 128 + SIGHUP || studio->status == 128 + SIGTERM;
+
+    if (is_lost)
         tty_ignore_termination(); /* shells send SIGHUP again */
     if (!studio->is_gone)
         screen_drain(&studio->workspace.screen, &studio->input);
@@ -315,25 +316,14 @@ static void close_screen(struct studio *studio)
     tty_close(studio->is_gone);
     render_halt(studio->control.session->render);
     save_finish(&studio->control);
-    keep_picture(studio);
+    session_keeper_end(&studio->keeper, is_lost);
     for (int i = 0; i < studio->control.result_count && !studio->is_gone; i++)
         print_line(stdout, "%s", studio->control.results[i]);
     fflush(stdout);
 }
 
-static void say_lost(struct studio *studio, const char *path)
-{
-    char *text = xformat("picture of the lost session: %s", path);
-
-    render_control_say_long(&studio->control, "%s", text);
-    /* printed at the end as well: the status line may cut it */
-    render_control_add_result(&studio->control, text);
-    free(text);
-}
-
 /* The render starts first: it works while the terminal is opened. */
-bool event_loop_run(struct session *s, const char *lost, int *status,
-                    struct error *err)
+bool event_loop_run(struct session *s, int *status, struct error *err)
 {
     const char *stats_path = s->options->stats_path;
     struct studio studio = {.has_mouse = true};
@@ -354,13 +344,15 @@ bool event_loop_run(struct session *s, const char *lost, int *status,
         if (s->notice[0] != '\0')
             render_control_say_long(&studio.control, "%s", s->notice);
         s->notice[0] = '\0';
-        if (lost)
-            say_lost(&studio, lost);
+        session_keeper_init(&studio.keeper, &studio.control, &studio.camera);
+        if (studio.keeper.has_offer)
+            question_ask(&studio, QUESTION_KEPT);
         /* after tty_open(): it puts back the signal handlers that it finds */
         if (s->options->backend != BACKEND_CPU)
             render_control_begin_device(&studio.control);
         loop(&studio);
         close_screen(&studio);
+        session_keeper_free(&studio.keeper);
         *status = studio.status;
         session_progress(s);
         ok = !stats_path || stats_json_write(s, stats_path, err);

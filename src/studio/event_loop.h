@@ -13,11 +13,9 @@
 
 #include "session/session.h"
 
-/* Runs until the person quits or a signal ends the program. `lost` is the path
- * of a picture that a lost session has left, or NULL: the person is told.
- * *status becomes the exit status. Returns false if the screen cannot be
- * opened, or the file of --stats cannot be written. */
-bool event_loop_run(struct session *s, const char *lost, int *status,
-                    struct error *err);
+/* Runs until the person quits or a signal ends the program. *status becomes the
+ * exit status. Returns false if the screen cannot be opened, or the file of
+ * --stats cannot be written. */
+bool event_loop_run(struct session *s, int *status, struct error *err);
 
 #endif

@@ -53,12 +53,15 @@ static const struct {
                           restart, 'p', save_render},
     [QUESTION_NUMBER] = {.text = "Which number for this view? 1 to 9, other: "
                                  "none"},
+    [QUESTION_KEPT] = {0}, /* its text is that of the session keeper */
 };
 
 void question_ask(struct studio *studio, enum question question)
 {
     studio->question = question;
-    workspace_ask(&studio->workspace, questions[question].text);
+    workspace_ask(&studio->workspace, question == QUESTION_KEPT
+                                          ? studio->keeper.question
+                                          : questions[question].text);
 }
 
 /* Answers QUESTION_NUMBER: the key that goes to a view gives the number of that
@@ -73,16 +76,38 @@ static void answer_number(struct studio *studio, int key)
                                  (int)action - ACTION_VIEW_1 + 1);
 }
 
-void question_answer(struct studio *studio, int key)
+/* Answers QUESTION_KEPT: Enter goes on, and any other key but r has its effect
+ * in a session that starts anew. The question stays for the next session if the
+ * person quits. */
+static bool answer_kept(struct studio *studio, int key)
+{
+    enum action action =
+        keymap_action(&studio->control.session->options->keys, key);
+
+    if (action == ACTION_QUIT)
+        return false;
+    if (key == '\r') {
+        session_keeper_go_on(&studio->keeper);
+        workspace_refresh(&studio->workspace);
+    } else {
+        session_keeper_start_anew(&studio->keeper);
+    }
+    return key == '\r' || key == 'r';
+}
+
+bool question_answer(struct studio *studio, int key)
 {
     enum question question = studio->question;
     int small = key >= 'A' && key <= 'Z' ? key - 'A' + 'a' : key;
 
     question_ask(studio, QUESTION_NONE);
+    if (question == QUESTION_KEPT)
+        return answer_kept(studio, key);
     if (question == QUESTION_NUMBER)
         answer_number(studio, key);
     else if (small == 'y')
         questions[question].yes(studio);
     else if (small == questions[question].save_key)
         questions[question].save(studio);
+    return true;
 }

@@ -10,6 +10,8 @@
 #ifndef GLIM_QUESTIONS_H
 #define GLIM_QUESTIONS_H
 
+#include <stdbool.h>
+
 struct studio;
 
 enum question {
@@ -18,13 +20,15 @@ enum question {
     QUESTION_EDIT, /* quit without saving edits */
     QUESTION_LIVE, /* leave normal mode */
     QUESTION_RESTART,
-    QUESTION_NUMBER /* number for a view */
+    QUESTION_NUMBER, /* number for a view */
+    QUESTION_KEPT    /* go on with a kept session */
 };
 
 /* Shows a question instead of the status line. QUESTION_NONE removes it. */
 void question_ask(struct studio *studio, enum question question);
 
-/* Takes any key as the answer and removes the question. */
-void question_answer(struct studio *studio, int key);
+/* Takes any key as the answer and removes the question. Returns false if the
+ * key is to have its effect, too. */
+bool question_answer(struct studio *studio, int key);
 
 #endif

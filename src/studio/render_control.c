@@ -92,12 +92,19 @@ static struct render_limits limits_of(const struct render_control *control)
     return control->is_live ? none : options_limits(control->session->options);
 }
 
+/* Blocks until nobody reads the film or the world any more. */
+static void wait_copied(struct render_control *control)
+{
+    copy_thread_wait_copied(&control->saver.copying);
+    copy_thread_wait_copied(&control->keeping.copying);
+}
+
 static void begin(struct render_control *control, bool is_step)
 {
     struct render_limits limits = limits_of(control);
     struct error err;
 
-    save_thread_wait_copied(&control->saver);
+    wait_copied(control);
     if (!(is_step ? session_step(control->session, limits, &err)
                   : session_restart(control->session, limits, &err)))
         render_control_say_error(control, err.text);
@@ -105,6 +112,7 @@ static void begin(struct render_control *control, bool is_step)
         render_control_say_error(control, control->session->notice);
     control->session->notice[0] = '\0';
     control->is_halted = is_step;
+    control->has_gone_on = false;
     control->saved_samples = 0;
     control->saving_samples = 0; /* both counted the old picture */
     if (control->session->files_version != control->watched_version)
@@ -133,7 +141,12 @@ bool render_control_init(struct render_control *control,
     if (!session_restart(session, limits_of(control), err) ||
         !save_thread_init(&control->saver, err))
         return false;
+    if (!kept_writer_init(&control->keeping, err)) {
+        save_thread_free(&control->saver);
+        return false;
+    }
     if (!reload_init(&control->reload, session->options, err)) {
+        kept_writer_free(&control->keeping);
         save_thread_free(&control->saver);
         return false;
     }
@@ -308,6 +321,18 @@ void render_control_restart(struct render_control *control)
                            render_control_key(control, ACTION_START).text);
 }
 
+void render_control_go_on(struct render_control *control, bool is_live,
+                          struct film_file *from)
+{
+    control->has_changed = true;
+    control->is_live = is_live;
+    control->is_started = !is_live;
+    control->session->from = from;
+    restart(control);
+    control->session->from = NULL;
+    control->has_gone_on = from != NULL;
+}
+
 /* ---- backends ---- */
 
 static void use_backend(struct render_control *control, struct backend *backend)
@@ -372,7 +397,7 @@ void render_control_end_device(struct render_control *control)
     if (backends_end_specialising(m))
         return;
     if (backends_end_device(m, &log, &err)) {
-        if (control->is_live)
+        if (control->is_live && !control->has_gone_on)
             use_backend(control, m->device);
         else
             render_control_say(
@@ -454,7 +479,7 @@ bool render_control_end_reload(struct render_control *control)
     if (!ok) {
         render_control_say_error(control, err.text);
     } else {
-        save_thread_wait_copied(&control->saver);
+        wait_copied(control);
         session_take_loaded(control->session, &fresh);
         watch_files(control);
         render_control_check_files(control); /* changes during the load */
@@ -468,6 +493,7 @@ bool render_control_end_reload(struct render_control *control)
 void render_control_free(struct render_control *control)
 {
     save_thread_free(&control->saver);
+    kept_writer_free(&control->keeping);
     reload_free(&control->reload);
     file_watch_free(&control->watch);
     for (int i = 0; i < control->result_count; i++)

@@ -18,6 +18,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "session/kept_writer.h"
 #include "session/reload.h"
 #include "session/save_thread.h"
 #include "session/session.h"
@@ -26,14 +27,16 @@
 struct render_control {
     struct session *session;
     struct save_thread saver;
+    struct kept_writer keeping;
     struct reload reload;
     struct file_watch watch;
     struct render_progress progress; /* of the last render_control_update() */
     struct message message;
 
     bool is_live;
-    bool is_started; /* normal mode: the render was started */
-    bool is_halted;  /* halted by the person */
+    bool is_started;  /* normal mode: the render was started */
+    bool is_halted;   /* halted by the person */
+    bool has_gone_on; /* the film began with that of a kept session */
     /* the screen must be drawn; cleared by the screen */
     bool has_changed;
     bool has_changed_files; /* since the last load */
@@ -112,6 +115,11 @@ void render_control_step(struct render_control *control);
 
 /* Restarts the render. Discards the picture of normal mode. */
 void render_control_restart(struct render_control *control);
+
+/* Restarts in a mode. With the film of a kept session, of the same picture, it
+ * goes on from there; NULL: none. */
+void render_control_go_on(struct render_control *control, bool is_live,
+                          struct film_file *from);
 
 /* Switches between CPU and OpenCL device, which is started first if necessary.
  * A new picture begins, since one backend makes a whole film. */

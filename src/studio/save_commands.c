@@ -10,11 +10,7 @@
 #include "base/file.h"
 #include "picture/image_write.h"
 #include "terminal/xmalloc.h"
-#include "session/recent.h"
 #include "session/session_save.h"
-
-/* Least render time for which a live picture is saved at a hangup. */
-#define WORTH_NS UINT64_C(5000000000)
 
 /* Returns the scene's file name without folder and extension, for free(). */
 static char *scene_name(const struct render_control *control)
@@ -60,7 +56,7 @@ bool save_finish(struct render_control *control)
     struct error err;
     char *name, *text;
 
-    if (!control->saver.is_busy)
+    if (!control->saver.copying.is_busy)
         return true;
     name = save_thread_finish(&control->saver, &err);
     if (!name) {
@@ -170,40 +166,4 @@ bool save_edit(struct render_control *control)
     render_control_add_result(control, what);
     free(what);
     return true;
-}
-
-/* Returns true for an unsaved picture that took WORTH_NS to render or that the
- * command to quit would ask about. */
-static bool is_worth_keeping(const struct render_control *control)
-{
-    return control->progress.samples > control->saved_samples &&
-           (control->progress.render_ns >= WORTH_NS ||
-            render_control_has_unsaved(control) ||
-            render_control_has_unsaved_edit(control));
-}
-
-void save_lost_picture(struct render_control *control)
-{
-    struct session *s = control->session;
-    struct image_metadata metadata;
-    struct error err;
-    char *path, *text;
-
-    render_halt(s->render);
-    control->progress = render_progress(s->render);
-    metadata = session_metadata(s, false);
-    if (!is_worth_keeping(control))
-        return;
-    path = recent_lost_path();
-    if (!path)
-        text = xstrdup("not kept: found no folder for the person's state");
-    else if (image_write(render_film(s->render), session_develop(s), &metadata,
-                         path, &err))
-        text = xformat("kept %s, %" PRIu64 " spp", path,
-                       control->progress.spp_done);
-    else
-        text = xstrdup(err.text);
-    render_control_add_result(control, text);
-    free(text);
-    free(path);
 }

@@ -37,9 +37,4 @@ void save_view(struct render_control *control);
  * false, with a message, on errors. */
 bool save_edit(struct render_control *control);
 
-/* Halts the render at the end of a session that cannot ask the person, and
- * writes its picture to recent_lost_path(), replacing an earlier one. Pictures
- * of less than 5 s are not saved, unless an edit is unsaved. */
-void save_lost_picture(struct render_control *control);
-
 #endif

@@ -17,12 +17,14 @@
 #include "studio/camera_control.h"
 #include "studio/questions.h"
 #include "studio/render_control.h"
+#include "studio/session_keeper.h"
 #include "studio/workspace.h"
 
 struct studio {
     struct render_control control;
     struct camera_control camera;
     struct workspace workspace;
+    struct session_keeper keeper;
     struct tty_input input;
     uint64_t byte_ns; /* time of the last byte of input */
     bool has_mouse;

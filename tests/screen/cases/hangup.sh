@@ -1,115 +1,199 @@
 # SPDX-License-Identifier: MIT
-# When the terminal is lost, the program ends and saves a picture of some work
-# to one file in the state folder; the next start tells of it. SIGTERM saves if
-# q would ask.
-size=80x22
+# When the terminal is lost, the session is kept in the state folder, and the
+# next start of the scene goes on with view, changes and film. A program that is
+# killed has written it before. q removes it.
+size=140x24
 XDG_STATE_HOME=$PWD/state
 export XDG_STATE_HOME
-lost=state/glim/lost.png
 gone()
 {
     ! kill -0 "$pid" 2>/dev/null
 }
-# Prints a PNG file from its pixels on, without the texts before them, which
-# tell the number of samples.
-pixels()
+kept()
 {
-    tail -c "+$(LC_ALL=C grep -a -b -o IDAT "$1" | sed -n '1s/:.*//p')" "$1"
+    find state/glim/sessions -name '*.session'
 }
-# Every pixel is the background, with any number of samples.
-is_whole()
+is_kept()
 {
-    pixels "$1" | cmp - reference.pixels || die "$1 is not the picture"
+    [ -n "$(kept)" ]
 }
-# Nothing but the scene lies beside it, and nothing but one picture there.
+# Prints the samples per pixel on the status line.
+spp()
+{
+    screen | sed -n 's/^ *LIVE .* \([0-9][0-9]*\) spp.*/\1/p' | head -n 1
+}
+has_spp()
+{
+    [ -n "$(spp)" ]
+}
+# Nothing is left beside the scene, and no more than one file in the folder.
 is_tidy()
 {
-    [ "$(ls -A scenes)" = "$(printf 'flat.obj\nflat.view')" ] ||
+    [ "$(ls -A scenes)" = "$(printf 'lamp.mtl\nlamp.obj\nlamp.view')" ] ||
         die "beside the scene: $(ls -A scenes)"
-    [ "$(ls -A state/glim | grep -v '^lost.png$')" = recent ] ||
+    [ "$(ls -A state/glim)" = "$(printf 'recent\nsessions')" ] ||
         die "in the state folder: $(ls -A state/glim)"
+    [ "$(ls -A state/glim/sessions | grep -v '^lock$' | wc -l)" = "$1" ] ||
+        die "sessions: $(ls -A state/glim/sessions)"
 }
-worth="LIVE .* \([5-9]\|[1-9][0-9]\) s "
+shows() # a colour of the picture, as R;G;B
+{
+    wait_until eval "screen_colors | sed 's,│.*,,' | grep -q '[34]8;2;$1m'"
+}
+worth="LIVE .*  \([5-9]\|[1-9][0-9]\) s  "
+asks="^ *[1-9][0-9]* s of render kept: Enter goes on, r starts anew"
 mkdir scenes
-flat_scene
-glim -b -s 1 -o reference.png flat.obj 2>/dev/null
-pixels reference.png >reference.pixels
-mv flat.obj flat.view scenes
+lamp_scene
+mv lamp.* scenes
 
 # a picture of a moment is nothing to keep
-start scenes/flat.obj
+start scenes/lamp.obj
 wait_for "LIVE .* [1-9][0-9]* spp"
 kill -HUP "$(program_pid)"
 expect_end 129
-[ ! -e $lost ] || die "the picture of a moment was kept"
+is_tidy 0
 fresh
 
-start scenes/flat.obj
+# the terminal is lost: the film goes on
+start scenes/lamp.obj
 wait_for "$worth"
 pid=$(program_pid)
+before=$(spp)
 mux kill-session
 wait_until gone
-is_whole $lost
-is_tidy
+is_tidy 1
+start scenes/lamp.obj
+wait_for "$asks"
+keys Enter
+wait_for "gone on: view, changes, render"
+wait_until_gone "gone on"
+wait_until has_spp
+[ "$(spp)" -ge "$before" ] || die "$(spp) spp, but $before were kept"
 
-# told once, and with signals that go on while it is saved: it is replaced
-start -w 900 -h 600 scenes/flat.obj
-wait_for "^ picture of the lost session: /"
-keys Escape
-wait_for "$worth"
+# signals that go on while it is kept; another program leaves it alone
+second=$(glim --sessions)
+case $second in
+"$PWD/scenes/lamp.obj: "*" s of render, "*" ago, "*" MB") ;;
+*) die "listed: $second" ;;
+esac
 pid=$(program_pid)
 while kill -HUP "$pid" 2>/dev/null; do
     :
 done
 expect_end 129
-expect "^picture of the lost session: /"
-expect "^kept .*"
-! pixels $lost | cmp -s - reference.pixels || die "the picture before was not replaced"
-is_tidy
-
-# nothing can be written: it ends all the same, and the picture before stays
+expect "^kept .* s of render: glim scenes/lamp.obj goes on"
+is_tidy 1
 fresh
-cp $lost before.png
-start_line "(ulimit -f 0; trap '' XFSZ; TERM=tmux-256color exec glim scenes/flat.obj)"
-wait_for "^ picture of the lost session: /"
-keys Escape
-wait_for "$worth"
-kill -HUP "$(program_pid)"
-expect_end 129
-expect "lost.png: File to"
-cmp $lost before.png || die "written despite the limit"
-is_tidy
 
-# SIGTERM asks nobody: only a render that would be lost is kept
-fresh
-start scenes/flat.obj
-wait_for "LIVE .* [1-9][0-9]* spp"
+# the question stays for the next session if it has no answer
+for key in q C-c; do
+    start scenes/lamp.obj
+    wait_for "$asks"
+    keys $key
+    wait_for "^exit "
+    is_tidy 1
+    fresh
+done
+
+# another picture: the film is not taken, and it is said what differs
+start --seed 7 scenes/lamp.obj
+wait_for "$asks"
+keys Enter
+wait_for "seed"
 keys Escape
-wait_for "$worth"
+keys q
+expect_end 0
+is_tidy 0
+fresh
+
+# a changed material, killed: no signal is seen, but it was written before
+start scenes/lamp.obj
+shows '255;255;255'
+keys Tab
+wait_for "│\[Materials\]  Objects   Light"
+keys Enter
+keys Down Down Down Down Down Down Down Down
+wait_for "│>    of colour  #ffffff"
+raw_keys '#ff0000'
+keys Enter
+shows '255;0;0'
+wait_until is_kept
+kill -KILL "$(program_pid)"
+wait_for " exit 137"
+fresh
+start scenes/lamp.obj
+wait_for "^ *\(unsaved changes\|.* s of render and unsaved changes\) kept: Enter goes on"
+shows '255;255;255'
+keys Enter
+wait_for "gone on: view"
+shows '255;0;0'
+keys Tab
+wait_for " l \*"
+keys u
+shows '255;255;255'
+keys U
+shows '255;0;0'
+
+# SIGTERM asks nobody either
 kill -TERM "$(program_pid)"
 expect_end 143
-cmp $lost before.png || die "a live picture was kept"
+expect "^kept .*unsaved changes: glim"
+is_tidy 1
 fresh
-start -s 1000000000 scenes/flat.obj
+
+# nothing can be written: it ends all the same, and the file before stays
+file=$(kept)
+cp "$file" earlier.session
+start_line "(ulimit -f 0; trap '' XFSZ; TERM=tmux-256color exec glim scenes/lamp.obj)"
+wait_for "unsaved changes kept"
+keys Enter
+wait_for "gone on"
+shows '255;0;0'
+keys w
+kill -HUP "$(program_pid)"
+expect_end 129
+expect "session: File to"
+cmp "$file" earlier.session || die "written despite the limit"
+is_tidy 1
+fresh
+
+# the other key: it starts anew, and q removes the file
+start scenes/lamp.obj
+wait_for "unsaved changes kept"
+keys r
+wait_until_gone "unsaved changes kept"
+shows '255;255;255'
+keys q
+expect_end 0
+is_tidy 0
+fresh
+
+# a picture of normal mode goes on in that mode
+start -s 1000000000 scenes/lamp.obj
 wait_for "LIVE"
-reject "lost session" # it was told of
 keys Space Enter
-wait_for "NORMAL  [1-9][0-9]*/1000000000 spp"
+wait_for "NORMAL .*  \([5-9]\|[1-9][0-9]\) s  "
 kill -TERM "$(program_pid)"
 expect_end 143
-expect "^kept "
-is_whole $lost
-is_tidy
-
-[ "$(id -u)" != 0 ] || exit 0 # may write everywhere
 fresh
-chmod a-w state/glim
-start scenes/flat.obj
-wait_for "LIVE"
-keys Escape
-wait_for "$worth"
-kill -HUP "$(program_pid)"
-expect_end 129
-expect "lost.png: \|glim: Permission"
-chmod u+w state/glim
-is_tidy
+start -s 1000000000 scenes/lamp.obj
+wait_for "$asks"
+keys Enter
+wait_for "NORMAL  [1-9][0-9][0-9][0-9]*/1000000000 spp"
+keys q
+wait_for "The render is not saved. Quit?"
+keys y
+expect_end 0
+is_tidy 0
+fresh
+
+# a damaged file is said in one line, and a session starts anew
+for text in 'glim session 1' 'something else' ''; do
+    echo "$text" >"state/glim/sessions/$(basename "$file")"
+    start scenes/lamp.obj
+    wait_for "session.* expected"
+    keys q
+    expect_end 0
+    is_tidy 0
+    fresh
+done

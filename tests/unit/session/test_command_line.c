@@ -355,6 +355,7 @@ static void list_devices_stands_alone(void **state)
     assert_true(o.list_devices);
     assert_null(o.scene_path);
     assert_int_equal(o.thread_count, 3);
+    assert_true(good("--sessions").list_sessions);
     bad("--list-devices -t 0",
         "-t: found '0', expected a whole number from 1 to 1024");
 }

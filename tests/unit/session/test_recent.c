@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
  * test_recent.c - the list of scenes: the most recent first, each once, none
- * that is gone, at most twenty; answers of a person; messages about lost
- * pictures
+ * that is gone, at most twenty; answers of a person
  */
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
 
-#include <fcntl.h>
 #include <stdbool.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -99,57 +97,6 @@ static void unusable_names_are_left_out(void **state)
     assert_int_equal(r.count, 0);
 }
 
-/* Sets the file's time a second after the last one with a message. */
-static void set_later(const char *path)
-{
-    static struct timespec times[2] = {{.tv_sec = 1000000},
-                                       {.tv_sec = 1000000}};
-
-    times[1].tv_sec++;
-    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
-}
-
-/* Checks whether a start finds the picture, and then opens a scene. */
-static void start_finds(bool expected)
-{
-    char *lost = recent_find_lost();
-
-    assert_int_equal(lost != NULL, expected);
-    if (lost)
-        assert_string_equal(lost + strlen(lost) - 20, "/state/glim/lost.png");
-    free(lost);
-    make_scene(1);
-    set_later("state/glim/recent");
-}
-
-static void lose(void)
-{
-    char *path = recent_lost_path();
-    FILE *to;
-
-    assert_non_null(path);
-    to = fopen(path, "w");
-    assert_non_null(to);
-    assert_int_equal(fclose(to), 0);
-    set_later(path);
-    free(path);
-}
-
-static void lost_pictures_are_reported_once(void **state)
-{
-    (void)state;
-    forget();
-    start_finds(false);
-    for (int i = 0; i < 2; i++) {
-        lose();
-        start_finds(true);
-        start_finds(false);
-    }
-    lose();
-    forget(); /* without a list */
-    start_finds(true);
-}
-
 static void without_a_folder_nothing_is_remembered(void **state)
 {
     struct recent r;
@@ -159,7 +106,6 @@ static void without_a_folder_nothing_is_remembered(void **state)
     make_scene(1);
     recent_read(&r);
     assert_int_equal(r.count, 0);
-    assert_null(recent_find_lost());
     setenv("XDG_STATE_HOME", "state", 1); /* relative, so it is ignored */
     setenv("HOME", "", 1);
     recent_read(&r);
@@ -214,7 +160,6 @@ int main(void)
         cmocka_unit_test(most_recent_scene_is_first_and_once),
         cmocka_unit_test(the_oldest_are_forgotten),
         cmocka_unit_test(unusable_names_are_left_out),
-        cmocka_unit_test(lost_pictures_are_reported_once),
         cmocka_unit_test(without_a_folder_nothing_is_remembered),
         cmocka_unit_test(answers_select_a_scene),
     };

@@ -12,6 +12,8 @@
 #include "formats/mtl.h"
 #include "formats/view_file.h"
 #include "terminal/xmalloc.h"
+#include "session/kept_edit.h"
+#include "session/session_film.h"
 #include "session/session_save.h"
 #include "tests/unit/files.h"
 #include "tests/unit/kinds.h"
@@ -166,6 +168,118 @@ static void edit_anything(struct edit *e)
         edit_lighting(e, &light);
         break;
     }
+}
+
+/* Moves the camera, stores a view, adds a lamp and switches a map off. */
+static void edit_the_rest(struct edit *e)
+{
+    struct pose pose = e->now.view.pose;
+    struct mtl_source source = e->now.sources[1];
+    struct lamp lamp;
+
+    pose.eye[0] = 1 / 3.0;
+    edit_pose(e, &pose);
+    edit_shot(e, 4);
+    pose.eye[1] = -2 / 7.0;
+    edit_pose(e, &pose);
+    lamp_init(&lamp, LAMP_POINT);
+    lamp.position[2] = 3;
+    edit_add_lamp(e, &lamp);
+    source.maps_off ^= 1u << MTL_MAP_KD;
+    edit_material(e, 1, &source);
+}
+
+static void check_same_picture(struct session *s, struct session *t)
+{
+    struct film_identity a, b;
+    struct error err;
+
+    check_or_say(session_film_identify(s, &a, &err), err.text);
+    check_or_say(session_film_identify(t, &b, &err), err.text);
+    check_or_say(film_identity_check(&a, "a", &b, "b", &err), err.text);
+}
+
+/* A session that is restored has the picture and the unsaved values of the kept
+ * one, from the files that it was opened with; one undo gives those. */
+static void kept_edits_are_restored(void **state)
+{
+    struct session first;
+    struct error err;
+
+    (void)state;
+    put_scene();
+    open_session(&first);
+    restart(&first);
+    for (int round = 0; round < 25; round++) {
+        struct session s, again;
+        struct kept kept = {.scene = NULL};
+        uint32_t missing;
+
+        open_session(&s);
+        for (int i = 0; i < round; i++)
+            edit_anything(&s.edit);
+        if (round % 2 != 0)
+            edit_the_rest(&s.edit);
+        restart(&s);
+        check_or_say(kept_edit_take(&kept, &s, "/tmp/k", &err), err.text);
+        assert_int_equal(kept.has_edits, edit_has_unsaved_materials(&s.edit) ||
+                                             edit_has_unsaved_view(&s.edit));
+        open_session(&again);
+        check_or_say(kept_edit_restore(&kept, &again, "/tmp/k", &missing, &err),
+                     err.text);
+        assert_int_equal(missing, 0);
+        restart(&again);
+        check_same_world(&again, &s);
+        check_same_picture(&again, &s);
+        for (uint32_t i = 0; i < s.edit.material_count; i++) {
+            assert_true(mtl_source_equal(&s.edit.now.sources[i],
+                                         &again.edit.now.sources[i]));
+            assert_string_equal(s.edit.names[i], again.edit.names[i]);
+        }
+        for (int i = 0; i < VIEW_SHOTS; i++)
+            assert_int_equal(s.edit.now.view.has_shot[i],
+                             again.edit.now.view.has_shot[i]);
+        edit_undo(&again.edit);
+        assert_false(edit_has_unsaved_materials(&again.edit));
+        assert_false(edit_has_unsaved_view(&again.edit));
+        restart(&again);
+        check_same_world(&again, &first);
+        assert_null(edit_undo(&again.edit));
+        kept_free(&kept);
+        session_close(&s);
+        session_close(&again);
+    }
+    session_close(&first);
+}
+
+/* Edits of materials that the files lost meanwhile are left out. */
+static void kept_edits_of_lost_materials_are_counted(void **state)
+{
+    struct session s;
+    struct kept kept = {.scene = NULL};
+    struct mtl_source source;
+    struct error err;
+    uint32_t missing;
+
+    (void)state;
+    put_scene();
+    open_session(&s);
+    for (uint32_t i = 1; i < 3; i++) {
+        source = s.edit.now.sources[i];
+        source.kd = (struct mtl_color){{.25, .5, 1}, 1};
+        edit_material(&s.edit, i, &source);
+    }
+    check_or_say(kept_edit_take(&kept, &s, "/tmp/k", &err), err.text);
+    session_close(&s);
+    put("a.mtl", "newmtl wall\nKd .5 .5 .5\n");
+    open_session(&s);
+    check_or_say(kept_edit_restore(&kept, &s, "/tmp/k", &missing, &err),
+                 err.text);
+    assert_int_equal(missing, 1);
+    source = s.edit.now.sources[mtl_find(&s.scene, "wall")];
+    assert_true(source.kd.rgb[0] == .25);
+    session_close(&s);
+    kept_free(&kept);
 }
 
 /* A picture after an edit equals that of a fresh start after saving. Comparing
@@ -504,6 +618,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(saved_edits_are_loaded_again),
+        cmocka_unit_test(kept_edits_are_restored),
+        cmocka_unit_test(kept_edits_of_lost_materials_are_counted),
         cmocka_unit_test(changed_arrays_have_new_versions),
         cmocka_unit_test(textures_are_read_when_used),
         cmocka_unit_test(only_changes_are_saved),

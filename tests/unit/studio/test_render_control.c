@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
  * test_render_control.c - live and normal mode with a renderer: starting,
- * halting, saving, and unsaved pictures
+ * halting and saving
  */
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
@@ -15,19 +15,13 @@
 #include "studio/save_commands.h"
 #include "kernels/rng.h"
 
-static const char *const names[] = {"s.obj",      "s.view", "s.png",  "s-2.png",
-                                    "s-kept.png", "s.ans",  "s-2.ans"};
-
-static int enter(void **state)
-{
-    return enter_folder(state) == 0 ? setenv("XDG_STATE_HOME", folder, 1) : -1;
-}
+static const char *const names[] = {"s.obj",   "s.view", "s.png",
+                                    "s-2.png", "s.ans",  "s-2.ans"};
 
 static int leave(void **state)
 {
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         unlink(names[i]);
-    rmdir("glim");
     return leave_empty_folder(state);
 }
 
@@ -46,7 +40,6 @@ static int open_work(void **state)
     unlink("s.view");
     unlink("s.png");
     unlink("s-2.png");
-    unlink("glim/lost.png");
     if (!to || fputs("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", to) < 0 ||
         fclose(to) != 0)
         return -1;
@@ -285,64 +278,6 @@ static void steps_after_a_halt_make_the_same_picture(void **state)
     assert_memory_equal(whole, stepped, sizeof whole);
 }
 
-static bool is_kept(void)
-{
-    return access("glim/lost.png", F_OK) == 0;
-}
-
-static void unsaved_pictures_are_kept(void **state)
-{
-    struct render_control *w = &((struct fixture *)*state)->control;
-    char expected[256];
-
-    snprintf(expected, sizeof expected, "kept %s/glim/lost.png, 3 spp", folder);
-    render_whole(w);
-    for (int i = 0; i < 2; i++) { /* both in one file */
-        save_lost_picture(w);
-        assert_true(is_kept());
-        assert_int_equal(w->result_count, i + 1);
-        assert_string_equal(w->results[i], expected);
-    }
-}
-
-static void saved_pictures_are_not_kept(void **state)
-{
-    struct render_control *w = &((struct fixture *)*state)->control;
-
-    render_whole(w);
-    save_picture(w, "png");
-    assert_true(save_finish(w));
-    save_lost_picture(w);
-    assert_false(is_kept());
-    render_control_restart(w); /* the new render is not in the file */
-    run_to_end(w);
-    save_lost_picture(w);
-    assert_true(is_kept());
-}
-
-/* A picture of live mode is kept if it took long or shows an edit. */
-static void quick_live_pictures_are_not_kept(void **state)
-{
-    struct render_control *w = &((struct fixture *)*state)->control;
-
-    while (w->progress.samples == 0)
-        render_control_update(w);
-    save_lost_picture(w);
-    assert_false(is_kept());
-    w->session->edit.now.view.lighting.exposure += 1;
-    save_lost_picture(w);
-    assert_true(is_kept());
-    unlink("glim/lost.png");
-    w->session->edit.now.view.lighting.exposure -= 1;
-    render_control_restart(w);
-    while (w->progress.render_ns < 5200000000u) {
-        render_wait(w->session->render, 100);
-        render_control_update(w);
-    }
-    save_lost_picture(w);
-    assert_true(is_kept());
-}
-
 static void saving_never_replaces_files(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
@@ -350,7 +285,7 @@ static void saving_never_replaces_files(void **state)
     render_whole(w);
     for (int i = 0; i < 2; i++) {
         save_picture(w, "png");
-        save_thread_wait_copied(&w->saver);
+        copy_thread_wait_copied(&w->saver.copying);
         assert_true(save_finish(w));
     }
     assert_int_equal(access("s.png", F_OK), 0);
@@ -395,7 +330,7 @@ static void message_describes_the_saved_picture(void **state)
 
     render_whole(w);
     save_picture(w, "png");
-    save_thread_wait_copied(&w->saver);
+    copy_thread_wait_copied(&w->saver.copying);
     w->session->crop.width = 20;
     render_control_set_live(w, true);
     assert_true(save_finish(w));
@@ -553,9 +488,6 @@ int main(void)
         WORK_TEST(live_mode_pauses),
         WORK_TEST(steps_are_one_sample_each),
         WORK_TEST(steps_after_a_halt_make_the_same_picture),
-        WORK_TEST(unsaved_pictures_are_kept),
-        WORK_TEST(saved_pictures_are_not_kept),
-        WORK_TEST(quick_live_pictures_are_not_kept),
         WORK_TEST(saving_never_replaces_files),
         WORK_TEST(saving_takes_a_copy),
         WORK_TEST(message_describes_the_saved_picture),
@@ -569,5 +501,5 @@ int main(void)
         WORK_TEST(messages_name_the_chosen_keys),
     };
 
-    return cmocka_run_group_tests(tests, enter, leave);
+    return cmocka_run_group_tests(tests, enter_folder, leave);
 }

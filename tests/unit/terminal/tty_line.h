@@ -55,7 +55,7 @@ static inline int run_glim(char **arguments)
     options_init(&options);
     if (!options_parse(&options, count, arguments, &err) ||
         !session_open(&session, &options, clock_ns(), &err) ||
-        !event_loop_run(&session, NULL, &status, &err))
+        !event_loop_run(&session, &status, &err))
         fprintf(stderr, "glim: %s\n", err.text);
     return status;
 }

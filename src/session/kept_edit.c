@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#include "session/kept_edit.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/mtl.h"
+#include "formats/mtl_dialect.h"
+#include "formats/mtl_save.h"
+#include "formats/scene_load.h"
+#include "formats/view_file.h"
+#include "terminal/xmalloc.h"
+
+/* Size of a name in the MTL text. */
+#define NAME_BYTES 16
+
+/* ---- write ---- */
+
+static bool take_view(struct kept *k, const struct session *s, const char *path,
+                      struct error *err)
+{
+    struct view view;
+    bool ok;
+
+    view_init(&view);
+    xcheck(view_copy(&view, &s->edit.now.view) &&
+           assigns_copy(&view.assigns, &s->edit.saved.view.assigns));
+    view.has_camera = true;
+    edit_to_view(&s->edit, &s->scene, &view);
+    ok = view_format(&view, path, "", 0, &k->parts[KEPT_VIEW],
+                     &k->sizes[KEPT_VIEW], err);
+    view_free(&view);
+    return ok;
+}
+
+/* Adds the three lines of a material to a text. */
+static char *add_lines(char *text, const struct edit *e, uint32_t material)
+{
+    uint32_t from = e->copied_from[material];
+    char *longer = xformat("%s%s\n%s%s\n%" PRIu32 "\n", text,
+                           e->names[material], from != NO_INDEX ? "=" : "-",
+                           from != NO_INDEX ? e->names[from] : "",
+                           e->now.sources[material].maps_off);
+
+    free(text);
+    return longer;
+}
+
+/* Returns a material with the maps of another one and no other statements. */
+static struct mtl_source maps_of(const struct mtl_source *s)
+{
+    struct mtl_source maps = mtl_source_empty();
+
+    memcpy(maps.maps, s->maps, sizeof maps.maps);
+    maps.maps_off = s->maps_off;
+    maps.bump_scale = s->bump_scale;
+    maps.dialect = s->dialect;
+    return maps;
+}
+
+/* Writes all statements but the maps, which do not change, of all unsaved
+ * materials. Statements of all dialects are read as they are in files of
+ * Blender. */
+static bool take_materials(struct kept *k, const struct session *s,
+                           const char *path, struct error *err)
+{
+    const struct edit *e = &s->edit;
+    const char *dialect = mtl_dialect_line(MTL_BLENDER_4);
+    char *head = xformat("%s\n", dialect);
+    struct mtl_change *changes = xcalloc(e->material_count, sizeof *changes);
+    struct mtl_source *maps = xcalloc(e->material_count, sizeof *maps);
+    char(*names)[NAME_BYTES] = xcalloc(e->material_count, sizeof *names);
+    char *list = xstrdup("");
+    size_t count = 0;
+    bool ok;
+
+    for (uint32_t i = 0; i < e->material_count; i++) {
+        if (edit_is_saved(e, i))
+            continue;
+        snprintf(names[count], NAME_BYTES, "m%zu", count);
+        maps[count] = maps_of(&e->now.sources[i]);
+        changes[count] = (struct mtl_change){names[count], names[count],
+                                             &maps[count], &e->now.sources[i]};
+        list = add_lines(list, e, i);
+        count++;
+    }
+    k->parts[KEPT_MATERIALS] = list;
+    k->sizes[KEPT_MATERIALS] = strlen(list);
+    ok = mtl_rewrite(&s->scene, path, head, strlen(head), changes, count,
+                     &k->parts[KEPT_MTL], &k->sizes[KEPT_MTL], err);
+    free(names);
+    free(maps);
+    free(changes);
+    free(head);
+    return ok;
+}
+
+bool kept_edit_take(struct kept *k, const struct session *s, const char *path,
+                    struct error *err)
+{
+    k->has_edits =
+        edit_has_unsaved_materials(&s->edit) || edit_has_unsaved_view(&s->edit);
+    return take_view(k, s, path, err) && take_materials(k, s, path, err);
+}
+
+/* ---- restore ---- */
+
+static uint32_t find_material(const struct edit *e, const char *name)
+{
+    for (uint32_t i = 0; i < e->material_count; i++)
+        if (strcmp(e->names[i], name) == 0)
+            return i;
+    return NO_INDEX;
+}
+
+/* Returns the next line of the text at *p, for free(), or NULL at its end. */
+static char *next_line(const char **p)
+{
+    size_t length = strcspn(*p, "\n");
+    char *line;
+
+    if ((*p)[length] == '\0')
+        return NULL;
+    line = xformat("%.*s", (int)length, *p);
+    *p += length + 1;
+    return line;
+}
+
+/* Finds a material by its name. Makes a duplicate, if it is one, which no file
+ * has. */
+static uint32_t find_or_duplicate(struct edit *e, const char *name,
+                                  const char *original)
+{
+    uint32_t found = find_material(e, name);
+    uint32_t from;
+
+    if (found != NO_INDEX || *original != '=')
+        return found;
+    from = find_material(e, original + 1);
+    return from != NO_INDEX ? edit_duplicate_as(e, from, name) : NO_INDEX;
+}
+
+static void restore_material(struct edit *e, uint32_t material,
+                             const struct mtl_source *statements,
+                             uint32_t maps_off)
+{
+    const struct mtl_source *before = &e->now.sources[material];
+    struct mtl_source source = *statements;
+
+    source.dialect = before->dialect;
+    memcpy(source.maps, before->maps, sizeof source.maps);
+    source.bump_scale = before->bump_scale;
+    source.maps_off = maps_off & ((1u << MTL_MAPS) - 1);
+    edit_material(e, material, &source);
+}
+
+/* Restores the materials of the list, whose statements `mtl` has. */
+static void restore_list(struct edit *e, const char *list,
+                         const struct scene *mtl, uint32_t *missing)
+{
+    char *name, *original, *maps_off;
+
+    for (uint32_t i = 1; i < mtl->material_count; i++) {
+        uint32_t material = NO_INDEX;
+
+        name = next_line(&list);
+        original = name != NULL ? next_line(&list) : NULL;
+        maps_off = original != NULL ? next_line(&list) : NULL;
+        if (maps_off != NULL)
+            material = find_or_duplicate(e, name, original);
+        if (material != NO_INDEX)
+            restore_material(e, material, &mtl->material_origins[i].source,
+                             (uint32_t)strtoul(maps_off, NULL, 10));
+        *missing += material == NO_INDEX;
+        free(name);
+        free(original);
+        free(maps_off);
+    }
+}
+
+static bool restore_materials(const struct kept *k, struct session *s,
+                              const char *path, uint32_t *missing,
+                              struct error *err)
+{
+    struct warnings ignored = {0};
+    struct scene mtl = {.path = NULL};
+    bool ok = mtl_parse(&mtl, k->parts[KEPT_MTL], k->sizes[KEPT_MTL], path,
+                        &ignored, err);
+
+    if (ok)
+        restore_list(&s->edit, k->parts[KEPT_MATERIALS], &mtl, missing);
+    scene_free(&mtl);
+    warnings_free(&ignored);
+    return ok;
+}
+
+/* A background that the program has added is in no view file. */
+static void keep_soft_sky(struct view *view, const struct view *opened)
+{
+    if (!view->lighting.has_background && view_has_soft_sky(opened))
+        memcpy(view->lighting.background, opened->lighting.background,
+               sizeof view->lighting.background);
+}
+
+/* Finds the materials that the kept view gives to objects. */
+static void find_assigned(const struct session *s, const struct view *view,
+                          uint32_t *assigned)
+{
+    for (uint32_t i = 0; i < s->edit.object_count; i++)
+        assigned[i] = NO_INDEX;
+    for (size_t i = 0; i < view->assigns.count; i++) {
+        const struct assign *a = &view->assigns.items[i];
+        uint32_t object = scene_find_object(&s->scene, a->object);
+        uint32_t material = find_material(&s->edit, a->material);
+
+        if (object != NO_INDEX && material != NO_INDEX)
+            assigned[object] = material;
+    }
+}
+
+bool kept_edit_restore(const struct kept *k, struct session *s,
+                       const char *path, uint32_t *missing, struct error *err)
+{
+    struct edit *e = &s->edit;
+    struct warnings ignored = {0};
+    uint32_t *assigned = xcalloc((size_t)e->object_count + 1, sizeof *assigned);
+    struct view view;
+    bool ok;
+
+    *missing = 0;
+    view_init(&view);
+    edit_end_step(e);
+    ok = view_parse(&view, k->parts[KEPT_VIEW], k->sizes[KEPT_VIEW], path,
+                    &ignored, err) &&
+         pose_check(&view.pose, path, err) &&
+         restore_materials(k, s, path, missing, err);
+    if (ok) {
+        keep_soft_sky(&view, &e->now.view);
+        find_assigned(s, &view, assigned);
+        edit_take_view(e, &view, assigned);
+        edit_end_step(e);
+    }
+    view_free(&view);
+    warnings_free(&ignored);
+    free(assigned);
+    return ok;
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "session/kept_writer.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "picture/film_file.h"
+#include "session/kept_folder.h"
+#include "session/session_film.h"
+
+/* Bytes of a pixel without surfaces: two sums of three channels, and a count.
+ */
+#define PIXEL_BYTES (6 * sizeof(struct sum) + sizeof(uint64_t))
+
+bool kept_writer_init(struct kept_writer *w, struct error *err)
+{
+    *w = (struct kept_writer){.path = NULL};
+    return copy_thread_init(&w->copying, "sessions", err);
+}
+
+/* A film that nobody adds to any more. */
+struct copy {
+    struct film film;
+    uint16_t *shares; /* of adaptive sampling; NULL: not decided */
+};
+
+static bool copy_film(struct kept_writer *w, struct copy *c)
+{
+    const uint16_t *shares;
+    size_t size;
+
+    if (!film_copy(&c->film, render_film(w->render), &w->error) ||
+        !session_film_hash(&w->world, w->options, &w->header.identity,
+                           &w->error))
+        return false;
+    /* after the copy, whose samples may depend on them */
+    shares = render_shares(w->render);
+    if (shares == NULL)
+        return true;
+    size = (size_t)c->film.width * (size_t)c->film.height * sizeof *shares;
+    c->shares = malloc(size);
+    if (c->shares == NULL)
+        return fail(&w->error, "%s: out of memory", w->path);
+    memcpy(c->shares, shares, size);
+    return true;
+}
+
+static const uint16_t *shares_of(void *context)
+{
+    return ((const struct copy *)context)->shares;
+}
+
+/* Packs the film, unless it is too large. */
+static bool pack_film(struct kept_writer *w, struct copy *c)
+{
+    size_t size;
+    char *bytes =
+        film_file_bytes(&w->header, &c->film, shares_of, c, &size, &w->error);
+
+    if (bytes == NULL)
+        return false;
+    w->is_film_left_out = size > KEPT_FILM_BYTES_MAX;
+    if (w->is_film_left_out) {
+        free(bytes);
+        return true;
+    }
+    w->kept.parts[KEPT_FILM] = bytes;
+    w->kept.sizes[KEPT_FILM] = size;
+    w->kept.render_ns = w->header.render_ns;
+    return true;
+}
+
+static bool write_file(struct kept_writer *w)
+{
+    size_t size;
+    char *bytes = kept_bytes(&w->kept, &size);
+    bool ok = bytes != NULL
+                  ? file_write(w->path, bytes, size, false, NULL, &w->error)
+                  : fail(&w->error, "%s: out of memory", w->path);
+
+    free(bytes);
+    return ok;
+}
+
+/* Without the film, for which memory may be out, the rest is written. */
+static void work(void *context)
+{
+    struct kept_writer *w = context;
+    struct copy copy = {.shares = NULL};
+    bool ok = !w->has_film || copy_film(w, &copy);
+
+    copy_thread_has_copied(&w->copying);
+    if (ok && w->has_film)
+        ok = pack_film(w, &copy);
+    film_free(&copy.film);
+    free(copy.shares);
+    w->is_written = write_file(w) && ok;
+    kept_prune(w->path, KEPT_DAYS_MAX, KEPT_BYTES_MAX);
+}
+
+bool kept_writer_begin(struct kept_writer *w, const struct session *s,
+                       struct kept *k, const char *path, bool has_film,
+                       struct error *err)
+{
+    const struct film *film = render_film(s->render);
+    uint64_t pixels = (uint64_t)film->width * (uint64_t)film->height;
+
+    w->kept = *k;
+    *k = (struct kept){.scene = NULL}; /* the writer owns it now */
+    w->path = path;
+    w->render = s->render;
+    w->options = s->options;
+    w->is_film_left_out =
+        has_film && pixels * PIXEL_BYTES > KEPT_COPY_BYTES_MAX;
+    w->has_film = has_film && !w->is_film_left_out;
+    w->header =
+        session_film_header(s, render_progress(s->render).spp_limit, &w->range);
+    if ((!w->has_film ||
+         session_film_describe(s, &w->header.identity, &w->world, err)) &&
+        copy_thread_begin(&w->copying, work, w, path, err))
+        return true;
+    kept_free(&w->kept);
+    return false;
+}
+
+bool kept_writer_finish(struct kept_writer *w, bool *is_film_left_out,
+                        struct error *err)
+{
+    copy_thread_finish(&w->copying);
+    kept_free(&w->kept);
+    *is_film_left_out = w->is_film_left_out;
+    if (!w->is_written)
+        *err = w->error;
+    return w->is_written;
+}
+
+void kept_writer_free(struct kept_writer *w)
+{
+    struct error ignored;
+    bool is_film_left_out;
+
+    if (w->copying.is_busy)
+        kept_writer_finish(w, &is_film_left_out, &ignored);
+    copy_thread_free(&w->copying);
+}

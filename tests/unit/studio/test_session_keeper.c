@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_session_keeper.c - a session that is lost is offered to the next one,
+ * which goes on with its edits and its film, or says why not
+ */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "picture/film_file.h"
+#include "studio/session_keeper.h"
+
+#include "tests/unit/files.h"
+
+/* A session with all that a keeper needs. */
+struct work {
+    struct options options;
+    struct session session;
+    struct render_control control;
+    struct screen screen;
+    struct camera_control camera;
+    struct session_keeper keeper;
+};
+
+static void begin(struct work *w)
+{
+    struct error err;
+
+    memset(w, 0, sizeof *w);
+    options_init(&w->options);
+    w->options.scene_path = "s.obj";
+    w->options.width_px = 32;
+    w->options.height_px = 16;
+    w->options.spp = 3;
+    w->options.thread_count = 1;
+    check_or_say(session_open(&w->session, &w->options, clock_ns(), &err),
+                 err.text);
+    check_or_say(render_control_init(&w->control, &w->session, &err), err.text);
+    camera_control_init(&w->camera, &w->control, &w->screen);
+    session_keeper_init(&w->keeper, &w->control, &w->camera);
+}
+
+static void end(struct work *w, bool is_lost)
+{
+    render_halt(w->session.render);
+    session_keeper_end(&w->keeper, is_lost);
+    session_keeper_free(&w->keeper);
+    render_control_free(&w->control);
+    session_close(&w->session);
+}
+
+static void set_exposure(struct work *w, double exposure)
+{
+    struct lighting light = w->session.edit.now.view.lighting;
+
+    light.exposure = exposure;
+    edit_lighting(&w->session.edit, &light);
+}
+
+static double exposure(const struct work *w)
+{
+    return w->session.edit.now.view.lighting.exposure;
+}
+
+/* Renders until a film is worth keeping. */
+static void render_a_while(struct work *w)
+{
+    do {
+        render_wait(w->session.render, 100);
+        render_control_update(&w->control);
+    } while (w->control.progress.render_ns < UINT64_C(5200000000));
+}
+
+static int count_sessions(void)
+{
+    return count_files("state/glim/sessions") - 1; /* the lock */
+}
+
+static void quick_sessions_are_not_kept(void **state)
+{
+    struct work w;
+
+    (void)state;
+    begin(&w);
+    assert_false(w.keeper.has_offer);
+    end(&w, true);
+    assert_int_equal(count_sessions(), 0);
+}
+
+static void edits_are_kept_until_they_are_declined(void **state)
+{
+    struct work w;
+
+    (void)state;
+    begin(&w);
+    set_exposure(&w, 1.5);
+    end(&w, true);
+    assert_int_equal(count_sessions(), 1);
+    begin(&w);
+    assert_true(w.keeper.has_offer);
+    assert_string_equal(w.keeper.question, "unsaved changes kept: Enter goes "
+                                           "on, r starts anew");
+    end(&w, false); /* without an answer */
+    begin(&w);
+    assert_true(w.keeper.has_offer);
+    session_keeper_go_on(&w.keeper);
+    check_close(exposure(&w), 1.5, 0);
+    assert_false(w.keeper.has_offer);
+    end(&w, true);
+    begin(&w);
+    assert_true(w.keeper.has_offer);
+    session_keeper_start_anew(&w.keeper);
+    check_close(exposure(&w), 0, 0);
+    end(&w, false);
+    assert_int_equal(count_sessions(), 0);
+}
+
+static void films_go_on(void **state)
+{
+    struct work w;
+    uint64_t samples;
+
+    (void)state;
+    begin(&w);
+    render_a_while(&w);
+    set_exposure(&w, 2);
+    render_halt(w.session.render);
+    samples = render_progress(w.session.render).samples;
+    end(&w, true);
+    for (int i = 0; i < 2; i++) {
+        begin(&w);
+        assert_string_equal(w.keeper.question,
+                            "5 s of render and unsaved changes kept: Enter "
+                            "goes on, r starts anew");
+        session_keeper_go_on(&w.keeper);
+        assert_true(w.control.is_live);
+        assert_true(w.control.has_gone_on);
+        assert_true(render_progress(w.session.render).samples >= samples);
+        check_close(exposure(&w), 2, 0);
+        end(&w, true); /* the film is kept again at once */
+    }
+    /* another picture: the edits are restored, the film is not */
+    put("s.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    begin(&w);
+    session_keeper_go_on(&w.keeper);
+    assert_false(w.control.has_gone_on);
+    assert_non_null(strstr(w.control.message.text, "geometry"));
+    check_close(exposure(&w), 2, 0);
+    end(&w, false);
+}
+
+/* What is damaged is said in one line, and the session starts anew. */
+static void damaged_files_are_declined(void **state)
+{
+    struct work w;
+    char *path;
+    FILE *file;
+
+    (void)state;
+    begin(&w);
+    set_exposure(&w, 1);
+    path = strdup(w.keeper.path);
+    end(&w, true);
+    file = fopen(path, "r+");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, -1, SEEK_END), 0);
+    assert_int_equal(fputc('?', file), '?');
+    assert_int_equal(fclose(file), 0);
+    begin(&w);
+    assert_true(w.keeper.has_offer); /* its head is whole */
+    session_keeper_go_on(&w.keeper);
+    assert_non_null(strstr(w.control.message.text, "damaged"));
+    check_close(exposure(&w), 0, 0);
+    end(&w, false);
+    put(path, "glim session 9\n");
+    begin(&w);
+    assert_false(w.keeper.has_offer);
+    assert_non_null(strstr(w.control.message.text, "another kind of file"));
+    end(&w, false);
+    assert_int_equal(count_sessions(), 0);
+    free(path);
+}
+
+static int enter(void **state)
+{
+    char path[256];
+
+    if (enter_folder(state) != 0)
+        return -1;
+    put("s.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    snprintf(path, sizeof path, "%s/state", folder);
+    return setenv("XDG_STATE_HOME", path, 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quick_sessions_are_not_kept),
+        cmocka_unit_test(edits_are_kept_until_they_are_declined),
+        cmocka_unit_test(films_go_on),
+        cmocka_unit_test(damaged_files_are_declined),
+    };
+
+    return cmocka_run_group_tests(tests, enter, remove_folder);
+}
