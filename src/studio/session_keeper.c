@@ -253,11 +253,11 @@ static void restore(struct session_keeper *k, const struct kept *kept)
         render_control_say_error(control, err.text);
     else if (missing > 0)
         render_control_say(control,
-                           "gone on, without the changes of %" PRIu32
+                           "restored, without the changes of %" PRIu32
                            " materials that the scene does not have any more",
                            missing);
     else
-        render_control_say(control, "gone on: %s",
+        render_control_say(control, "restored: %s",
                            kept->sizes[KEPT_FILM] > 0 ? "view, changes, render"
                                                       : "view and changes");
 }

@@ -65,8 +65,8 @@ is_tidy 1
 start scenes/lamp.obj
 wait_for "$asks"
 keys Enter
-wait_for "gone on: view, changes, render"
-wait_until_gone "gone on"
+wait_for "restored: view, changes, render"
+wait_until_gone "restored"
 wait_until has_spp
 [ "$(spp)" -ge "$before" ] || die "$(spp) spp, but $before were kept"
 
@@ -125,7 +125,7 @@ start scenes/lamp.obj
 wait_for "^ *\(unsaved changes\|.* s of render and unsaved changes\) kept: Enter goes on"
 shows '255;255;255'
 keys Enter
-wait_for "gone on: view"
+wait_for "restored: view"
 shows '255;0;0'
 keys Tab
 wait_for " l \*"
@@ -147,7 +147,7 @@ cp "$file" earlier.session
 start_line "(ulimit -f 0; trap '' XFSZ; TERM=tmux-256color exec glim scenes/lamp.obj)"
 wait_for "unsaved changes kept"
 keys Enter
-wait_for "gone on"
+wait_for "restored"
 shows '255;0;0'
 keys w
 kill -HUP "$(program_pid)"
