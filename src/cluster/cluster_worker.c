@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "base/memory.h"
 #include "cluster/band_thread.h"
 #include "cluster/wire.h"
@@ -21,7 +20,6 @@ struct worker {
     struct rank_order picture; /* the last ORDER_BEGIN */
     struct rank_order band_order;
     struct band band;
-    uint64_t begin_ns;
     struct cancel cancel;
     uint32_t cancelled_epoch;
     struct error error; /* of the picture; "" */
@@ -90,7 +88,6 @@ static void send_answer(struct worker *w, bool has_failed, const char *reason)
                             .has_surfaces = f->surfaces != NULL,
                             .y = w->band_order.y,
                             .rows = w->band_order.rows,
-                            .seconds = seconds_between(w->begin_ns, clock_ns()),
                             .samples = atomic_load(&f->samples),
                             .rays = atomic_load(&f->rays),
                             .non_finite = atomic_load(&f->non_finite),
@@ -118,7 +115,6 @@ static bool begin_band(struct worker *w, const struct rank_order *o,
     struct error why;
 
     w->band_order = *o;
-    w->begin_ns = clock_ns();
     pass.shares = o->has_shares ? &some_shares : NULL;
     if (!band_init(&w->band, p->width, o->y, o->rows, p->has_surfaces, &pass,
                    &why))

@@ -42,7 +42,6 @@ struct rank_answer {
     char error[256];
     int width, y, rows;
     bool has_surfaces;
-    double seconds; /* time that the band took */
     /* counters; the arrays of the film follow if there are samples */
     uint64_t samples, rays, non_finite, saturated, cut_paths;
 };
