@@ -18,8 +18,10 @@ struct worker {
     void *arrays[WORLD_LIST_COUNT];
     uint64_t versions[WORLD_LIST_COUNT];
     struct rank_order picture; /* the last ORDER_BEGIN */
-    struct rank_order band_order;
-    struct band band;
+    /* the band in progress, and the one before, whose answer is being sent */
+    struct rank_order orders[2];
+    struct band bands[2];
+    int current;
     struct cancel cancel;
     uint32_t cancelled_epoch;
     struct error error; /* of the picture; "" */
@@ -78,16 +80,19 @@ static bool begin_picture(struct worker *w, const struct rank_order *o,
 
 /* ---- bands ---- */
 
-static void send_answer(struct worker *w, bool has_failed, const char *reason)
+/* Sends the answer for one of the bands. */
+static void send_answer(struct worker *w, int index, bool has_failed,
+                        const char *reason)
 {
-    const struct film *f = &w->band.film;
+    const struct film *f = &w->bands[index].film;
+    const struct rank_order *o = &w->orders[index];
     size_t pixels = (size_t)f->width * (size_t)f->height;
-    struct rank_answer a = {.epoch = w->band_order.epoch,
+    struct rank_answer a = {.epoch = o->epoch,
                             .has_failed = has_failed,
                             .width = f->width,
                             .has_surfaces = f->surfaces != NULL,
-                            .y = w->band_order.y,
-                            .rows = w->band_order.rows,
+                            .y = o->y,
+                            .rows = o->rows,
                             .samples = atomic_load(&f->samples),
                             .rays = atomic_load(&f->rays),
                             .non_finite = atomic_load(&f->non_finite),
@@ -113,24 +118,25 @@ static bool begin_band(struct worker *w, const struct rank_order *o,
     static const uint16_t some_shares;
     struct pass pass = o->pass;
     struct error why;
+    struct band *band;
 
-    w->band_order = *o;
+    w->current = 1 - w->current;
+    band = &w->bands[w->current];
+    w->orders[w->current] = *o;
     pass.shares = o->has_shares ? &some_shares : NULL;
-    if (!band_init(&w->band, p->width, o->y, o->rows, p->has_surfaces, &pass,
-                   &why))
+    if (!band_init(band, p->width, o->y, o->rows, p->has_surfaces, &pass, &why))
         return fail(err, "rank %d: %.900s", wire_rank(), why.text);
-    wire_receive(0, WIRE_DATA, w->band.before, pixels * sizeof *w->band.before);
+    wire_receive(0, WIRE_DATA, band->before, pixels * sizeof *band->before);
     if (o->has_shares)
-        wire_receive(0, WIRE_DATA, w->band.shares,
-                     pixels * sizeof *w->band.shares);
+        wire_receive(0, WIRE_DATA, band->shares, pixels * sizeof *band->shares);
     if (w->error.text[0] != '\0' || o->epoch <= w->cancelled_epoch) {
-        send_answer(w, w->error.text[0] != '\0', w->error.text);
-        band_free(&w->band);
+        send_answer(w, w->current, w->error.text[0] != '\0', w->error.text);
+        band_free(band);
         return true;
     }
     cancel_reset(&w->cancel);
     band_thread_begin(w->thread,
-                      &(struct band_work){.band = &w->band,
+                      &(struct band_work){.band = band,
                                           .backend = w->local,
                                           .host = &w->host,
                                           .world = &w->world,
@@ -138,19 +144,6 @@ static bool begin_band(struct worker *w, const struct rank_order *o,
                                           .y0 = p->y0,
                                           .first_sample = p->first_sample,
                                           .cancel = &w->cancel});
-    return true;
-}
-
-/* Answers if the band is done. Returns false if it is not. */
-static bool end_band(struct worker *w)
-{
-    struct error err = {""};
-    enum pass_result result;
-
-    if (band_thread_end(w->thread, &result, &err) == NULL)
-        return false;
-    send_answer(w, result == PASS_FAILED, err.text);
-    band_free(&w->band);
     return true;
 }
 
@@ -165,7 +158,7 @@ static bool take_cancel(struct worker *w)
     wire_receive(0, WIRE_CANCEL, &w->cancelled_epoch,
                  sizeof w->cancelled_epoch);
     if (band_thread_is_busy(w->thread) &&
-        w->band_order.epoch <= w->cancelled_epoch)
+        w->orders[w->current].epoch <= w->cancelled_epoch)
         cancel_request(&w->cancel);
     return true;
 }
@@ -192,23 +185,39 @@ static bool has_order(const struct worker *w)
     return !band_thread_is_busy(w->thread) && wire_has(&from, WIRE_ORDER);
 }
 
+/* Answers for a band that is done. The next one begins before, if it is there,
+ * so that it is rendered while the sums are sent. */
+static bool end_band(struct worker *w, enum pass_result result,
+                     const char *reason, bool *is_ended, struct error *err)
+{
+    int done = w->current;
+    bool ok = !has_order(w) || do_order(w, is_ended, err);
+
+    if (ok && !*is_ended)
+        send_answer(w, done, result == PASS_FAILED, reason);
+    band_free(&w->bands[done]);
+    return ok;
+}
+
 /* Serves rank 0 until it ends. */
 static bool serve(struct worker *w, struct error *err)
 {
-    for (bool is_ended = false; !is_ended;) {
+    bool is_ended = false, ok = true;
+
+    while (ok && !is_ended) {
+        struct error why = {""};
+        enum pass_result result;
         bool did_something = take_cancel(w);
 
-        if (has_order(w)) {
-            if (!do_order(w, &is_ended, err))
-                return false;
-            did_something = true;
-        }
-        if (band_thread_is_busy(w->thread) && end_band(w))
-            did_something = true;
-        if (!did_something)
+        if (band_thread_is_busy(w->thread) &&
+            band_thread_end(w->thread, &result, &why) != NULL)
+            ok = end_band(w, result, why.text, &is_ended, err);
+        else if (has_order(w))
+            ok = do_order(w, &is_ended, err);
+        else if (!did_something)
             wire_rest();
     }
-    return true;
+    return ok;
 }
 
 bool cluster_work(struct backend *local, struct error *err)
