@@ -59,12 +59,9 @@ static void print_ranges(const struct film_header *h)
 
 static void print_hashes(const struct film_identity *id)
 {
-    static const char *const names[] = {"kernels",  "geometry", "materials",
-                                        "textures", "light",    "camera",
-                                        "limits",   "guide"};
-
     for (int i = 0; i < FILM_PARTS; i++)
-        print_line(stdout, "  %-10s %016" PRIx64, names[i], id->hashes[i]);
+        print_line(stdout, "  %-10s %016" PRIx64,
+                   film_part_name((enum film_part)i), id->hashes[i]);
 }
 
 static bool print_film(struct film_file *f, const char *path,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/decimal.h"
 
+#include <errno.h>
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
@@ -283,4 +284,19 @@ double decimal_shortened(double value)
     decimal_format_float(text, (float)value);
     decimal_parse(&p, text + strlen(text), &shortened);
     return shortened;
+}
+
+/* ---- whole numbers ---- */
+
+bool digits_parse(const char **p, int base, uint64_t most, uint64_t *value)
+{
+    const char *digits = base == 16 ? "0123456789abcdef" : "0123456789";
+    char *end;
+
+    if (**p == '\0' || strchr(digits, **p) == NULL)
+        return false; /* strtoull() accepts blanks and signs */
+    errno = 0;
+    *value = strtoull(*p, &end, base);
+    *p = end;
+    return errno == 0 && *value <= most;
 }

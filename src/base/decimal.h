@@ -9,11 +9,17 @@
 #define GLIM_DECIMAL_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 /* Reads a decimal number at *p, before end, and moves *p behind it. Accepts
  * nan, inf, +1, .5, 5., 1e400 (gives inf). The value is the nearest double.
  * Returns false, with *p unmoved, if there is no number. */
 bool decimal_parse(const char **p, const char *end, double *value);
+
+/* Reads a whole number without a sign at *p, of base 10 or 16, and moves *p
+ * behind it. Returns false if there is none, or it is above `most`. A NUL ends
+ * the text. */
+bool digits_parse(const char **p, int base, uint64_t most, uint64_t *value);
 
 /* Size of a buffer for the text of any number. */
 #define DECIMAL_TEXT_BYTES 32

@@ -16,6 +16,10 @@
  * handler that restores the terminal. Returns 0 or an error number. */
 int thread_start(pthread_t *thread, void *(*run)(void *), void *argument);
 
+/* Initialises a condition whose timed waits end by the monotonic clock, as
+ * clock_time_after() gives it. */
+void thread_condition_init(pthread_cond_t *condition);
+
 /* Returns the number of threads that this process may run at once, at least 1,
  * by its affinity mask and the quota of its control group. */
 int usable_threads(void);

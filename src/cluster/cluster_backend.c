@@ -16,7 +16,6 @@
 #include "cluster/band_thread.h"
 #include "cluster/wire.h"
 #include "picture/film_merge.h"
-#include "kernels/sample_share.h"
 
 /* Bands of a worker at a time, one of which waits so that the worker does not;
  * only one in the last part of the rows, where others would wait for the worker
@@ -128,8 +127,7 @@ static void announce(struct backend_cluster *c)
     for (int i = 0; i < WORLD_LIST_COUNT; i++) {
         uint64_t version = o.versions[list[i].part];
 
-        if (i == WORLD_LIST_nodes || i == WORLD_LIST_leaf_tris ||
-            c->sent[i] == version)
+        if (c->sent[i] == version)
             continue;
         wire_broadcast((void *)(uintptr_t)list[i].data, list[i].size_bytes);
         c->sent[i] = version;
@@ -143,14 +141,9 @@ static bool row_is_done(const struct film *f, const struct pass *pass, int y)
 {
     size_t at = (size_t)y * (size_t)f->width;
 
-    for (int x = 0; x < f->width; x++, at++) {
-        uint64_t target = pass->shares != NULL
-                              ? share_samples(pass->shares[at], pass->target)
-                              : pass->target;
-
-        if (f->counts[at] < target)
+    for (int x = 0; x < f->width; x++, at++)
+        if (f->counts[at] < pass_target(pass, at))
             return false;
-    }
     return true;
 }
 

@@ -44,8 +44,7 @@ static bool receive_arrays(struct worker *w, struct error *err)
         uint64_t version = w->picture.versions[list[i].part];
         size_t size = w->picture.sizes[i];
 
-        if (i == WORLD_LIST_nodes || i == WORLD_LIST_leaf_tris ||
-            version == w->versions[i])
+        if (version == w->versions[i])
             continue;
         free(w->arrays[i]);
         w->arrays[i] = size > 0 ? alloc_aligned(size, 1) : NULL;

@@ -57,7 +57,7 @@ static bool fits_memory(size_t size_bytes)
 bool film_init(struct film *f, int width, int height, struct error *err)
 {
     size_t pixels = (size_t)width * (size_t)height;
-    size_t size_bytes = pixels * (6 * sizeof *f->sums + sizeof *f->counts);
+    size_t size_bytes = pixels * FILM_PIXEL_BYTES;
 
     *f = (struct film){.width = width, .height = height};
     if (fits_memory(size_bytes)) {

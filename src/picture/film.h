@@ -26,6 +26,10 @@
 
 #define FILM_LOCKS 64
 
+/* Bytes of a pixel without surfaces: two sums of three channels, and a count.
+ */
+#define FILM_PIXEL_BYTES (6 * sizeof(struct sum) + sizeof(uint64_t))
+
 /* Stride of the coarsest grid, with which the first pass begins; a power of
  * two. */
 #define FILM_STRIDE_MAX 32

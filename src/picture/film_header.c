@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "picture/film_header.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "picture/film.h"
@@ -176,20 +176,6 @@ static bool fail_line(const struct reader *r, const char *name,
                 r->line, r->text, name);
 }
 
-/* Reads digits at *p up to `max`, and moves *p behind them. */
-static bool read_digits(const char **p, int base, uint64_t max, uint64_t *to)
-{
-    const char *digits = base == 16 ? "0123456789abcdef" : "0123456789";
-    char *end;
-
-    if (**p == '\0' || strchr(digits, **p) == NULL)
-        return false; /* strtoull() accepts blanks and signs */
-    errno = 0;
-    *to = strtoull(*p, &end, base);
-    *p = end;
-    return errno == 0 && *to <= max;
-}
-
 static void set_number(struct film_header *h, const struct field *f,
                        uint64_t number)
 {
@@ -220,7 +206,7 @@ static bool read_field(struct reader *r, struct film_header *h,
         memcpy(member_of(h, f), p, strlen(p) + 1);
         return true;
     }
-    if (!read_digits(&p, f->kind == FIELD_HASH ? 16 : 10, f->max, &number) ||
+    if (!digits_parse(&p, f->kind == FIELD_HASH ? 16 : 10, f->max, &number) ||
         *p != '\0')
         return fail_line(r, f->name, err);
     set_number(h, f, number);
@@ -235,8 +221,8 @@ static bool read_range(struct reader *r, struct film_range *range,
 
     r->text[0] = '\0';
     if (!next_line(r) || strncmp(r->text, name, sizeof name - 1) != 0 ||
-        !read_digits(&p, 10, FILM_SPP_MAX, &range->first) || *p++ != ' ' ||
-        !read_digits(&p, 10, FILM_SPP_MAX, &range->end) || *p != '\0' ||
+        !digits_parse(&p, 10, FILM_SPP_MAX, &range->first) || *p++ != ' ' ||
+        !digits_parse(&p, 10, FILM_SPP_MAX, &range->end) || *p != '\0' ||
         range->first < after || range->first % 2 != 0 ||
         range->end < range->first)
         return fail_line(r, "the next range", err);
@@ -288,7 +274,7 @@ static bool check_text(struct reader *r, const char *bytes, size_t *used,
 
     r->text[0] = '\0';
     if (!next_line(r) || strncmp(r->text, DATA, sizeof DATA - 1) != 0 ||
-        !read_digits(&p, 16, UINT32_MAX, &found) || *p != '\0')
+        !digits_parse(&p, 16, UINT32_MAX, &found) || *p != '\0')
         return fail_line(r, "the checksum", err);
     *used = (size_t)(r->p - bytes);
     return found == expected ||
@@ -325,6 +311,15 @@ bool film_header_parse(struct film_header *h, const char *path,
 }
 
 /* ---- identity ---- */
+
+const char *film_part_name(enum film_part part)
+{
+    const struct field *f = fields;
+
+    while (f->member != HEAD(identity.hashes[part]))
+        f++;
+    return f->name;
+}
 
 /* Returns true for the fields that decide the bits of samples. */
 static bool is_of_identity(const struct field *f,

@@ -77,6 +77,9 @@ bool film_header_parse(struct film_header *h, const char *path,
                        const char *bytes, size_t size_bytes, size_t *used,
                        struct error *err);
 
+/* Returns the key of a hashed part in the text. */
+const char *film_part_name(enum film_part part);
+
 /* Fails if the samples of the file `path` are not of the same picture as those
  * of `other`, the name of another file or of a scene. */
 bool film_identity_check(const struct film_identity *found, const char *path,

@@ -14,6 +14,7 @@
 #include "picture/film.h"
 #include "scene/world.h"
 #include "render/cpu_kernel.h"
+#include "kernels/sample_share.h"
 
 enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 
@@ -34,6 +35,13 @@ struct pass {
     uint32_t samples;
     uint32_t order; /* seed for the random order of blocks */
 };
+
+/* Returns the samples of pixel `at` of the film after a pass. */
+static inline uint64_t pass_target(const struct pass *pass, size_t at)
+{
+    return pass->shares != NULL ? share_samples(pass->shares[at], pass->target)
+                                : pass->target;
+}
 
 struct backend {
     const char *name;   /* "cpu", "opencl" */

@@ -6,7 +6,6 @@
 #include "base/memory.h"
 #include "render/cpu_dispatch.h"
 #include "kernels/sobol.h"
-#include "kernels/sample_share.h"
 
 /* Width and height of a block, in points of the pass's grid. */
 #define BLOCK_SIDE 8
@@ -72,28 +71,19 @@ struct row {
     struct first_surface surfaces[BLOCK_SIDE * ADDED_TOGETHER];
 };
 
-static uint64_t target_of(const struct job *j, int x, int y)
-{
-    size_t width = (size_t)j->backend->film->width;
-
-    return j->pass.shares != NULL
-               ? share_samples(j->pass.shares[(size_t)y * width + (size_t)x],
-                               j->pass.target)
-               : j->pass.target;
-}
-
 /* Lists the next samples of pixels x, x + stride, ... of row y on the way to
  * the target. */
 static void row_begin(struct row *r, const struct job *j, int x, int y,
                       int pixel_count)
 {
     const struct backend_cpu *b = j->backend;
+    size_t row = (size_t)y * (size_t)b->film->width;
 
     r->count = 0;
     r->has_more = false;
     for (int i = 0; i < pixel_count; i++) {
         int px = x + i * j->pass.stride;
-        uint64_t target = target_of(j, px, y);
+        uint64_t target = pass_target(&j->pass, row + (size_t)px);
         uint64_t k = film_count(b->film, px, y);
         uint64_t first = b->film->first_sample;
         uint32_t before = r->count;

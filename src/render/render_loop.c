@@ -55,7 +55,6 @@ static void *render_main(void *argument)
 struct render *render_create(struct backend *backend, struct error *err)
 {
     struct render *r = alloc_array(1, sizeof *r);
-    pthread_condattr_t monotonic;
     int reason;
 
     if (r == NULL) {
@@ -68,12 +67,9 @@ struct render *render_create(struct backend *backend, struct error *err)
         free(r);
         return NULL;
     }
-    pthread_condattr_init(&monotonic);
-    pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
     pthread_mutex_init(&r->lock, NULL);
     pthread_cond_init(&r->begin, NULL);
-    pthread_cond_init(&r->end, &monotonic);
-    pthread_condattr_destroy(&monotonic);
+    thread_condition_init(&r->end);
     reason = thread_start(&r->thread, render_main, r);
     if (reason != 0) {
         fail(err, "render: cannot start a thread: %s", strerror(reason));

@@ -313,12 +313,12 @@ void edit_shot(struct edit *e, uint32_t number)
     edit_end_step(e);
 }
 
-static bool has_name(const struct edit *e, const char *name)
+uint32_t edit_find_material(const struct edit *e, const char *name)
 {
     for (uint32_t i = 0; i < e->material_count; i++)
         if (strcmp(e->names[i], name) == 0)
-            return true;
-    return false;
+            return i;
+    return NO_INDEX;
 }
 
 /* Returns "wood.2" for "wood", and "wood.3" for "wood.2"; the caller frees. */
@@ -337,7 +337,7 @@ static char *new_name(const struct edit *e, const char *name)
     }
     for (int i = 2;; i++) {
         text = xformat("%.*s.%d", length, name, i);
-        if (!has_name(e, text))
+        if (edit_find_material(e, text) == NO_INDEX)
             return text;
         free(text);
     }

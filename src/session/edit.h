@@ -123,6 +123,9 @@ bool edit_simplify_material(struct edit *edit, uint32_t material,
  * comparison. */
 void edit_saved_material(struct edit *edit, uint32_t material);
 
+/* Returns the material with this name, or NO_INDEX. */
+uint32_t edit_find_material(const struct edit *edit, const char *name);
+
 /* Copies the current light, lamps and assignments into a view. */
 void edit_to_view(const struct edit *edit, const struct scene *scene,
                   struct view *view);

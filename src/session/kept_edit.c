@@ -12,6 +12,7 @@
 #include "formats/scene_load.h"
 #include "formats/view_file.h"
 #include "terminal/xmalloc.h"
+#include "session/session_save.h"
 
 /* Size of a name in the MTL text. */
 #define NAME_BYTES 16
@@ -24,11 +25,7 @@ static bool take_view(struct kept *k, const struct session *s, const char *path,
     struct view view;
     bool ok;
 
-    view_init(&view);
-    xcheck(view_copy(&view, &s->edit.now.view) &&
-           assigns_copy(&view.assigns, &s->edit.saved.view.assigns));
-    view.has_camera = true;
-    edit_to_view(&s->edit, &s->scene, &view);
+    session_view_to_save(s, &view);
     ok = view_format(&view, path, "", 0, &k->parts[KEPT_VIEW],
                      &k->sizes[KEPT_VIEW], err);
     view_free(&view);
@@ -107,14 +104,6 @@ bool kept_edit_take(struct kept *k, const struct session *s, const char *path,
 
 /* ---- restore ---- */
 
-static uint32_t find_material(const struct edit *e, const char *name)
-{
-    for (uint32_t i = 0; i < e->material_count; i++)
-        if (strcmp(e->names[i], name) == 0)
-            return i;
-    return NO_INDEX;
-}
-
 /* Returns the next line of the text at *p, for free(), or NULL at its end. */
 static char *next_line(const char **p)
 {
@@ -133,12 +122,12 @@ static char *next_line(const char **p)
 static uint32_t find_or_duplicate(struct edit *e, const char *name,
                                   const char *original)
 {
-    uint32_t found = find_material(e, name);
+    uint32_t found = edit_find_material(e, name);
     uint32_t from;
 
     if (found != NO_INDEX || *original != '=')
         return found;
-    from = find_material(e, original + 1);
+    from = edit_find_material(e, original + 1);
     return from != NO_INDEX ? edit_duplicate_as(e, from, name) : NO_INDEX;
 }
 
@@ -213,7 +202,7 @@ static void find_assigned(const struct session *s, const struct view *view,
     for (size_t i = 0; i < view->assigns.count; i++) {
         const struct assign *a = &view->assigns.items[i];
         uint32_t object = scene_find_object(&s->scene, a->object);
-        uint32_t material = find_material(&s->edit, a->material);
+        uint32_t material = edit_find_material(&s->edit, a->material);
 
         if (object != NO_INDEX && material != NO_INDEX)
             assigned[object] = material;

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/decimal.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
@@ -116,17 +117,16 @@ static bool read_number(struct reader *r, const char *key, uint64_t *value,
                         struct error *err)
 {
     size_t length = strlen(key);
-    char *end;
+    const char *p;
 
     r->line++;
     if (strncmp(r->p, key, length) != 0 || r->p[length] != ' ' ||
         r->p[length + 1] < '0' || r->p[length + 1] > '9')
         return fail_line(r, key, err);
-    errno = 0;
-    *value = strtoull(r->p + length + 1, &end, 10);
-    if (errno != 0 || *end != '\n')
+    p = r->p + length + 1;
+    if (!digits_parse(&p, 10, UINT64_MAX, value) || *p != '\n')
         return fail_line(r, "a whole number", err);
-    r->p = end + 1;
+    r->p = p + 1;
     return true;
 }
 

@@ -9,10 +9,6 @@
 #include "session/kept_folder.h"
 #include "session/session_film.h"
 
-/* Bytes of a pixel without surfaces: two sums of three channels, and a count.
- */
-#define PIXEL_BYTES (6 * sizeof(struct sum) + sizeof(uint64_t))
-
 bool kept_writer_init(struct kept_writer *w, struct error *err)
 {
     *w = (struct kept_writer){.path = NULL};
@@ -112,7 +108,7 @@ bool kept_writer_begin(struct kept_writer *w, const struct session *s,
     w->render = s->render;
     w->options = s->options;
     w->is_film_left_out =
-        has_film && pixels * PIXEL_BYTES > KEPT_COPY_BYTES_MAX;
+        has_film && pixels * FILM_PIXEL_BYTES > KEPT_COPY_BYTES_MAX;
     w->has_film = has_film && !w->is_film_left_out;
     w->header =
         session_film_header(s, render_progress(s->render).spp_limit, &w->range);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "session/option_table.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -90,13 +89,7 @@ static const struct option_rule rules[] = {
 
 static bool parse_digits(const char *text, uint64_t max, uint64_t *value)
 {
-    char *end;
-
-    if (*text < '0' || *text > '9')
-        return false; /* strtoull() accepts blanks and signs */
-    errno = 0;
-    *value = strtoull(text, &end, 10);
-    return errno == 0 && *end == '\0' && *value <= max;
+    return digits_parse(&text, 10, max, value) && *text == '\0';
 }
 
 const char *option_hint(const struct option_given *g)

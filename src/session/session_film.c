@@ -295,24 +295,14 @@ bool session_film_resume(struct session_film *f, struct error *err)
     return true;
 }
 
-static void init(struct session_film *f, struct session *s)
-{
-    pthread_condattr_t monotonic;
-
-    *f = (struct session_film){.session = s};
-    pthread_condattr_init(&monotonic);
-    pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
-    pthread_mutex_init(&f->lock, NULL);
-    pthread_cond_init(&f->end, &monotonic);
-    pthread_condattr_destroy(&monotonic);
-}
-
 bool session_film_begin(struct session_film *f, struct session *s,
                         struct error *err)
 {
     const struct options *o = s->options;
 
-    init(f, s);
+    *f = (struct session_film){.session = s};
+    pthread_mutex_init(&f->lock, NULL);
+    thread_condition_init(&f->end);
     if (!check_share(o, err))
         return false;
     s->first_sample = session_film_first(o);

@@ -117,18 +117,23 @@ static bool save_lighting(struct session *s, struct file_watch *watch,
     return ok;
 }
 
+void session_view_to_save(const struct session *s, struct view *view)
+{
+    view_init(view);
+    xcheck(view_copy(view, &s->edit.now.view) &&
+           assigns_copy(&view->assigns, &s->edit.saved.view.assigns));
+    view->has_camera = true; /* also a camera that the program placed */
+    edit_to_view(&s->edit, &s->scene, view);
+}
+
 bool session_save_view(struct session *s, struct file_change *change,
                        struct error *err)
 {
     struct view view;
     bool ok;
 
-    view_init(&view);
-    xcheck(view_copy(&view, &s->edit.now.view) &&
-           assigns_copy(&view.assigns, &s->edit.saved.view.assigns));
-    view.has_camera = true; /* also a camera that the program placed */
+    session_view_to_save(s, &view);
     view_copy_frame(&view, &s->edit.saved.view);
-    edit_to_view(&s->edit, &s->scene, &view);
     ok = view_write(&view, s->view_path, change, err);
     if (ok)
         edit_saved_view(&s->edit, &view);

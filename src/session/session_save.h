@@ -20,6 +20,11 @@
 bool session_save_edit(struct session *s, struct file_watch *watch, char **what,
                        struct error *err);
 
+/* Makes the view that would be saved now, for view_free(), with the size and
+ * the bounces of this run. Materials that objects are given keep their order in
+ * the saved view. */
+void session_view_to_save(const struct session *s, struct view *view);
+
 /* Writes view and light into the view file. Size and bounces stay those of the
  * file, since the command line sets them for one run. */
 bool session_save_view(struct session *s, struct file_change *change,
