@@ -58,28 +58,33 @@ FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
 # src/render/cpu_kernel.c is built for each instruction set and each set of
 # features. cpu_dispatch.c uses the first set that covers the scene: walls and
-# lamps, images on them, most materials, all of light, or all features.
+# lamps, images on them, most materials, each also with what the filter needs,
+# all of light, or all features.
 ISAS := $(if $(X86_64),avx2 avx512)
 FLAGS_avx2 := -mavx2 -mfma -mbmi
 FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
 	-mprefer-vector-width=256
-SETS := lamps images shiny light
+SETS := lamps lamps_filter images images_filter shiny shiny_filter light
 FEATURES_lamps := FEATURE_EMITTERS
+FEATURES_lamps_filter := $(FEATURES_lamps) | FEATURE_FILTER
 FLAGS_lamps := -DFLATTEN
+FLAGS_lamps_filter := $(FLAGS_lamps)
 FEATURES_images := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_COVERAGE | \
 	FEATURE_GUIDE
+FEATURES_images_filter := $(FEATURES_images) | FEATURE_FILTER
 FEATURES_shiny := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_SKY_IMAGE | \
 	FEATURE_METAL | FEATURE_GLASS | FEATURE_PLASTIC | FEATURE_ROUGH | \
 	FEATURE_DIRECTIONAL_LIGHTS | \
 	FEATURE_GUIDE
-FEATURES_light := FEATURES_ALL & ~(FEATURE_AOV | FEATURE_FILTER)
+FEATURES_shiny_filter := $(FEATURES_shiny) | FEATURE_FILTER
+FEATURES_light := FEATURES_ALL & ~FEATURE_AOV
 PATHS := $(patsubst %,$(B)/paths_%.o,$(ISAS) \
 	$(foreach isa,plain $(ISAS),$(SETS:%=$(isa)_%)))
 # src/filter/filter_loops.c is built for each instruction set.
 FILTERS := $(ISAS:%=$(B)/filter_loops_%.o)
 # With MPI=1 the program has src/cluster/; otherwise cluster_none.c replaces it.
 MPI_SOURCES := $(addprefix src/cluster/,cluster.c cluster_backend.c \
-	cluster_worker.c wire.c)
+	cluster_pass.c cluster_worker.c wire.c)
 SOURCES := $(filter-out $(MPI_SOURCES),$(wildcard src/*.c src/*/*.c))
 OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(SOURCES)) $(B)/kernels.o \
 	$(PATHS) $(FILTERS)
@@ -149,7 +154,7 @@ $(B)/api/glim_render.o $(B)/glim.pc: $(B)/places
 
 # $* is the instruction set and, after a _, the set of features.
 ISA = $(firstword $(subst _, ,$*))
-SET = $(word 2,$(subst _, ,$*))
+SET = $(if $(findstring _,$*),$(patsubst $(ISA)_%,%,$*))
 
 $(PATHS): $(B)/paths_%.o: src/render/cpu_kernel.c $(B)/flags
 	$(SAY) CC '$< ($*)'
@@ -193,6 +198,8 @@ $(foreach i,$(ISAS),$(eval $(B)/unit/bvh/test_bvh8_$(i): \
 # test_tty inspects the event loop each time before it waits.
 $(B)/unit/terminal/test_tty: private ALL_LDFLAGS += \
 	-Wl,--wrap=workspace_next_ns,--wrap=tty_read
+# It makes the disk slow.
+$(B)/unit/session/test_session_film: private ALL_LDFLAGS += -Wl,--wrap=fsync
 # It lets allocations fail, and counts what is freed.
 WRAPPED := malloc calloc realloc aligned_alloc strdup strndup vasprintf \
 	__vasprintf_chk open_memstream getline __getdelim free
@@ -372,8 +379,8 @@ bench-cycles: $(B)/glim
 		ROUNDS)),3,$(ROUNDS)) tests/bench/cycles/run.sh
 
 ## stress: runs checks at numerical limits, and others that take minutes;
-##         FILTER=NAME selects one: samples geometry light films error filter
-##         blender extremes sizes keys rays oclgrind valgrind
+##         FILTER=NAME selects one: samples geometry light films schedulers
+##         error filter blender extremes sizes keys rays oclgrind valgrind
 stress: $(B)/glim $(MPI_PROGRAM) $(STRESSES) $(B)/unit/terminal/test_tty
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 

@@ -23,7 +23,7 @@
 
 #include "kernels/aov.h"
 #include "kernels/camera_sample.h"
-#include "kernels/caustic_table.h"
+#include "kernels/caustic_lobes.h"
 #include "kernels/path_lights.h"
 
 /* Samples the next ray from the BSDF, or from the path guide if it has a table
@@ -38,7 +38,7 @@ static inline bool path_scatter(const struct world *w, struct path *p,
     uint32_t caustics = NO_INDEX;
 
     if (HAS(FEATURE_CAUSTICS) && guide_helps(b))
-        caustics = caustic_table_at(w, v->p, v->ng);
+        caustics = caustic_leaf_at(w, v->p, v->ng);
     if (HAS(FEATURE_CAUSTICS) && caustics != NO_INDEX) {
         if (!caustic_scatter(w, caustics, p->cell.scatter, v, b, wo, direction,
                              choice, &s, &wi, &p->scale))

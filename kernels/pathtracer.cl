@@ -29,9 +29,9 @@ __kernel void trace_paths(
     __global const float *guide_cdf,
     __global const struct point_light *point_lights,
     __global const struct directional_light *directional_lights,
-    __global const float *profiles, __global const uint *caustic_cells,
-    __global const struct caustic_group *caustic_groups,
-    __global const struct caustic_bin *caustic_bins)
+    __global const float *profiles, 
+    __global const struct caustic_node *caustic_nodes,
+    __global const struct caustic_lobe *caustic_lobes)
 {
     uint i = (uint)get_global_id(0);
 
@@ -61,9 +61,8 @@ __kernel void trace_paths(
                           point_lights,
                           directional_lights,
                           profiles,
-                          caustic_cells,
-                          caustic_groups,
-                          caustic_bins};
+                          caustic_nodes,
+                          caustic_lobes};
 
         struct first_surface surface;
 

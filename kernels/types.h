@@ -250,23 +250,25 @@ struct guide_cell {
     uint32_t sky;     /* directions for light samples of the sky */
 };
 
-/* Directions of caustics in a cell, with their bins in caustic_bins; see
- * kernels/caustic_table.h. */
-struct caustic_group {
-    struct vec3 p;      /* where the bins are at their places */
-    float before;       /* sum of the bins of the groups before */
-    struct vec3 dx, dy; /* change of the places with the position */
-    float share;        /* sum of the bins of all groups of the cell */
-    uint32_t first_bin;
-    uint32_t bin_count;
-    uint32_t level; /* the map has 2^level bins along a side */
-    uint32_t next;  /* the next group, or NO_INDEX */
+/* A node of the k-d tree of caustics; see kernels/caustic_lobes.h. The first
+ * GUIDE_FACINGS nodes are roots, one for each class of normals. The two lowest
+ * bits of `next` are the axis of the split, and the others the lower child,
+ * which the upper one follows; in a leaf they are 3 and the first lobe. */
+struct caustic_node {
+    float split;   /* of a leaf: the probability to sample its lobes */
+    uint32_t next; /* NO_INDEX: a leaf without lobes */
 };
 
-/* Bins of a group are ordered by their indices. */
-struct caustic_bin {
-    uint32_t index; /* y * side + x */
-    float sum;      /* of the cell's bins up to and with this one */
+/* A density on the plane axis.q = height near a caster. Seen from p, it is that
+ * of the numbers u.(q - p) + du.p + u0 and the same with v. */
+struct caustic_lobe {
+    struct vec3 axis; /* unit vector, away from the places that are lit */
+    float height;
+    struct vec3 u, v; /* on the plane */
+    struct vec3 du, dv;
+    float u0, v0;
+    float scale; /* 1 / pi of the area on which the two numbers change by 1 */
+    float sum;   /* probability of the leaf's lobes up to and with this one */
 };
 
 /* Estimators of direct light. Pictures use DIRECT_MIS, the others are for
@@ -336,10 +338,8 @@ struct settings {
     uint32_t profile_value_count;
 
     struct guide_grid guide;
-    struct guide_grid caustic_grids[2]; /* see kernels/caustic_table.h */
-    uint32_t caustic_cell_count;
-    uint32_t caustic_group_count;
-    uint32_t caustic_bin_count;
+    uint32_t caustic_node_count;
+    uint32_t caustic_lobe_count;
 };
 
 /* The data that a sample reads, and nothing more. nodes and leaf_tris belong to
@@ -366,10 +366,9 @@ struct world {
     GLOBAL const float *guide_cdf;               /* GUIDE_BINS of each table */
     GLOBAL const struct point_light *point_lights;
     GLOBAL const struct directional_light *directional_lights;
-    GLOBAL const float *profiles;         /* of point lights, row by row */
-    GLOBAL const uint32_t *caustic_cells; /* the first group, or NO_INDEX */
-    GLOBAL const struct caustic_group *caustic_groups;
-    GLOBAL const struct caustic_bin *caustic_bins;
+    GLOBAL const float *profiles; /* of point lights, row by row */
+    GLOBAL const struct caustic_node *caustic_nodes;
+    GLOBAL const struct caustic_lobe *caustic_lobes;
 };
 
 struct ray {

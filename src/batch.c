@@ -364,8 +364,11 @@ static bool save_film_and_all(struct view_mode *show, struct session_film *f,
     struct error film_err;
     bool has_film = session_film_write(f, &film_err);
 
-    if (!save_all(show, err))
+    if (!save_all(show, err)) {
+        if (!has_film)
+            error_add(err, &film_err);
         return false;
+    }
     if (!has_film)
         *err = film_err;
     return has_film;

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/file.h"
 #include "base/print.h"
 #include "picture/film_error.h"
 #include "picture/film_file.h"
@@ -111,17 +110,6 @@ bool batch_films_info(const struct options *o, struct error *err)
 
 /* ---- merge ---- */
 
-static bool join_next(struct film_file *f, const struct options *o, int i,
-                      struct error *err)
-{
-    struct film_file more;
-    bool ok = film_file_read(&more, o->films[i], err) &&
-              film_file_join(f, o->films[0], &more, o->films[i], err);
-
-    film_file_free(&more);
-    return ok;
-}
-
 static void warn_of_gaps(const struct film_header *h)
 {
     struct film_range gap;
@@ -145,16 +133,6 @@ static struct render_progress progress_of(const struct film_file *f,
     if (p.spp_done == h->total && !f->is_within_pass)
         p.stopped_by = RENDER_LIMIT_SPP;
     return p;
-}
-
-static bool write_film(struct film_file *f, const char *path, struct error *err)
-{
-    size_t size;
-    char *bytes = film_file_bytes(&f->header, &f->film, NULL, NULL, &size, err);
-    bool ok = bytes != NULL && file_write(path, bytes, size, false, NULL, err);
-
-    free(bytes);
-    return ok;
 }
 
 static bool write_picture(struct film_file *f, struct film *film,
@@ -202,7 +180,8 @@ static bool write(struct film_file *f, const struct options *o,
 
     if (!estimate(f, o, &e, err))
         return false;
-    if (options_output_is_film(o) ? !write_film(f, o->output_path, err)
+    if (options_output_is_film(o) ? !film_file_write(o->output_path, &f->header,
+                                                     &f->film, NULL, NULL, err)
                                   : !write_pictures(f, &e, o, err))
         return false;
     warn_of_gaps(&f->header);
@@ -241,7 +220,7 @@ bool batch_films_merge(const struct options *o, uint64_t start_ns,
     bool ok = check_outputs(o, err) && film_file_read(&f, o->films[0], err);
 
     for (int i = 1; ok && i < o->film_count; i++)
-        ok = join_next(&f, o, i, err);
+        ok = film_file_join_read(&f, o->films[0], o->films[i], err);
     ok = ok && write(&f, o, start_ns, err);
     film_file_free(&f);
     return ok;

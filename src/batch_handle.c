@@ -36,7 +36,7 @@ struct glim *batch_handle_open(const struct options *o, struct error *err)
         .view_path = o->view_path,
         .sun = o->has_sun ? &sun : NULL,
         .turbidity = o->turbidity,
-        .up = o->up_is_z ? GLIM_UP_Z : GLIM_UP_Y,
+        .up = (enum glim_up)o->up,
         .threads = options_threads(o),
     };
     struct glim_error why;

@@ -22,6 +22,7 @@
 #include "base/memory.h"
 #include "base/print.h"
 #include "glim/version.h"
+#include "formats/scene_format.h"
 #include "render/cpu_dispatch.h"
 #include "opencl/cl_device.h"
 #include "opencl/cl_environment.h"
@@ -32,6 +33,7 @@
 #include "session/command_line.h"
 #include "session/config.h"
 #include "session/kept_folder.h"
+#include "session/option_help.h"
 #include "session/recent.h"
 #include "session/session.h"
 #include "session/sub_command.h"
@@ -84,8 +86,8 @@ static int print_out(const char *text)
 
 static int print_help(void)
 {
-    print_lines(stdout, options_help);
-    return print_out(sub_command_help);
+    option_help_print(stdout);
+    return print_out("");
 }
 
 static int list_devices(void)
@@ -97,6 +99,15 @@ static int list_devices(void)
         return complain(EXIT_FAILED, &err);
     cl_devices_print(&list, stdout);
     cl_devices_free(&list);
+    return print_out("");
+}
+
+static int list_formats(void)
+{
+    const struct scene_format *f;
+
+    for (uint32_t i = 0; (f = scene_format_number(i)) != NULL; i++)
+        print_line(stdout, "%-14s .%-4s %s", f->name, f->endings, f->about);
     return print_out("");
 }
 
@@ -159,16 +170,24 @@ static bool work(const struct options *o, struct error *err)
     return ok;
 }
 
-/* Starts the ranks, with the options of rank 0 that workers need. */
+/* Starts the ranks, with the options of rank 0 that workers need. MPI does not
+ * change the arguments. */
 static bool begin_cluster(const struct options *o, struct error *err)
 {
-    static char worker[] = "--worker", t[] = "-t", backend[] = "--backend";
-    static char device[] = "--device";
-    static char cpu[] = "cpu", opencl[] = "opencl", automatic[] = "auto";
-    char *const backend_names[] = {cpu, opencl, automatic};
+    static const char *const backend_names[] = {"cpu", "opencl", "auto"};
     char threads[16];
-    char *arguments[8] = {worker, backend, backend_names[o->backend]};
-    int count = 3;
+    const struct {
+        const char *name, *value;
+    } given[] = {
+        {"--backend", backend_names[o->backend]},
+        {"--device", o->device},
+        {"--kernels", o->kernels_path},
+        {"--isa", o->paths ? o->paths->name : NULL},
+        {"-t", o->thread_count != 0 ? threads : NULL},
+    };
+    const char *arguments[2 + 2 * sizeof given / sizeof given[0]] = {
+        "--worker"};
+    int count = 1;
     char *kernels = cl_source_text(o->kernels_path, err);
     uint64_t version;
 
@@ -176,14 +195,12 @@ static bool begin_cluster(const struct options *o, struct error *err)
         return false;
     version = cl_source_hash(kernels);
     free(kernels);
-    if (o->thread_count != 0) {
-        snprintf(threads, sizeof threads, "%d", o->thread_count);
-        arguments[count++] = t;
-        arguments[count++] = threads;
-    }
-    if (o->device) {
-        arguments[count++] = device;
-        arguments[count++] = (char *)(uintptr_t)o->device;
+    snprintf(threads, sizeof threads, "%d", o->thread_count);
+    for (size_t i = 0; i < sizeof given / sizeof given[0]; i++) {
+        if (!given[i].value)
+            continue;
+        arguments[count++] = given[i].name;
+        arguments[count++] = given[i].value;
     }
     return cluster_begin(o->ranks, arguments, version, err);
 }
@@ -314,6 +331,8 @@ int main(int argc, char **argv)
     cl_environment_prepare(options.thread_count);
     if (options.list_devices)
         return list_devices();
+    if (options.list_formats)
+        return list_formats();
     if (options.list_sessions)
         return kept_print_list(stdout, &err) ? print_out("")
                                              : complain(EXIT_FAILED, &err);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * glim.h - renders OBJ scenes: the public interface of libglim
+ * glim.h - renders scenes: the public interface of libglim
  *
  *     struct glim_error err;
  *     struct glim *g = glim_open("scene.obj", NULL, &err);
@@ -51,7 +51,11 @@ struct glim_error {
     char text[1024]; /* place, what was found, what was expected */
 };
 
-enum glim_up { GLIM_UP_Y, GLIM_UP_Z };
+enum glim_up {
+    GLIM_UP_OF_FILE, /* axis that the format of the file has */
+    GLIM_UP_Y,
+    GLIM_UP_Z
+};
 
 enum glim_backend {
     GLIM_BACKEND_CPU,
@@ -127,11 +131,11 @@ struct glim_open_options {
                          images */
 };
 
-/* Opens the scene of an OBJ file, which gzip may have packed ("-": standard
- * input), with its materials and images, and its view
- * file with camera, size and sky. A scene without a camera is framed as a
- * whole; a scene without light gets a soft sky. `options` may be NULL. Returns
- * NULL on errors. */
+/* Opens the scene of an OBJ, PLY or STL file, which gzip may have packed ("-":
+ * standard input), with its materials and images, and its view file with
+ * camera, size and sky. A scene without a camera is framed as a whole; a scene
+ * without light gets a soft sky, a PLY or STL model also a lamp. `options` may
+ * be NULL. Returns NULL on errors. */
 GLIM_API struct glim *glim_open(const char *path,
                                 const struct glim_open_options *options,
                                 struct glim_error *err);
@@ -271,6 +275,20 @@ GLIM_API bool glim_save(struct glim *g, const char *path,
  * the name, valid until the next call, or NULL on errors. */
 GLIM_API const char *glim_save_new(struct glim *g, const char *stem,
                                    struct glim_error *err);
+
+/* ---- films: files with the exact sums of all samples ---- */
+
+/* Writes the film of the picture, from which glim_load_films() and the program,
+ * with --resume, go on to the bytes of a render at once. */
+GLIM_API bool glim_save_film(struct glim *g, const char *path,
+                             struct glim_error *err);
+
+/* Replaces the picture by that of one or more films, such as shares of its
+ * samples: together they must have all samples from the first on. The next
+ * glim_render() adds to it. Films of another scene or of other settings are an
+ * error, and the picture stays. */
+GLIM_API bool glim_load_films(struct glim *g, const char *const *paths,
+                              int count, struct glim_error *err);
 
 #ifdef __cplusplus
 }

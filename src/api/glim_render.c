@@ -259,28 +259,42 @@ static struct render_limits limits_of(const struct glim_call *call,
     return limits;
 }
 
-/* Starts a new picture with the current settings. */
-static bool begin(struct glim *g, const struct glim_call *call,
-                  struct error *err)
+bool handle_prepare(struct glim *g, struct render_job *job, struct error *err)
 {
-    struct render_job job = {.host = &g->world,
-                             .crop = g->crop,
-                             .exposure = (float)g->view.lighting.exposure};
-
+    *job = (struct render_job){.host = &g->world,
+                               .crop = g->crop,
+                               .exposure = (float)g->view.lighting.exposure,
+                               .is_adaptive = g->is_adaptive};
     if (!g->view.has_camera) /* depends on the aspect ratio */
         scene_frame(&g->scene, &g->view);
     if (!need_render(g, err) ||
         !world_guide(&g->world, &g->scene, &g->view, err) ||
-        !world_lend(&g->world, &g->scene, &g->view, g->seed, &job.world, err))
+        !world_lend(&g->world, &g->scene, &g->view, g->seed, &job->world, err))
         return false;
     if (g->device != NULL) /* the device has its own tree */
         world_drop_tree(&g->world);
-    job.limits = limits_of(call, 0);
-    job.is_adaptive = g->is_adaptive;
-    job.world.settings.features = features_of(g);
+    job->world.settings.features = features_of(g);
+    return true;
+}
+
+bool handle_start(struct glim *g, const struct render_job *job,
+                  struct error *err)
+{
     handle_drop_filtered(g);
-    g->has_picture = render_start(g->render, &job, err);
+    g->has_picture = render_start(g->render, job, err);
     return g->has_picture;
+}
+
+/* Starts a new picture with the current settings. */
+static bool begin(struct glim *g, const struct glim_call *call,
+                  struct error *err)
+{
+    struct render_job job;
+
+    if (!handle_prepare(g, &job, err))
+        return false;
+    job.limits = limits_of(call, 0);
+    return handle_start(g, &job, err);
 }
 
 /* Waits until a limit is reached, or the render is stopped by the progress

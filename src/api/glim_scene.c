@@ -25,6 +25,9 @@ const char *glim_version(void)
     return GLIM_VERSION;
 }
 
+_Static_assert((int)GLIM_UP_Y == SCENE_UP_Y && (int)GLIM_UP_Z == SCENE_UP_Z,
+               "axes have the same numbers");
+
 static void take_whole_picture(struct glim *g)
 {
     g->crop = (struct rect){0, 0, g->view.width_px, g->view.height_px};
@@ -87,8 +90,9 @@ static bool open_all(struct glim *g, const char *path,
            view_find(&g->view, path, o->view_path, &g->view_path, &g->report,
                      err) &&
            set_sun(&g->view, o, err) &&
-           scene_open(&g->scene, &g->world, &g->view, path, o->up == GLIM_UP_Z,
-                      handle_threads(g), &g->report, err) &&
+           scene_open(&g->scene, &g->world, &g->view, path,
+                      (enum scene_up)o->up, handle_threads(g), &g->report,
+                      err) &&
            assign(g, err) && make_warnings(g, err);
 }
 

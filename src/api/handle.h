@@ -58,6 +58,13 @@ int handle_threads(const struct glim *g);
 /* Converts the progress of the renderer to that of the interface. */
 struct glim_progress handle_progress(const struct render_progress *p);
 
+/* Describes a new picture with the current settings, without limits. */
+bool handle_prepare(struct glim *g, struct render_job *job, struct error *err);
+
+/* Starts a picture that was prepared. */
+bool handle_start(struct glim *g, const struct render_job *job,
+                  struct error *err);
+
 /* Frees the filtered picture. */
 void handle_drop_filtered(struct glim *g);
 

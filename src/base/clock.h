@@ -14,8 +14,8 @@
 /* Reads the monotonic clock. */
 uint64_t clock_ns(void);
 
-/* Returns the time of the monotonic clock in so many milliseconds. */
-struct timespec clock_time_after(int ms);
+/* Returns the time of the monotonic clock so many nanoseconds from now. */
+struct timespec clock_time_after(int64_t ns);
 
 /* Reads the processor time of the process, of all threads together, which other
  * programs hardly disturb. */

@@ -3,6 +3,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/print.h"
 
@@ -15,4 +16,11 @@ bool fail(struct error *err, const char *format, ...)
     va_end(args);
     print_replace(err->text);
     return false;
+}
+
+void error_add(struct error *err, const struct error *more)
+{
+    size_t length = strlen(err->text);
+
+    snprintf(err->text + length, sizeof err->text - length, "; %s", more->text);
 }

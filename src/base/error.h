@@ -19,4 +19,7 @@ struct error {
 bool fail(struct error *err, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* Adds the text of another failure that came after the first one. */
+void error_add(struct error *err, const struct error *more);
+
 #endif

@@ -6,32 +6,55 @@
 
 #include "base/memory.h"
 
-bool band_init(struct band *b, int width, int y, int rows, bool has_surfaces,
-               const struct pass *pass, struct error *err)
+bool band_init(struct band *b, int width, const struct band_range *range,
+               bool has_surfaces, struct error *err)
 {
-    size_t pixels = (size_t)width * (size_t)rows;
+    size_t pixels = (size_t)width * (size_t)range->rows;
+    bool has_shares = range->pass.shares != NULL;
 
-    *b = (struct band){.y = y, .pass = *pass};
-    if (!film_init(&b->film, width, rows, err) ||
+    *b = (struct band){.range = *range};
+    if (!film_init(&b->film, width, range->rows, err) ||
         (has_surfaces && !film_init_surfaces(&b->film, err)))
         return false;
     b->before = alloc_array(pixels, sizeof *b->before);
-    if (pass->shares != NULL)
+    if (has_shares)
         b->shares = alloc_array(pixels, sizeof *b->shares);
-    b->pass.shares = b->shares;
-    return (b->before != NULL &&
-            (pass->shares != NULL) == (b->shares != NULL)) ||
-           fail(err, "out of memory for %d rows of the picture", rows);
+    b->range.pass.shares = b->shares;
+    return (b->before != NULL && has_shares == (b->shares != NULL)) ||
+           fail(err, "out of memory for %d rows of the picture", range->rows);
 }
 
-void band_take(struct band *b, const struct film *film, const struct pass *pass)
+void band_take(struct band *b, const struct film *film,
+               const struct band_range *range)
 {
-    size_t at = (size_t)b->y * (size_t)film->width;
-    size_t pixels = (size_t)film->width * (size_t)b->film.height;
+    size_t at = (size_t)range->y * (size_t)film->width;
+    size_t pixels = (size_t)film->width * (size_t)range->rows;
 
-    memcpy(b->before, film->counts + at, pixels * sizeof *b->before);
+    for (size_t i = 0; i < pixels; i++)
+        b->before[i] = band_plan_before(film, range, at + i);
     if (b->shares != NULL)
-        memcpy(b->shares, pass->shares + at, pixels * sizeof *b->shares);
+        memcpy(b->shares, range->pass.shares + at, pixels * sizeof *b->shares);
+}
+
+/* Renders the pass of a band in shorter ones if it is too long for a backend.
+ */
+static enum pass_result render_passes(const struct band *b,
+                                      struct backend *backend,
+                                      const struct cancel *cancel,
+                                      struct error *err)
+{
+    const struct pass *whole = &b->range.pass;
+    uint64_t left = pass_mean(whole);
+    enum pass_result result;
+
+    do {
+        uint64_t mean = left < PASS_MEAN_MAX ? left : PASS_MEAN_MAX;
+        struct pass pass = pass_with(*whole, whole->target - left + mean, mean);
+
+        result = backend->pass(backend, &pass, cancel, err);
+        left -= mean;
+    } while (left > 0 && result == PASS_DONE);
+    return result;
 }
 
 enum pass_result band_render(struct band *b, struct backend *backend,
@@ -51,9 +74,9 @@ enum pass_result band_render(struct band *b, struct backend *backend,
         f->counts[i] = b->before[i];
         atomic_fetch_add(&f->samples, b->before[i]);
     }
-    if (!backend->begin(backend, host, world, f, x0, y0 + b->y, err))
+    if (!backend->begin(backend, host, world, f, x0, y0 + b->range.y, err))
         return PASS_FAILED;
-    result = backend->pass(backend, &b->pass, cancel, err);
+    result = render_passes(b, backend, cancel, err);
     for (size_t i = 0; i < pixels; i++) {
         f->counts[i] -= b->before[i];
         atomic_fetch_sub(&f->samples, b->before[i]);
@@ -66,5 +89,5 @@ void band_free(struct band *b)
     film_free(&b->film);
     free(b->before);
     free(b->shares);
-    *b = (struct band){.y = 0};
+    *b = (struct band){0};
 }

@@ -13,29 +13,24 @@
 #ifndef GLIM_BAND_H
 #define GLIM_BAND_H
 
-#include "render/backend.h"
-
-/* The first row of a band is a multiple of this. */
-#define BAND_ROWS 8
+#include "cluster/band_plan.h"
 
 struct band {
-    int y; /* first row in the whole film */
+    struct band_range range; /* whose shares are these */
     /* the new samples alone, after band_render() */
     struct film film;
     uint64_t *before; /* samples that the pixels had in the whole film */
     uint16_t *shares; /* of adaptive sampling; NULL: none */
-    struct pass pass; /* the band's part of a pass; its shares are these */
 };
 
-/* Makes a band of rows from y on of a film of this width, for a pass. `before`,
- * and `shares` if the pass has some, are to be filled. */
-bool band_init(struct band *b, int width, int y, int rows, bool has_surfaces,
-               const struct pass *pass, struct error *err);
+/* Makes a band of a film of this width. `before`, and `shares` if the pass has
+ * some, are to be filled. */
+bool band_init(struct band *b, int width, const struct band_range *range,
+               bool has_surfaces, struct error *err);
 
-/* Fills `before` and `shares` from the whole film and the pass. Nobody adds to
- * these rows. */
+/* Fills `before` and `shares` from the whole film and the pass. */
 void band_take(struct band *b, const struct film *film,
-               const struct pass *pass);
+               const struct band_range *range);
 
 /* Renders the band of a film whose corner is (x0, y0) in the picture, and whose
  * pixels begin with sample first_sample. */

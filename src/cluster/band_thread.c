@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "base/thread.h"
 
@@ -12,7 +13,7 @@ struct band_thread {
     pthread_t thread;
     bool is_busy; /* the owner's */
     pthread_mutex_t lock;
-    pthread_cond_t begin;
+    pthread_cond_t begin, done;
     /* guarded by lock */
     bool has_work, is_done, is_ending;
     struct band_work work;
@@ -43,6 +44,7 @@ static void *run(void *argument)
         t->result = result;
         t->error = err;
         t->is_done = true;
+        pthread_cond_signal(&t->done);
     }
     pthread_mutex_unlock(&t->lock);
     return NULL;
@@ -59,12 +61,14 @@ struct band_thread *band_thread_create(struct error *err)
     }
     pthread_mutex_init(&t->lock, NULL);
     pthread_cond_init(&t->begin, NULL);
+    thread_condition_init(&t->done);
     reason = thread_start(&t->thread, run, t);
     if (reason == 0)
         return t;
     fail(err, "cannot start a thread: %s", strerror(reason));
     pthread_mutex_destroy(&t->lock);
     pthread_cond_destroy(&t->begin);
+    pthread_cond_destroy(&t->done);
     free(t);
     return NULL;
 }
@@ -102,6 +106,17 @@ bool band_thread_is_busy(const struct band_thread *t)
     return t->is_busy;
 }
 
+void band_thread_wait(struct band_thread *t, long timeout_ns)
+{
+    struct timespec until = clock_time_after(timeout_ns);
+    int reason = 0;
+
+    pthread_mutex_lock(&t->lock);
+    while (!t->is_done && reason == 0)
+        reason = pthread_cond_timedwait(&t->done, &t->lock, &until);
+    pthread_mutex_unlock(&t->lock);
+}
+
 void band_thread_destroy(struct band_thread *t)
 {
     if (t == NULL)
@@ -113,5 +128,6 @@ void band_thread_destroy(struct band_thread *t)
     pthread_join(t->thread, NULL);
     pthread_mutex_destroy(&t->lock);
     pthread_cond_destroy(&t->begin);
+    pthread_cond_destroy(&t->done);
     free(t);
 }

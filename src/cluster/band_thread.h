@@ -37,6 +37,9 @@ struct band *band_thread_end(struct band_thread *t, enum pass_result *result,
 /* Returns true between begin and end. */
 bool band_thread_is_busy(const struct band_thread *t);
 
+/* Sleeps for this time, or until a band in progress is done. */
+void band_thread_wait(struct band_thread *t, long timeout_ns);
+
 /* Waits for the band in progress, if any. */
 void band_thread_destroy(struct band_thread *t);
 

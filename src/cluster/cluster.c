@@ -19,7 +19,7 @@ bool cluster_is_launched(void)
            (getenv("PMIX_RANK") != NULL && number_of("SLURM_NTASKS") > 1);
 }
 
-bool cluster_begin(int ranks, char *const *arguments, uint64_t version,
+bool cluster_begin(int ranks, const char *const *arguments, uint64_t version,
                    struct error *err)
 {
     int other;

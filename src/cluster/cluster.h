@@ -25,7 +25,7 @@ bool cluster_is_launched(void);
 /* Starts MPI. With ranks above 1 it starts the other ranks, as copies of this
  * program with these arguments, a list that ends with NULL; otherwise mpirun
  * has. `version` is the hash of the kernels, which is compared. */
-bool cluster_begin(int ranks, char *const *arguments, uint64_t version,
+bool cluster_begin(int ranks, const char *const *arguments, uint64_t version,
                    struct error *err);
 
 /* Returns the number of ranks; 1 before cluster_begin(). */

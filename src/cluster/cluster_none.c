@@ -6,7 +6,7 @@ bool cluster_is_launched(void)
     return false;
 }
 
-bool cluster_begin(int ranks, char *const *arguments, uint64_t version,
+bool cluster_begin(int ranks, const char *const *arguments, uint64_t version,
                    struct error *err)
 {
     (void)ranks;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "cluster/cluster.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "cluster/band_answer.h"
 #include "cluster/band_thread.h"
 #include "cluster/wire.h"
 
@@ -19,7 +19,7 @@ struct worker {
     uint64_t versions[WORLD_LIST_COUNT];
     struct rank_order picture; /* the last ORDER_BEGIN */
     /* the band in progress, and the one before, whose answer is being sent */
-    struct rank_order orders[2];
+    uint32_t epochs[2];
     struct band bands[2];
     int current;
     struct cancel cancel;
@@ -79,59 +79,54 @@ static bool begin_picture(struct worker *w, const struct rank_order *o,
 
 /* ---- bands ---- */
 
-/* Sends the answer for one of the bands. */
-static void send_answer(struct worker *w, int index, bool has_failed,
-                        const char *reason)
+/* Sends the answer for one of the bands. `error` is "" or why it failed. */
+static bool send_answer(struct worker *w, int index, const char *error,
+                        struct error *err)
 {
-    const struct film *f = &w->bands[index].film;
-    const struct rank_order *o = &w->orders[index];
-    size_t pixels = (size_t)f->width * (size_t)f->height;
-    struct rank_answer a = {.epoch = o->epoch,
-                            .has_failed = has_failed,
-                            .width = f->width,
-                            .has_surfaces = f->surfaces != NULL,
-                            .y = o->y,
-                            .rows = o->rows,
-                            .samples = atomic_load(&f->samples),
-                            .rays = atomic_load(&f->rays),
-                            .non_finite = atomic_load(&f->non_finite),
-                            .saturated = atomic_load(&f->saturated),
-                            .cut_paths = atomic_load(&f->cut_paths)};
+    size_t size;
+    struct band_answer *a =
+        band_answer_make(&w->bands[index], w->epochs[index], error, &size);
 
-    snprintf(a.error, sizeof a.error, "%.255s", reason);
-    wire_send(0, WIRE_ANSWER, &a, sizeof a);
-    if (a.samples == 0)
-        return;
-    wire_send(0, WIRE_DATA, f->counts, pixels * sizeof *f->counts);
-    wire_send(0, WIRE_DATA, f->sums, 3 * pixels * sizeof *f->sums);
-    wire_send(0, WIRE_DATA, f->odd_sums, 3 * pixels * sizeof *f->odd_sums);
-    if (f->surfaces != NULL)
-        wire_send(0, WIRE_DATA, f->surfaces, pixels * sizeof *f->surfaces);
+    if (a == NULL)
+        return lacks_memory("an answer", err);
+    wire_give(0, WIRE_ANSWER, a, size);
+    return true;
+}
+
+/* Fills a band from the arrays behind its order. */
+static void fill_band(struct band *band, const struct rank_order *o)
+{
+    const uint64_t *counts = (const uint64_t *)(o + 1);
+    size_t pixels = (size_t)band->film.width * (size_t)band->film.height;
+
+    for (size_t i = 0; i < pixels; i++)
+        band->before[i] = o->has_counts ? counts[i] : o->before;
+    if (o->has_shares)
+        memcpy(band->shares, o->has_counts ? counts + pixels : counts,
+               pixels * sizeof *band->shares);
 }
 
 static bool begin_band(struct worker *w, const struct rank_order *o,
                        struct error *err)
 {
     const struct rank_order *p = &w->picture;
-    size_t pixels = (size_t)p->width * (size_t)o->rows;
     static const uint16_t some_shares;
-    struct pass pass = o->pass;
+    struct band_range range = o->range;
     struct error why;
     struct band *band;
 
     w->current = 1 - w->current;
     band = &w->bands[w->current];
-    w->orders[w->current] = *o;
-    pass.shares = o->has_shares ? &some_shares : NULL;
-    if (!band_init(band, p->width, o->y, o->rows, p->has_surfaces, &pass, &why))
+    w->epochs[w->current] = o->epoch;
+    range.pass.shares = o->has_shares ? &some_shares : NULL;
+    if (!band_init(band, p->width, &range, p->has_surfaces, &why))
         return fail(err, "rank %d: %.900s", wire_rank(), why.text);
-    wire_receive(0, WIRE_DATA, band->before, pixels * sizeof *band->before);
-    if (o->has_shares)
-        wire_receive(0, WIRE_DATA, band->shares, pixels * sizeof *band->shares);
+    fill_band(band, o);
     if (w->error.text[0] != '\0' || o->epoch <= w->cancelled_epoch) {
-        send_answer(w, w->current, w->error.text[0] != '\0', w->error.text);
+        bool ok = send_answer(w, w->current, w->error.text, err);
+
         band_free(band);
-        return true;
+        return ok;
     }
     cancel_reset(&w->cancel);
     band_thread_begin(w->thread,
@@ -150,50 +145,63 @@ static bool begin_band(struct worker *w, const struct rank_order *o,
 
 static bool take_cancel(struct worker *w)
 {
-    int from = 0;
+    int from;
+    size_t size;
+    uint32_t *epoch = wire_take(&from, WIRE_CANCEL, &size);
 
-    if (!wire_has(&from, WIRE_CANCEL))
+    if (epoch == NULL)
         return false;
-    wire_receive(0, WIRE_CANCEL, &w->cancelled_epoch,
-                 sizeof w->cancelled_epoch);
+    w->cancelled_epoch = *epoch;
+    free(epoch);
     if (band_thread_is_busy(w->thread) &&
-        w->orders[w->current].epoch <= w->cancelled_epoch)
+        w->epochs[w->current] <= w->cancelled_epoch)
         cancel_request(&w->cancel);
     return true;
 }
 
-/* Does the next order. *is_ended is set at the last. Messages that were not
- * received stay with MPI after a failure, so the job cannot go on. */
-static bool do_order(struct worker *w, bool *is_ended, struct error *err)
+static bool do_order(struct worker *w, const struct rank_order *o,
+                     bool *is_ended, struct error *err)
 {
-    struct rank_order o;
-
-    wire_receive(0, WIRE_ORDER, &o, sizeof o);
-    if (o.kind == ORDER_BEGIN)
-        return begin_picture(w, &o, err);
-    if (o.kind == ORDER_BAND)
-        return begin_band(w, &o, err);
+    if (o->kind == ORDER_BEGIN)
+        return begin_picture(w, o, err);
+    if (o->kind == ORDER_BAND)
+        return begin_band(w, o, err);
     *is_ended = true;
     return true;
 }
 
-static bool has_order(const struct worker *w)
+/* Does the next order, if there is one and nothing is rendered. Arrays that
+ * were not received stay with MPI after a failure, so the job cannot go on. */
+static bool take_order(struct worker *w, bool *is_ended, bool *did_something,
+                       struct error *err)
 {
-    int from = 0;
+    struct rank_order *o;
+    size_t size;
+    int from;
+    bool ok;
 
-    return !band_thread_is_busy(w->thread) && wire_has(&from, WIRE_ORDER);
+    if (band_thread_is_busy(w->thread))
+        return true;
+    o = wire_take(&from, WIRE_ORDER, &size);
+    if (o == NULL)
+        return true;
+    *did_something = true;
+    ok = do_order(w, o, is_ended, err);
+    free(o);
+    return ok;
 }
 
 /* Answers for a band that is done. The next one begins before, if it is there,
- * so that it is rendered while the sums are sent. */
-static bool end_band(struct worker *w, enum pass_result result,
-                     const char *reason, bool *is_ended, struct error *err)
+ * so that it is rendered while the sums are packed and sent. */
+static bool end_band(struct worker *w, const char *error, bool *is_ended,
+                     struct error *err)
 {
     int done = w->current;
-    bool ok = !has_order(w) || do_order(w, is_ended, err);
+    bool did_something;
+    bool ok = take_order(w, is_ended, &did_something, err);
 
     if (ok && !*is_ended)
-        send_answer(w, done, result == PASS_FAILED, reason);
+        ok = send_answer(w, done, error, err);
     band_free(&w->bands[done]);
     return ok;
 }
@@ -209,12 +217,16 @@ static bool serve(struct worker *w, struct error *err)
         bool did_something = take_cancel(w);
 
         if (band_thread_is_busy(w->thread) &&
-            band_thread_end(w->thread, &result, &why) != NULL)
-            ok = end_band(w, result, why.text, &is_ended, err);
-        else if (has_order(w))
-            ok = do_order(w, &is_ended, err);
-        else if (!did_something)
-            wire_rest();
+            band_thread_end(w->thread, &result, &why) != NULL) {
+            ok = end_band(w, result == PASS_FAILED ? why.text : "", &is_ended,
+                          err);
+            did_something = true;
+        } else {
+            ok = take_order(w, &is_ended, &did_something, err);
+        }
+        if (!did_something)
+            band_thread_wait(w->thread,
+                             wire_rest_ns(band_thread_is_busy(w->thread)));
     }
     return ok;
 }

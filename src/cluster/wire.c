@@ -11,28 +11,38 @@
 
 #include "base/memory.h"
 
-/* Size of a message; MPI counts bytes with int. */
-#define MESSAGE_BYTES ((size_t)1 << 30)
-
-/* Time between looks for messages. */
-#define REST_NS 200000
+/* Time between looks for messages; less while one is on its way, or while
+ * nothing is rendered. */
+#define REST_NS       1000000
+#define REST_SHORT_NS 200000
 
 /* Time for rank 0 to end. */
 #define END_NS 300000000
 
+/* A message on its way. */
+struct message {
+    MPI_Request request;
+    int rank;
+    enum wire_tag tag;
+    bool is_whole;
+    void *bytes;
+    size_t size;
+};
+
+/* Messages in the order of their sending or of their arrival. */
+struct message_list {
+    struct message *messages;
+    size_t count, capacity;
+};
+
 static MPI_Comm ranks_of_all;
 static MPI_Comm spawned; /* between rank 0 and the ranks that it has started */
 static bool has_begun;
-/* Messages that are being sent. */
-static struct message {
-    MPI_Request request;
-    void *bytes;
-} * posted;
-static size_t posted_count, posted_capacity;
+static struct message_list sent, received;
 static int size = 1, rank;
 
 /* Starts copies of this program and joins them to one group. */
-static bool spawn(int ranks, char *const *arguments, struct error *err)
+static bool spawn(int ranks, const char *const *arguments, struct error *err)
 {
     char program[PATH_MAX];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
@@ -49,7 +59,7 @@ static bool spawn(int ranks, char *const *arguments, struct error *err)
     return true;
 }
 
-bool wire_begin(int ranks, char *const *arguments, struct error *err)
+bool wire_begin(int ranks, const char *const *arguments, struct error *err)
 {
     int level;
 
@@ -96,82 +106,127 @@ int wire_rank(void)
     return rank;
 }
 
-void wire_send(int to, enum wire_tag tag, const void *bytes, size_t count)
+/* ---- messages ---- */
+
+static struct message *append(struct message_list *l)
 {
-    const char *p = bytes;
+    void *array = l->messages;
 
-    do {
-        size_t part = count < MESSAGE_BYTES ? count : MESSAGE_BYTES;
+    if (!grow_array(&array, &l->capacity, l->count + 1, sizeof *l->messages))
+        MPI_Abort(ranks_of_all, 1);
+    l->messages = array;
+    return &l->messages[l->count++];
+}
 
-        MPI_Send(p, (int)part, MPI_BYTE, to, (int)tag, ranks_of_all);
-        p += part;
-        count -= part;
-    } while (count > 0);
+static void removed(struct message_list *l, size_t i)
+{
+    l->count--;
+    memmove(&l->messages[i], &l->messages[i + 1],
+            (l->count - i) * sizeof *l->messages);
+}
+
+static void *room_for(size_t count)
+{
+    void *bytes = alloc_aligned(count, 1);
+
+    if (bytes == NULL)
+        MPI_Abort(ranks_of_all, 1);
+    return bytes;
+}
+
+void wire_give(int to, enum wire_tag tag, void *bytes, size_t count)
+{
+    struct message *m = append(&sent);
+
+    *m =
+        (struct message){.rank = to, .tag = tag, .bytes = bytes, .size = count};
+    MPI_Isend(bytes, (int)count, MPI_BYTE, to, (int)tag, ranks_of_all,
+              &m->request);
 }
 
 void wire_post(int to, enum wire_tag tag, const void *bytes, size_t count)
 {
-    const char *p = bytes;
-
-    do {
-        size_t part = count < MESSAGE_BYTES ? count : MESSAGE_BYTES;
-        void *array = posted;
-        struct message m = {.bytes = alloc_array(part, 1)};
-
-        if (m.bytes == NULL || !grow_array(&array, &posted_capacity,
-                                           posted_count + 1, sizeof *posted))
-            MPI_Abort(ranks_of_all, 1);
-        posted = array;
-        memcpy(m.bytes, p, part);
-        MPI_Isend(m.bytes, (int)part, MPI_BYTE, to, (int)tag, ranks_of_all,
-                  &m.request);
-        posted[posted_count++] = m;
-        p += part;
-        count -= part;
-    } while (count > 0);
+    wire_give(to, tag, memcpy(room_for(count), bytes, count), count);
 }
 
-bool wire_is_sent(void)
+/* Begins to receive the messages with this tag that have arrived. */
+static void receive(enum wire_tag tag)
 {
-    size_t left = 0;
+    for (;;) {
+        MPI_Message handle;
+        MPI_Status status;
+        struct message *m;
+        int is_there, count;
 
-    for (size_t i = 0; i < posted_count; i++) {
-        int is_sent;
-
-        MPI_Test(&posted[i].request, &is_sent, MPI_STATUS_IGNORE);
-        if (is_sent)
-            free(posted[i].bytes);
-        else
-            posted[left++] = posted[i];
+        MPI_Improbe(MPI_ANY_SOURCE, (int)tag, ranks_of_all, &is_there, &handle,
+                    &status);
+        if (!is_there)
+            return;
+        MPI_Get_count(&status, MPI_BYTE, &count);
+        m = append(&received);
+        *m = (struct message){.rank = status.MPI_SOURCE,
+                              .tag = tag,
+                              .bytes = room_for((size_t)count),
+                              .size = (size_t)count};
+        MPI_Imrecv(m->bytes, count, MPI_BYTE, &handle, &m->request);
     }
-    posted_count = left;
-    return left == 0;
 }
 
-void wire_receive(int from, enum wire_tag tag, void *bytes, size_t count)
+static bool is_whole(struct message *m)
 {
-    char *p = bytes;
+    int is_done;
 
-    do {
-        size_t part = count < MESSAGE_BYTES ? count : MESSAGE_BYTES;
-
-        MPI_Recv(p, (int)part, MPI_BYTE, from, (int)tag, ranks_of_all,
-                 MPI_STATUS_IGNORE);
-        p += part;
-        count -= part;
-    } while (count > 0);
+    if (m->is_whole)
+        return true;
+    MPI_Test(&m->request, &is_done, MPI_STATUS_IGNORE);
+    m->is_whole = is_done != 0;
+    return m->is_whole;
 }
 
-bool wire_has(int *from, enum wire_tag tag)
+/* Returns true if an older message of the same rank and tag is on its way. */
+static bool is_overtaking(const struct message_list *l, size_t index)
 {
-    MPI_Status status;
-    int is_there;
+    const struct message *m = &l->messages[index];
 
-    MPI_Iprobe(*from < 0 ? MPI_ANY_SOURCE : *from, (int)tag, ranks_of_all,
-               &is_there, &status);
-    if (is_there)
-        *from = status.MPI_SOURCE;
-    return is_there != 0;
+    for (size_t i = 0; i < index; i++)
+        if (l->messages[i].rank == m->rank && l->messages[i].tag == m->tag)
+            return true;
+    return false;
+}
+
+void *wire_take(int *from, enum wire_tag tag, size_t *count)
+{
+    receive(tag);
+    for (size_t i = 0; i < received.count; i++) {
+        struct message *m = &received.messages[i];
+        void *bytes = m->bytes;
+
+        if (m->tag != tag || !is_whole(m) || is_overtaking(&received, i))
+            continue;
+        *from = m->rank;
+        *count = m->size;
+        removed(&received, i);
+        return bytes;
+    }
+    return NULL;
+}
+
+bool wire_is_moving(void)
+{
+    bool is_moving;
+
+    for (size_t i = 0; i < sent.count;) {
+        if (!is_whole(&sent.messages[i])) {
+            i++;
+            continue;
+        }
+        free(sent.messages[i].bytes);
+        removed(&sent, i);
+    }
+    is_moving = sent.count > 0;
+    for (size_t i = 0; i < received.count; i++)
+        is_moving = !is_whole(&received.messages[i]) || is_moving;
+    return is_moving;
 }
 
 void wire_broadcast(void *bytes, size_t count)
@@ -179,23 +234,24 @@ void wire_broadcast(void *bytes, size_t count)
     char *p = bytes;
 
     for (size_t part; count > 0; p += part, count -= part) {
-        part = count < MESSAGE_BYTES ? count : MESSAGE_BYTES;
+        part = count < WIRE_BYTES_MAX ? count : WIRE_BYTES_MAX;
         MPI_Bcast(p, (int)part, MPI_BYTE, 0, ranks_of_all);
     }
 }
 
-void wire_rest(void)
+long wire_rest_ns(bool is_rendering)
 {
-    nanosleep(&(struct timespec){.tv_nsec = REST_NS}, NULL);
+    return is_rendering && !wire_is_moving() ? REST_NS : REST_SHORT_NS;
 }
 
 /* Waits for a while until all is sent. */
 static bool is_sent_soon(void)
 {
-    for (int i = 0; i < END_NS / REST_NS; i++) {
-        if (wire_is_sent())
+    for (int i = 0; i < END_NS / REST_SHORT_NS; i++) {
+        wire_is_moving();
+        if (sent.count == 0)
             return true;
-        wire_rest();
+        nanosleep(&(struct timespec){.tv_nsec = REST_SHORT_NS}, NULL);
     }
     return false;
 }
@@ -213,8 +269,9 @@ void wire_end(bool ends_job)
     if (spawned != MPI_COMM_NULL && rank > 0)
         nanosleep(&(struct timespec){.tv_nsec = END_NS}, NULL);
     MPI_Finalize();
-    free(posted);
-    posted = NULL;
+    free(sent.messages);
+    free(received.messages);
+    sent = received = (struct message_list){0};
     has_begun = false;
     size = 1;
 }

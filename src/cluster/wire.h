@@ -3,18 +3,23 @@
  * wire.h - messages between ranks, over MPI
  *
  * Rank 0 sends orders, and a word that cancels bands; workers send an answer
- * for each band. The arrays of an order or an answer follow it as bytes. All
- * ranks have processors with the lowest byte first.
+ * for each band. The bytes of a film follow its order or answer in the same
+ * message. All ranks have processors with the lowest byte first.
  *
  * Units:     bytes
+ * Ownership: messages that are received are for free()
  * Threads:   one at a time
- * Errors:    MPI ends the job when a rank or the connection to it is lost
+ * Errors:    MPI ends the job when a rank or the connection to it is lost, or
+ *            without memory for a message
  */
 #ifndef GLIM_WIRE_H
 #define GLIM_WIRE_H
 
-#include "cluster/band.h"
+#include "cluster/band_plan.h"
 #include "scene/world_list.h"
+
+/* The largest message. */
+#define WIRE_BYTES_MAX ((size_t)1 << 30)
 
 enum order_kind { ORDER_BEGIN, ORDER_BAND, ORDER_END };
 
@@ -28,28 +33,18 @@ struct rank_order {
     int width, x0, y0; /* the film: its width, its corner in the picture */
     bool has_surfaces;
     uint64_t first_sample;
-    /* ORDER_BAND: rows of the film, whose numbers of samples and shares follow
-     */
+    /* ORDER_BAND: rows of the film. The pixels' numbers of samples follow
+     * unless all have `before`, then the shares. */
     uint32_t epoch; /* bands up to a cancelled epoch get empty answers */
-    int y, rows;
-    bool has_shares;
-    struct pass pass;
+    struct band_range range;
+    bool has_counts, has_shares;
+    uint64_t before;
 };
 
-struct rank_answer {
-    uint32_t epoch; /* of the band */
-    uint32_t has_failed;
-    char error[256];
-    int width, y, rows;
-    bool has_surfaces;
-    /* counters; the arrays of the film follow if there are samples */
-    uint64_t samples, rays, non_finite, saturated, cut_paths;
-};
-
-enum wire_tag { WIRE_ORDER = 1, WIRE_CANCEL, WIRE_ANSWER, WIRE_DATA };
+enum wire_tag { WIRE_ORDER = 1, WIRE_CANCEL, WIRE_ANSWER };
 
 /* Starts MPI, and with ranks above 1 the other ranks: cluster.h. */
-bool wire_begin(int ranks, char *const *arguments, struct error *err);
+bool wire_begin(int ranks, const char *const *arguments, struct error *err);
 
 /* Finds whether all ranks have this number. *rank is one that has another
  * number if not. */
@@ -58,30 +53,27 @@ bool wire_agree(uint64_t number, int *rank);
 int wire_size(void);
 int wire_rank(void);
 
-/* Sends bytes to a rank and returns when they may be reused. */
-void wire_send(int rank, enum wire_tag tag, const void *bytes, size_t size);
-
-/* Begins to send a copy of the bytes. Rank 0 sends in this way: a worker that
- * is lost takes no message, and one that sends a large one itself waits until
- * it is received. */
+/* Begins to send a copy of the bytes. */
 void wire_post(int rank, enum wire_tag tag, const void *bytes, size_t size);
 
-/* Returns true if all that was posted is sent, and frees what is. */
-bool wire_is_sent(void);
+/* Begins to send bytes for free(), which belong to the message from now on. */
+void wire_give(int rank, enum wire_tag tag, void *bytes, size_t size);
 
-/* Receives bytes of this size. Blocks. */
-void wire_receive(int rank, enum wire_tag tag, void *bytes, size_t size);
+/* Returns the next message with this tag if all of it is there, or NULL. *rank
+ * is its sender. Messages of a rank come in the order of their sending. */
+void *wire_take(int *rank, enum wire_tag tag, size_t *size);
 
-/* Returns true if a message with the tag is there, from *rank, or from any rank
- * if it is negative, which is then set. */
-bool wire_has(int *rank, enum wire_tag tag);
+/* Lets messages move on. Returns true while some are on their way from or to
+ * this rank. */
+bool wire_is_moving(void);
 
 /* Sends bytes from rank 0 to all others, which call it with room for them. */
 void wire_broadcast(void *bytes, size_t size);
 
-/* Sleeps for a moment in which a message may come, so that waiting ranks take
- * no processor time. */
-void wire_rest(void);
+/* Returns the time to rest between two looks for messages, in nanoseconds, if
+ * this rank renders at the same time or not: each look takes a moment of the
+ * cores, and messages move at looks alone. */
+long wire_rest_ns(bool is_rendering);
 
 /* Ends MPI, or at once the whole job. */
 void wire_end(bool ends_job);

@@ -126,6 +126,8 @@ static bool skip_number(struct reader *r, const char *expected,
 /* Moves behind the line TILT=. The lines before it are labels. */
 static bool read_tilt(struct reader *r, struct error *err)
 {
+    struct word word;
+
     while (r->p < r->end && !((size_t)(r->end - r->p) >= 5 &&
                               strncasecmp(r->p, "TILT=", 5) == 0))
         next_line(r);
@@ -135,8 +137,8 @@ static bool read_tilt(struct reader *r, struct error *err)
                     "file",
                     r->path);
     r->p += 5;
-    if (strncasecmp(word_here(r).start, "NONE", 4) != 0 ||
-        word_here(r).length != 4)
+    word = word_here(r);
+    if (word.length != 4 || strncasecmp(word.start, "NONE", 4) != 0)
         return fail_word(r,
                          "NONE behind TILT=: a lamp that emits the same in "
                          "any position",

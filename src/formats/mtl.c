@@ -29,7 +29,8 @@ struct parser {
     size_t texture_capacity;
     char *name; /* of the material that is being read; NULL before the first */
     uint64_t name_line;
-    uint32_t file; /* number of this file in scene->mtl_paths */
+    uint32_t file;          /* number of this file in scene->mtl_paths */
+    uint32_t earlier_count; /* materials of the scene before this text */
     enum mtl_dialect dialect;
     struct mtl_source source;
 };
@@ -117,10 +118,15 @@ static bool finish_material(struct parser *p)
     if (index == NO_NAME)
         return out_of_memory(p);
     if (index < p->scene->material_count) {
-        warnings_add_named(p->report, "materials defined twice", p->name,
-                           "%s:%" PRIu64 ": found newmtl '%s' again: the later "
-                           "one is used",
-                           p->path, p->name_line, p->name);
+        bool is_anew = index < p->earlier_count &&
+                       p->scene->material_origins[index].file == p->file;
+
+        if (!is_anew)
+            warnings_add_named(p->report, "materials defined twice", p->name,
+                               "%s:%" PRIu64
+                               ": found newmtl '%s' again: the later "
+                               "one is used",
+                               p->path, p->name_line, p->name);
         p->scene->materials[index] = m;
         p->scene->material_origins[index] = origin;
         return true;
@@ -388,14 +394,19 @@ static bool register_existing(struct parser *p)
     return true;
 }
 
-/* Adds this file to the scene's list of MTL files. */
+/* Adds this file to the scene's list of MTL files, unless it is the first of
+ * them and the scene's own. */
 static bool add_file(struct parser *p)
 {
     struct scene *scene = p->scene;
     size_t capacity = scene->mtl_path_count;
     void *paths = scene->mtl_paths;
-    char *copy = strdup(p->path);
+    char *copy;
 
+    if (scene->has_own_mtl && scene->mtl_path_count > 0 &&
+        strcmp(scene->mtl_paths[0], p->path) == 0)
+        return true;
+    copy = strdup(p->path);
     p->file = scene->mtl_path_count;
     if (copy == NULL ||
         !grow_array(&paths, &capacity, (size_t)p->file + 1, sizeof copy)) {
@@ -436,6 +447,7 @@ bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
         lexer_init(&p.lex, text, size_bytes);
         p.material_capacity = scene->material_count;
         p.texture_capacity = scene->texture_count;
+        p.earlier_count = scene->material_count;
         ok = add_file(&p) && register_existing(&p);
         if (ok)
             find_dialect(&p, text, size_bytes);

@@ -12,6 +12,8 @@
 
 #include "scene/scene.h"
 
+/* Adds the materials of the text. A text of the scene's own MTL file may define
+ * those of an earlier one anew. */
 bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
                const char *path, struct warnings *report, struct error *err);
 

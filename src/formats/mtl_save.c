@@ -227,17 +227,19 @@ static bool write_properties(struct writer *w, const struct mtl_change *c,
 
 static bool write_change(struct writer *w, const struct mtl_change *c)
 {
+    const struct mtl_source none = mtl_source_empty();
+    struct mtl_change whole = {c->name, c->copied_from, &none, c->after};
     struct mtl_block block;
     bool ok = true;
 
-    if (c->copied_from != NULL) {
+    if (c->copied_from != NULL &&
+        mtl_document_find_block(&w->text, c->copied_from, &block)) {
         ok = mtl_document_append_block(&w->text, c->name, c->copied_from);
-    } else if (!mtl_document_find_block(&w->text, c->name, &block)) {
-        /* the block was removed from the file meanwhile: write it again */
-        struct mtl_source none = mtl_source_empty();
-        struct mtl_change whole = {c->name, c->name, &none, c->after};
-
-        return write_change(w, &whole);
+    } else if (c->copied_from != NULL ||
+               !mtl_document_find_block(&w->text, c->name, &block)) {
+        /* the file has no such block, or not any more: write all of it */
+        ok = mtl_document_append_block(&w->text, c->name, c->name);
+        c = &whole;
     }
     ok = ok && write_properties(w, c, true) && write_light(w, c) &&
          write_properties(w, c, false);
@@ -288,6 +290,18 @@ bool mtl_rewrite(const struct scene *scene, const char *path, const char *text,
     return true;
 }
 
+/* Reads the file. The scene's own file may be missing, which is an empty one.
+ */
+static bool read_text(const struct scene *scene, const char *path, bool exists,
+                      char **text, size_t *size_bytes, struct error *err)
+{
+    if (exists || !scene->has_own_mtl)
+        return file_read(path, text, size_bytes, err);
+    *size_bytes = 0;
+    *text = strdup("");
+    return *text != NULL || fail(err, "%s: out of memory", path);
+}
+
 bool mtl_save(const struct scene *scene, const char *path,
               const struct mtl_change *changes, size_t change_count,
               struct file_change *change, struct error *err)
@@ -297,7 +311,7 @@ bool mtl_save(const struct scene *scene, const char *path,
     bool ok;
 
     change->before = file_identify(path);
-    if (!file_read(path, &text, &size_bytes, err))
+    if (!read_text(scene, path, change->before.exists, &text, &size_bytes, err))
         return false;
     ok = mtl_rewrite(scene, path, text, size_bytes, changes, change_count,
                      &new_text, &new_size_bytes, err);

@@ -3,7 +3,6 @@
 
 #include <inttypes.h>
 #include <limits.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,14 +15,9 @@
 #include "formats/faces.h"
 #include "formats/mtl.h"
 #include "formats/vertex_colors.h"
-#include "formats/text_file.h"
 
 /* Bytes searched for a NUL. Text has none; most binary files have one early. */
 #define BINARY_CHECK_BYTES 1024
-
-/* Largest coordinate that is kept: a larger float has too few digits to address
- * texels. */
-#define UV_MAX 1e6
 
 struct parser {
     struct scene *scene;
@@ -39,7 +33,7 @@ struct parser {
     uint64_t *material_lines; /* line of the first use of each */
     size_t material_line_capacity;
     struct name_table libraries; /* paths of the MTL files read */
-    struct faces faces;
+    struct face_tris faces;
     uint32_t object, material;
     bool has_objects; /* there was an o statement: g is only a group */
 };
@@ -129,15 +123,6 @@ static bool read_normal(struct parser *p)
     scene->normals[scene->normal_count++] =
         (struct vec3){(float)xyz[0], (float)xyz[1], (float)xyz[2]};
     return true;
-}
-
-/* Reduces large coordinates to their fraction, for textures repeat. Coordinates
- * that are not finite become 0. */
-static float texture_coordinate(double x)
-{
-    if (!isfinite(x))
-        return 0;
-    return (float)(fabs(x) > UV_MAX ? x - floor(x) : x);
 }
 
 static bool read_uv(struct parser *p)
@@ -458,21 +443,7 @@ bool obj_parse(struct scene *scene, const char *text, size_t size_bytes,
     name_table_free(&p.objects);
     name_table_free(&p.materials);
     name_table_free(&p.libraries);
-    faces_free(&p.faces);
+    face_tris_free(&p.faces);
     free(p.material_lines);
-    return ok;
-}
-
-bool obj_read(struct scene *scene, const char *path, struct warnings *report,
-              struct error *err)
-{
-    char *text;
-    size_t size_bytes;
-    bool ok;
-
-    if (!text_file_read(path, &text, &size_bytes, err))
-        return false;
-    ok = obj_parse(scene, text, size_bytes, path, report, err);
-    free(text);
     return ok;
 }

@@ -9,11 +9,16 @@
 #include "base/memory.h"
 #include "scene/world_lamps.h"
 #include "formats/mtl.h"
-#include "formats/obj.h"
+#include "formats/text_file.h"
 #include "formats/view_file.h"
 
 /* Radiance of the soft sky: an overcast noon, bright enough for exposure 0. */
 static const double soft_sky[3] = {0.7, 0.8, 0.9};
+
+/* Radiance of the sky and irradiance of the lamp of a model. Together they give
+ * clay 0.75 of white where it faces the lamp. */
+static const double studio_sky[3] = {0.35, 0.37, 0.4};
+static const double studio_lamp[3] = {2.6, 2.5, 2.35};
 
 static void turn_z_up(struct scene *scene)
 {
@@ -33,12 +38,27 @@ static void turn_z_up(struct scene *scene)
     }
 }
 
-bool scene_load(struct scene *scene, const char *path, bool up_is_z,
+static bool read_file(struct scene *scene, const char *path,
+                      struct warnings *report, struct error *err)
+{
+    char *bytes;
+    size_t size_bytes;
+    bool ok;
+
+    if (!text_file_read(path, &bytes, &size_bytes, err))
+        return false;
+    ok = scene_format_of(path, bytes, size_bytes)
+             ->parse(scene, bytes, size_bytes, path, report, err);
+    free(bytes);
+    return ok;
+}
+
+bool scene_load(struct scene *scene, const char *path, enum scene_up up,
                 struct warnings *report, struct error *err)
 {
-    if (!obj_read(scene, path, report, err))
+    if (!read_file(scene, path, report, err))
         return false;
-    if (up_is_z)
+    if (up == SCENE_UP_Z || (up == SCENE_UP_OF_FILE && scene->up_is_z))
         turn_z_up(scene);
     return scene_finish(scene, report, err);
 }
@@ -113,16 +133,41 @@ bool view_has_soft_sky(const struct view *view)
            memcmp(l->background, soft_sky, sizeof soft_sky) == 0;
 }
 
-/* Adds a camera and light to scenes without them. */
-static void complete_view(const struct scene *scene,
-                          const struct host_world *host, struct view *view,
-                          struct warnings *report)
+/* Lights a model as a studio does: a large lamp above the camera's shoulder and
+ * a dim sky. Under the soft sky alone the shape of clay is hardly visible. */
+static bool add_studio(const struct scene *scene, struct host_world *host,
+                       struct view *view, struct error *err)
 {
+    struct lamp lamp;
+
+    lamp_init(&lamp, LAMP_DIRECTIONAL);
+    memcpy(lamp.rgb, studio_lamp, sizeof studio_lamp);
+    lamp.azimuth_deg = 190;
+    lamp.elevation_deg = 40;
+    lamp.angle_deg = 25;
+    memcpy(view->lighting.background, studio_sky, sizeof studio_sky);
+    view->lighting.has_background = true; /* written with the lamp */
+    return lamps_add(&view->lamps, &lamp)
+               ? world_set_lamps(host, scene, view, err)
+               : fail(err, "%s: out of memory for its light", scene->path);
+}
+
+/* Adds a camera and light to scenes without them. */
+static bool complete_view(const struct scene *scene, struct host_world *host,
+                          struct view *view, struct warnings *report,
+                          struct error *err)
+{
+    bool is_model = scene->has_own_mtl;
+
     if (scene->tri_count > 0 && is_dark(host, view) &&
         !view->lighting.has_background) {
-        memcpy(view->lighting.background, soft_sky, sizeof soft_sky);
-        warnings_add(report, "scenes without light",
-                     "%s: found no light: lit by a soft sky", scene->path);
+        if (is_model && !add_studio(scene, host, view, err))
+            return false;
+        if (!is_model) {
+            memcpy(view->lighting.background, soft_sky, sizeof soft_sky);
+            warnings_add(report, "scenes without light",
+                         "%s: found no light: lit by a soft sky", scene->path);
+        }
     }
     if (!view->has_camera)
         scene_frame(scene, view);
@@ -131,19 +176,21 @@ static void complete_view(const struct scene *scene,
                      "%s: found the camera's up along its view: took another "
                      "axis for it",
                      scene->path);
+    return true;
 }
 
 bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
-                const char *path, bool up_is_z, int thread_count,
+                const char *path, enum scene_up up, int thread_count,
                 struct warnings *report, struct error *err)
 {
-    if (!scene_load(scene, path, up_is_z, report, err) ||
+    scene->thread_count = thread_count;
+    if (!scene_load(scene, path, up, report, err) ||
         !world_init(host, scene, thread_count, report, err) ||
         !world_load_sky(host, view, report, err) ||
         !world_set_lamps(host, scene, view, err))
         return false;
-    complete_view(scene, host, view, report);
-    return pose_check(&view->pose, path, err) &&
+    return complete_view(scene, host, view, report, err) &&
+           pose_check(&view->pose, path, err) &&
            (!report->has_lost ||
             fail(err, "%s: out of memory for the warnings", path));
 }

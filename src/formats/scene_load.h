@@ -2,7 +2,7 @@
 /*
  * scene_load.h - loads a scene from its files
  *
- * Units:     those of the OBJ file
+ * Units:     those of the scene file
  * Ownership: the caller frees scene and world
  * Threads:   one thread calls; images are decoded by several
  * Errors:    file and line, what was found and expected
@@ -11,10 +11,11 @@
 #define GLIM_SCENE_LOAD_H
 
 #include "scene/world.h"
+#include "formats/scene_format.h"
 
-/* Loads an OBJ file with its MTL files and finishes the scene.
- * up_is_z turns z-up models to y-up: (x, y, z) becomes (x, z, -y). */
-bool scene_load(struct scene *scene, const char *path, bool up_is_z,
+/* Loads a scene file with its MTL files and finishes the scene. Models with z
+ * up are turned to y up: (x, y, z) becomes (x, z, -y). */
+bool scene_load(struct scene *scene, const char *path, enum scene_up up,
                 struct warnings *report, struct error *err);
 
 /* Reads the view file of a scene: `view_path`, or if that is NULL, STEM.view or
@@ -27,7 +28,7 @@ bool view_find(struct view *view, const char *scene_path, const char *view_path,
  * view with a camera that sees the whole scene, the size of the picture, and a
  * soft sky if there is no light. */
 bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
-                const char *path, bool up_is_z, int thread_count,
+                const char *path, enum scene_up up, int thread_count,
                 struct warnings *report, struct error *err);
 
 /* Returns true if scene_open() has added the soft sky. */

@@ -29,14 +29,27 @@ static float at_least_zero(double x)
     return x > 0 ? (float)x : 0.0f;
 }
 
+struct vec3 vertex_color_encoded(const double rgb[3])
+{
+    return v3(at_least_zero(rgb[0]), at_least_zero(rgb[1]),
+              at_least_zero(rgb[2]));
+}
+
 bool vertex_colors_put(struct scene *scene, size_t *capacity,
                        const double rgb[3])
 {
     if (!extend(scene, capacity))
         return false;
-    scene->colors[scene->position_count - 1] =
-        v3(at_least_zero(rgb[0]), at_least_zero(rgb[1]), at_least_zero(rgb[2]));
+    scene->colors[scene->position_count - 1] = vertex_color_encoded(rgb);
     return true;
+}
+
+float vertex_colors_white(const struct vec3 *colors, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (v3_max_component(colors[i]) > 1.0f)
+            return 255.0f;
+    return 1.0f;
 }
 
 static float decoded(float x, float white)
@@ -44,23 +57,42 @@ static float decoded(float x, float white)
     return (float)color_decoded((double)f_min(x / white, 1.0f));
 }
 
+/* Table of the colours of whole numbers up to 255, which most files have. */
+struct decoder {
+    float white;
+    float of_byte[256];
+};
+
+static float decode(const struct decoder *d, float x)
+{
+    return d->white == 255.0f && x <= 255.0f && x == (float)(int)x
+               ? d->of_byte[(int)x]
+               : decoded(x, d->white);
+}
+
+void vertex_colors_decode(struct vec3 *colors, size_t count, float white)
+{
+    struct decoder d = {.white = white};
+
+    for (int i = 0; i < 256; i++)
+        d.of_byte[i] = decoded((float)i, white);
+    for (size_t i = 0; i < count; i++) {
+        struct vec3 *c = &colors[i];
+
+        *c = c->x == NO_COLOR
+                 ? v3(1.0f, 1.0f, 1.0f)
+                 : v3(decode(&d, c->x), decode(&d, c->y), decode(&d, c->z));
+    }
+}
+
 bool vertex_colors_finish(struct scene *scene, size_t *capacity)
 {
-    float white = 1.0f;
-
     if (scene->colors == NULL)
         return true;
     if (!extend(scene, capacity))
         return false;
-    for (size_t i = 0; i < scene->color_count; i++)
-        if (v3_max_component(scene->colors[i]) > 1.0f)
-            white = 255.0f;
-    for (size_t i = 0; i < scene->color_count; i++) {
-        struct vec3 *c = &scene->colors[i];
-
-        *c = c->x == NO_COLOR ? v3(1.0f, 1.0f, 1.0f)
-                              : v3(decoded(c->x, white), decoded(c->y, white),
-                                   decoded(c->z, white));
-    }
+    vertex_colors_decode(scene->colors, scene->color_count,
+                         vertex_colors_white(scene->colors,
+                                             scene->color_count));
     return true;
 }

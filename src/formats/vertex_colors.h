@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * vertex_colors.h - colours behind the coordinates of the vertices of an OBJ
- * file
+ * vertex_colors.h - colours of the vertices of a scene file
  *
- * Red, green and blue are sRGB, from 0 to 1, or to 255 if one of the file is
- * above 1. Vertices without a colour are white.
+ * Red, green and blue are sRGB. In OBJ files they are from 0 to 1, or to 255 if
+ * one of the file is above 1, and vertices without a colour are white.
  *
  * Units:     linear Rec.709 in the scene
  * Ownership: the array belongs to the scene
@@ -23,5 +22,14 @@ bool vertex_colors_put(struct scene *scene, size_t *capacity,
 
 /* Gives the other vertices a colour, and decodes all. */
 bool vertex_colors_finish(struct scene *scene, size_t *capacity);
+
+/* Returns the colour with 0 for numbers that are none and for those below 0. */
+struct vec3 vertex_color_encoded(const double rgb[3]);
+
+/* Returns 255 if a number is above 1, else 1. */
+float vertex_colors_white(const struct vec3 *colors, size_t count);
+
+/* Decodes sRGB colours, of which `white` is the largest number. */
+void vertex_colors_decode(struct vec3 *colors, size_t count, float white);
 
 #endif

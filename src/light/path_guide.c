@@ -81,8 +81,8 @@ static bool update_lamps(struct path_guide *g, const struct bvh8_world *w,
     if (g->has_lamps)
         return true;
     if (!wants_lamps(g, &w->world))
-        caustic_tables_free(&g->lamps);
-    else if (!caustic_tables_build(&g->lamps, w, lights, pool))
+        caustic_lobes_free(&g->lamps);
+    else if (!caustic_lobes_build(&g->lamps, w, lights, pool))
         return false;
     g->has_lamps = true;
     return true;
@@ -235,7 +235,7 @@ static bool update(struct path_guide *g, const struct bvh8_world *w,
 
 bool path_guide_has_tables(const struct path_guide *g)
 {
-    return g->cells != NULL || g->lamps.cells != NULL;
+    return g->cells != NULL || g->lamps.nodes != NULL;
 }
 
 bool path_guide_is_current(const struct path_guide *g, double sky)
@@ -297,7 +297,7 @@ void path_guide_lend(const struct path_guide *g, struct world *world)
         world->settings.guide = g->grid;
     world->guide_cells = g->cells;
     world->guide_cdf = g->sums;
-    caustic_tables_lend(&g->lamps, world);
+    caustic_lobes_lend(&g->lamps, world);
 }
 
 void path_guide_free(struct path_guide *g)
@@ -305,6 +305,6 @@ void path_guide_free(struct path_guide *g)
     path_guide_outdate(g);
     free(g->cells);
     free(g->sums);
-    caustic_tables_free(&g->lamps);
+    caustic_lobes_free(&g->lamps);
     *g = (struct path_guide){.cells = NULL};
 }

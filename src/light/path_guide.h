@@ -20,7 +20,7 @@
 #include <stdbool.h>
 
 #include "base/error.h"
-#include "light/caustic_tables.h"
+#include "light/caustic_lobes.h"
 #include "light/lights.h"
 #include "light/sky_portals.h"
 
@@ -33,8 +33,8 @@ struct path_guide {
     struct sky_portals portals;
     double lights; /* mean irradiance by all lights on the box / pi */
     double sky;    /* mean radiance of the sky for which cells are */
-    struct caustic_tables lamps; /* caustics of spheres and discs */
-    bool has_lamps;              /* they have been searched for */
+    struct caustic_lobes lamps; /* caustics of spheres and discs */
+    bool has_lamps;             /* they have been searched for */
     bool is_current;
 };
 

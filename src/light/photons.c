@@ -18,6 +18,10 @@
 #define PHOTON_STRIDE    2u
 #define PHOTON_KEY       0x6a09e667u
 
+/* Least probability of either way at smooth glass, so that there are enough
+ * photons of faint caustics, which make specks too. */
+#define CHANCE_LEAST 0.25f
+
 /* Largest number of vertices of a photon. It ends there even within glass. */
 #define PHOTON_VERTICES 12u
 
@@ -40,6 +44,8 @@ struct search {
 struct photon {
     struct ray ray;
     float flux;
+    float radiance;
+    uint32_t chain;
     uint32_t aim; /* triangle of the caster, which it has to hit first */
 };
 
@@ -161,6 +167,7 @@ static float leave_triangle(const struct world *w, uint32_t light,
     p->flux = v3_dot(n, p->ray.d);
     p->ray.o = offset_ray_origin(from, error, p->flux > 0.0f ? n : v3_neg(n));
     p->ray.from = light + 1;
+    p->radiance = 0.0f;
     return square;
 }
 
@@ -177,6 +184,7 @@ static float leave_sphere(const struct world *w, uint32_t i, struct vec3 to,
     p->ray.d = v3_neg(wi);
     p->ray.from = 0;
     p->flux = (float)color_mean(radiance);
+    p->radiance = p->flux;
     return pdf * (float)point_light_power(w, &w->point_lights[i]);
 }
 
@@ -191,6 +199,7 @@ static float leave_disc(const struct search *s, uint32_t i, struct vec3 to,
     p->ray.d = v3_neg(wi);
     p->ray.from = 0;
     p->flux = l->power;
+    p->radiance = (float)color_mean(l->emission);
     return (float)disc_power(s, i);
 }
 
@@ -220,6 +229,7 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
 
     p->aim = triangle_cdf_choose(&s->casters, choice.y);
     p->ray.key = hash_u32(i);
+    p->chain = 0;
     tri_corners(w, p->aim, b);
     to =
         hit_point(triangle_point(photon_2d(i, 1, 0)), b[0], b[1], b[2], &error);
@@ -232,22 +242,58 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
              w->materials[w->tris[p->aim].material].kind == MATERIAL_GLASS);
 }
 
+/* Reflectance of smooth glass, or 0 for other surfaces. */
+static float reflectance_at(const struct bsdf *b, struct vec3 wo)
+{
+    float cos_t, f;
+
+    if ((b->kind != MATERIAL_GLASS && b->kind != MATERIAL_THIN_GLASS) ||
+        !bsdf_is_delta(b) || has_film(b) || glass_is_index_matched(b))
+        return 0.0f;
+    f = fresnel_dielectric(wo.z, b->eta, &cos_t);
+    return b->kind == MATERIAL_THIN_GLASS ? thin_reflectance(f) : f;
+}
+
+/* Chooses between reflection and refraction with a probability of at least
+ * CHANCE_LEAST, and weights the flux so that its mean stays the same. Returns
+ * the number in [0, 1) by which the glass makes the same choice. */
+static float photon_choose(struct photon *p, float reflectance, float u)
+{
+    float chance = f_min(f_max(reflectance, CHANCE_LEAST), 1.0f - CHANCE_LEAST);
+
+    if (!(reflectance > 0.0f && reflectance < 1.0f))
+        return u;
+    if (u < chance) {
+        p->flux *= reflectance / chance;
+        p->radiance *= reflectance;
+        return u / chance * reflectance;
+    }
+    p->flux *= (1.0f - reflectance) / (1.0f - chance);
+    p->radiance *= 1.0f - reflectance;
+    return reflectance + (u - chance) / (1.0f - chance) * (1.0f - reflectance);
+}
+
 /* Scatters the photon at a surface. Russian roulette keeps its flux. Returns
  * false if the photon is absorbed. */
 static bool photon_scatter(struct photon *p, const struct bsdf *b,
-                           const struct surface_point *v, uint32_t i,
-                           uint32_t vertex)
+                           const struct surface_point *v, uint32_t material,
+                           uint32_t i, uint32_t vertex, bool is_lamp)
 {
     struct vec3 wo = surface_to_local(v, v3_neg(p->ray.d));
     struct vec2 choice = photon_2d(i, vertex + 1, 1);
     struct bsdf_sample s;
     struct vec3 wi;
 
+    if (is_lamp)
+        choice.x = photon_choose(p, reflectance_at(b, wo), choice.x);
     if (!surface_scatter(v, b, wo, photon_2d(i, vertex + 1, 0), choice.x, &s,
                          &wi) ||
         !(choice.y < v3_max_component(s.weight)))
         return false;
     surface_spawn_ray(v, wi, s.wi.z, &p->ray);
+    p->chain = hash_u32(p->chain ^ (2 * material + (s.wi.z < 0.0f)));
+    if (!s.is_delta)
+        p->radiance = 0.0f;
     return true;
 }
 
@@ -260,23 +306,28 @@ static void photon_follow(const struct search *s, struct photon p, uint32_t i)
     for (uint32_t vertex = 1; vertex <= PHOTON_VERTICES; vertex++) {
         struct material m;
         struct surface_point v;
+        struct vec3 from = p.ray.o;
+        uint32_t material;
         struct bsdf b;
         struct hit h;
 
         p.ray.t_max = FLOAT_MAX;
         if (!hit_closest(w, p.ray, &h) || (vertex == 1 && h.tri != p.aim))
             return;
-        m = photons_material(w->materials[w->tris[h.tri].material]);
+        material = w->tris[h.tri].material;
+        m = photons_material(w->materials[material]);
         if (!surface_at(w, &m, p.ray, h, &v))
             return;
         b = bsdf_at(w, &m, &v);
         if (guide_helps(&b)) {
             landings[landed++] =
-                (struct landing){v.p, v.ng, v3_neg(p.ray.d), p.flux};
+                (struct landing){v.p,     v.ng,       v3_neg(p.ray.d), from,
+                                 p.chain, p.radiance, p.flux};
             if (landed == s->landings_each)
                 return;
         }
-        if (!photon_scatter(&p, &b, &v, i, vertex))
+        if (!photon_scatter(&p, &b, &v, material, i, vertex,
+                            s->source == PHOTONS_OF_LAMPS))
             return;
     }
 }
@@ -313,14 +364,14 @@ bool photons_trace(const struct bvh8_world *w, const struct lights *lights,
                        .landings_each = landings_each};
     bool ok = find_lists(&s, lights);
 
-    *photons = (struct photons){.count = count,
-                                .landing_count = count * landings_each};
+    *photons = (struct photons){.landing_count = count * landings_each};
     photons->landings =
         alloc_array(photons->landing_count, sizeof *photons->landings);
     s.landings = photons->landings;
     ok = ok && s.landings != NULL;
     if (ok && triangle_cdf_total(&s.lights) > 0 &&
         triangle_cdf_total(&s.casters) > 0) {
+        photons->power = triangle_cdf_total(&s.lights);
         photons->caster_area = triangle_cdf_total(&s.casters);
         pool_each(pool, count, photon_send, &s);
     }

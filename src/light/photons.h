@@ -30,15 +30,18 @@ enum photon_source {
 /* The arrival of a photon at a diffuse surface. */
 struct landing {
     struct vec3 p;
-    struct vec3 n;  /* unit normal of the face */
-    struct vec3 wi; /* unit vector against the photon's way */
-    float flux;     /* 0: there was none */
+    struct vec3 n;    /* unit normal of the face */
+    struct vec3 wi;   /* unit vector against the photon's way */
+    struct vec3 from; /* where it left the last surface */
+    uint32_t chain;   /* hash of the surfaces that it has met */
+    float radiance;   /* of the light; 0 if a surface was rough */
+    float flux;       /* 0: there was none */
 };
 
 struct photons {
     struct landing *landings;
     uint32_t landing_count;
-    uint32_t count;     /* photons sent */
+    double power;       /* that of all of the lights */
     double caster_area; /* 0: there are none */
 };
 

@@ -11,13 +11,9 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "picture/film_merge.h"
+#include "picture/film_words.h"
 
 #include "kernels/sample_share.h"
-
-/* 64-bit words of a pixel: its count, the sums, the sums of surfaces. */
-#define SUM_WORDS     (1 + 2 * 6)
-#define SURFACE_WORDS (2 * 14 + 10 / 2)
-#define WORDS_MAX     (SUM_WORDS + SURFACE_WORDS)
 
 /* Pixels of a band, at least, if the film has so many. */
 #define BAND_PIXELS 8192
@@ -76,126 +72,6 @@ static int band_rows(const struct film *film)
     return rows < film->height ? rows : film->height;
 }
 
-static size_t pixel_words(bool has_surfaces)
-{
-    return SUM_WORDS + (has_surfaces ? SURFACE_WORDS : 0);
-}
-
-/* ---- pixels ---- */
-
-static uint64_t *put_sums(uint64_t *to, const struct sum *sums, int count)
-{
-    for (int i = 0; i < count; i++) {
-        *to++ = sums[i].lo;
-        *to++ = sums[i].hi;
-    }
-    return to;
-}
-
-static const uint64_t *take_sums(const uint64_t *from, struct sum *sums,
-                                 int count)
-{
-    for (int i = 0; i < count; i++) {
-        sums[i].lo = *from++;
-        sums[i].hi = *from++;
-    }
-    return from;
-}
-
-/* The numbers of 32 bits of surface sums. */
-struct surface_numbers {
-    uint32_t n[10];
-};
-
-static struct surface_numbers numbers_of(const struct surface_sums *s)
-{
-    return (struct surface_numbers){{s->albedo[0], s->albedo[1], s->albedo[2],
-                                     s->normal[0], s->normal[1], s->normal[2],
-                                     s->albedo_square, s->count, s->hit_count,
-                                     s->seen_count}};
-}
-
-static void set_numbers(struct surface_sums *s, const uint32_t n[10])
-{
-    for (int c = 0; c < 3; c++) {
-        s->albedo[c] = n[c];
-        s->normal[c] = n[3 + c];
-    }
-    s->albedo_square = n[6];
-    s->count = n[7];
-    s->hit_count = n[8];
-    s->seen_count = n[9];
-}
-
-static void put_surfaces(uint64_t *to, const struct surface_sums *s)
-{
-    struct surface_numbers numbers = numbers_of(s);
-
-    to = put_sums(to, s->direct, 3);
-    to = put_sums(to, s->odd_direct, 3);
-    to = put_sums(to, s->seen, 3);
-    to = put_sums(to, s->odd_seen, 3);
-    to = put_sums(to, &s->depth, 1);
-    to = put_sums(to, &s->depth_square, 1);
-    for (int i = 0; i < 10; i += 2)
-        *to++ = numbers.n[i] | (uint64_t)numbers.n[i + 1] << 32;
-}
-
-static void take_surfaces(const uint64_t *from, struct surface_sums *s)
-{
-    uint32_t n[10];
-
-    from = take_sums(from, s->direct, 3);
-    from = take_sums(from, s->odd_direct, 3);
-    from = take_sums(from, s->seen, 3);
-    from = take_sums(from, s->odd_seen, 3);
-    from = take_sums(from, &s->depth, 1);
-    from = take_sums(from, &s->depth_square, 1);
-    for (int i = 0; i < 10; i += 2, from++) {
-        n[i] = (uint32_t)*from;
-        n[i + 1] = (uint32_t)(*from >> 32);
-    }
-    set_numbers(s, n);
-}
-
-/* Copies a row. The sums of a pixel without samples are undefined in a film,
- * and 0 in a file. */
-static void put_row(struct film *f, int y, uint64_t *to, size_t words)
-{
-    size_t at = (size_t)y * (size_t)f->width;
-
-    memset(to, 0, (size_t)f->width * words * sizeof *to);
-    film_lock_row(f, y);
-    for (int x = 0; x < f->width; x++, at++, to += words) {
-        uint64_t *sums = to;
-
-        *sums++ = f->counts[at];
-        if (f->counts[at] == 0)
-            continue;
-        sums = put_sums(sums, f->sums + 3 * at, 3);
-        sums = put_sums(sums, f->odd_sums + 3 * at, 3);
-        if (f->surfaces != NULL)
-            put_surfaces(sums, &f->surfaces[at]);
-    }
-    film_unlock_row(f, y);
-}
-
-static void take_row(struct film *f, int y, const uint64_t *from, size_t words)
-{
-    size_t at = (size_t)y * (size_t)f->width;
-
-    f->has_row[y] = true;
-    for (int x = 0; x < f->width; x++, at++, from += words) {
-        const uint64_t *sums = from;
-
-        f->counts[at] = *sums++;
-        sums = take_sums(sums, f->sums + 3 * at, 3);
-        sums = take_sums(sums, f->odd_sums + 3 * at, 3);
-        if (f->surfaces != NULL)
-            take_surfaces(sums, &f->surfaces[at]);
-    }
-}
-
 /* ---- write ---- */
 
 /* A file that grows in memory. */
@@ -246,7 +122,7 @@ static bool put_band(struct output *o, const struct band *b, size_t pixels)
 
 static bool put_rows(struct output *o, struct film *film)
 {
-    size_t words = pixel_words(film->surfaces != NULL);
+    size_t words = film_words_count(film->surfaces != NULL);
     size_t width = (size_t)film->width;
     int step = band_rows(film);
     struct band band = {0};
@@ -256,8 +132,8 @@ static bool put_rows(struct output *o, struct film *film)
         int end = y + step < film->height ? y + step : film->height;
 
         for (int i = y; i < end; i++)
-            put_row(film, i, band.pixels + (size_t)(i - y) * width * words,
-                    words);
+            film_words_put(film, i,
+                           band.pixels + (size_t)(i - y) * width * words);
         ok = put_band(o, &band, (size_t)(end - y) * width);
     }
     band_free(&band);
@@ -314,6 +190,18 @@ char *film_file_bytes(const struct film_header *header, struct film *film,
     return NULL;
 }
 
+bool film_file_write(const char *path, const struct film_header *header,
+                     struct film *film, film_file_shares *shares, void *context,
+                     struct error *err)
+{
+    size_t size;
+    char *bytes = film_file_bytes(header, film, shares, context, &size, err);
+    bool ok = bytes != NULL && file_write(path, bytes, size, false, NULL, err);
+
+    free(bytes);
+    return ok;
+}
+
 /* ---- read ---- */
 
 struct input {
@@ -357,7 +245,7 @@ static bool take_band(struct input *in, const struct film *film, int y,
 
 static bool take_rows(struct input *in, struct film *film, struct error *err)
 {
-    size_t words = pixel_words(film->surfaces != NULL);
+    size_t words = film_words_count(film->surfaces != NULL);
     size_t width = (size_t)film->width;
     int step = band_rows(film);
     struct band band = {0};
@@ -369,8 +257,8 @@ static bool take_rows(struct input *in, struct film *film, struct error *err)
 
         ok = take_band(in, film, y, &band, (size_t)(end - y) * width, err);
         for (int i = y; ok && i < end; i++)
-            take_row(film, i, band.pixels + (size_t)(i - y) * width * words,
-                     words);
+            film_words_take(film, i,
+                            band.pixels + (size_t)(i - y) * width * words);
     }
     band_free(&band);
     return ok;
@@ -513,6 +401,17 @@ bool film_file_join(struct film_file *f, const char *path,
     film_merge(&f->film, 0, &more->film);
     f->film.first_sample = f->header.ranges[0].first;
     return true;
+}
+
+bool film_file_join_read(struct film_file *f, const char *path,
+                         const char *more_path, struct error *err)
+{
+    struct film_file more;
+    bool ok = film_file_read(&more, more_path, err) &&
+              film_file_join(f, path, &more, more_path, err);
+
+    film_file_free(&more);
+    return ok;
 }
 
 void film_file_free(struct film_file *f)

@@ -35,6 +35,11 @@ char *film_file_bytes(const struct film_header *header, struct film *film,
                       film_file_shares *shares, void *context,
                       size_t *size_bytes, struct error *err);
 
+/* Writes these bytes to a file. */
+bool film_file_write(const char *path, const struct film_header *header,
+                     struct film *film, film_file_shares *shares, void *context,
+                     struct error *err);
+
 /* Reads a file. The caller frees after a failure, too. */
 bool film_file_read(struct film_file *f, const char *path, struct error *err);
 
@@ -47,6 +52,10 @@ bool film_file_parse(struct film_file *f, const char *path, const char *bytes,
 bool film_file_join(struct film_file *f, const char *path,
                     const struct film_file *more, const char *more_path,
                     struct error *err);
+
+/* Reads such a file and adds its samples. */
+bool film_file_join_read(struct film_file *f, const char *path,
+                         const char *more_path, struct error *err);
 
 void film_file_free(struct film_file *f);
 

@@ -21,7 +21,8 @@ enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 /* Most samples of a pixel in a pass. */
 #define PASS_SAMPLES_MAX 160
 
-#define PASS_JOINED_MAX 64
+/* Most samples in the mean, with which pixels of any share have that many. */
+#define PASS_MEAN_MAX (PASS_SAMPLES_MAX * SHARE_ONE / SHARE_MOST)
 
 /* One pass over the pixels of a grid (0, stride, 2 stride, ... in both
  * directions). Pixels with fewer samples than their target get up to that
@@ -31,7 +32,8 @@ struct pass {
     uint64_t target; /* of each pixel, or the mean of all */
     /* shares of all pixels in the samples: kernels/sample_share.h; or NULL */
     const uint16_t *shares;
-    /* greatest number that a pixel needs; up to PASS_SAMPLES_MAX */
+    /* greatest number that a pixel needs; up to PASS_SAMPLES_MAX, unless the
+     * backend wants longer passes */
     uint32_t samples;
     uint32_t order; /* seed for the random order of blocks */
 };
@@ -43,19 +45,47 @@ static inline uint64_t pass_target(const struct pass *pass, size_t at)
                                 : pass->target;
 }
 
+/* Work of one process of a cluster on the picture of begin(). */
+struct rank_progress {
+    uint64_t samples;   /* of all pixels together, in the film */
+    uint64_t answers;   /* parts of passes that it has rendered */
+    uint64_t busy_ns;   /* time in which it rendered them */
+    uint64_t silent_ns; /* time since it has been expected to answer; 0: idle */
+};
+
+/* Returns a pass with this target and this mean number of samples. */
+static inline struct pass pass_with(struct pass pass, uint64_t target,
+                                    uint64_t mean)
+{
+    pass.target = target;
+    if (pass.shares != NULL)
+        mean = (mean * SHARE_MOST + SHARE_ONE - 1) / SHARE_ONE;
+    pass.samples = (uint32_t)mean;
+    return pass;
+}
+
+/* Returns the mean number of samples of a pass. */
+static inline uint64_t pass_mean(const struct pass *pass)
+{
+    return pass->shares != NULL
+               ? (uint64_t)pass->samples * SHARE_ONE / SHARE_MOST
+               : pass->samples;
+}
+
 struct backend {
     const char *name;   /* "cpu", "opencl" */
     const char *device; /* name of the device and */
     const char *driver; /* version of its driver, or NULL */
     int thread_count;
     struct pool *pool; /* of the host, idle between passes; NULL: none */
-    /* samples that a pass should have at least, since its end takes time; up to
-     * PASS_JOINED_MAX, 0: those of the plan */
+    /* samples that a pass should have at least, since its end takes time; 0:
+     * those of the plan */
     uint32_t pass_least;
     uint64_t tree_bytes; /* size of the tree that load() built or found */
     /* version of the loaded WORLD_SHAPE; 0 if none is loaded */
     uint64_t shape;
     uint64_t upload_count; /* arrays uploaded so far; 0 for the CPU */
+    int rank_count;        /* processes that render; 0: this one alone */
 
     /* Prepares a new shape for ray queries. A backend without a tree of its own
      * uses the host's, and builds that if nobody has yet. `world` is lent from
@@ -84,6 +114,10 @@ struct backend {
     /* Returns the processor time of a thread so far, in nanoseconds. Callable
      * from any thread. NULL if the threads are a device's. */
     uint64_t (*cpu_ns)(const struct backend *b, int thread);
+
+    /* Returns the progress of a rank, which is below rank_count. Callable from
+     * any thread. */
+    struct rank_progress (*rank_progress)(const struct backend *b, int rank);
 
     void (*destroy)(struct backend *b);
 };

@@ -4,9 +4,9 @@
 #include "kernels/path_types.h"
 #include "kernels/sample_share.h"
 
-/* Samples of a long pass: a share of those before, and at most PASS_MOST. */
+/* Samples of a long pass: a share of those before, and at most PASS_MEAN_MAX.
+ */
 #define PASS_SHARE 16
-#define PASS_MOST  (PASS_SAMPLES_MAX * SHARE_ONE / SHARE_MOST)
 
 static uint64_t smaller(uint64_t a, uint64_t b)
 {
@@ -26,8 +26,9 @@ static uint64_t pass_length(uint64_t done, bool has_error_limit)
 
     if (done <= SAMPLE_BLOCK)
         return done == 0 ? 1 : done;
-    return has_error_limit || share < SAMPLE_BLOCK ? SAMPLE_BLOCK
-                                                   : smaller(share, PASS_MOST);
+    return has_error_limit || share < SAMPLE_BLOCK
+               ? SAMPLE_BLOCK
+               : smaller(share, PASS_MEAN_MAX);
 }
 
 uint64_t pass_plan_next(uint64_t done, const struct render_limits *limits,
@@ -56,14 +57,9 @@ uint64_t pass_plan_end(uint64_t done, uint64_t spp, bool is_adaptive)
 struct pass pass_plan_pass(uint64_t done, uint64_t target, int stride,
                            const struct adaptive *adaptive)
 {
-    struct pass pass = {.stride = stride,
-                        .target = target,
-                        .samples = (uint32_t)(target - done),
-                        .order = (uint32_t)target};
+    struct pass pass = {.stride = stride, .order = (uint32_t)target};
 
-    if (pass_plan_has_shares(done, adaptive->shares != NULL)) {
+    if (pass_plan_has_shares(done, adaptive->shares != NULL))
         pass.shares = adaptive->shares;
-        pass.samples = (pass.samples * SHARE_MOST + SHARE_ONE - 1) / SHARE_ONE;
-    }
-    return pass;
+    return pass_with(pass, target, target - done);
 }

@@ -173,7 +173,7 @@ bool render_step(struct render *r)
 
 bool render_wait(struct render *r, int timeout_ms)
 {
-    struct timespec until = clock_time_after(timeout_ms);
+    struct timespec until = clock_time_after(timeout_ms * INT64_C(1000000));
     bool is_parked;
     int reason = 0;
 

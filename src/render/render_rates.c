@@ -9,6 +9,12 @@
  * diagram. */
 #define SPAN_FIRST_NS UINT64_C(250000000)
 
+/* A rank is late after this time without an answer, and after this many times
+ * its mean time for one. Parts of a pass differ in size and in the cost of
+ * their pixels, up to some ten times. */
+#define LATE_NS    UINT64_C(2000000000)
+#define LATE_TIMES 20
+
 /* ---- speeds ---- */
 
 static void halve(struct speeds *s)
@@ -91,4 +97,18 @@ void thread_load_free(struct thread_load *l)
 {
     free(l->cpu_ns);
     *l = (struct thread_load){0};
+}
+
+/* ---- ranks ---- */
+
+double rank_rate(const struct rank_progress *p)
+{
+    return p->busy_ns > 0 ? (double)p->samples * 1e9 / (double)p->busy_ns : 0;
+}
+
+bool rank_is_late(const struct rank_progress *p)
+{
+    uint64_t usual_ns = p->answers > 0 ? p->busy_ns / p->answers : 0;
+
+    return p->silent_ns > LATE_NS && p->silent_ns / LATE_TIMES > usual_ns;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * render_rates.h - samples per second over the time of a render, and the load
- * of the backend's threads
+ * render_rates.h - samples per second over the time of a render, the load of
+ * the backend's threads, and the rates of its ranks
  *
  * A fixed number of spans of equal length covers the whole time. When they are
  * used up, pairs are merged into spans of double length.
@@ -57,5 +57,13 @@ double thread_load_share(const struct thread_load *l, const struct backend *b,
                          int thread, uint64_t time_ns);
 
 void thread_load_free(struct thread_load *l);
+
+/* ---- ranks ---- */
+
+/* Returns the samples of a rank in each second in which it had work. */
+double rank_rate(const struct rank_progress *p);
+
+/* Returns true if a rank has been silent for much longer than it usually is. */
+bool rank_is_late(const struct rank_progress *p);
 
 #endif

@@ -218,15 +218,11 @@ static uint64_t next_target(const struct render *r)
     bool shares = pass_plan_has_shares(done, is_adaptive(r));
     uint64_t target = pass_plan_next(done, &r->limits, is_adaptive(r));
 
-    while (done >= least && target - done < least &&
-           (spp == 0 || target < spp) &&
-           pass_plan_has_shares(target, is_adaptive(r)) == shares) {
-        uint64_t next = pass_plan_next(target, &r->limits, is_adaptive(r));
-
-        if (next - done > PASS_JOINED_MAX)
-            break;
-        target = next;
-    }
+    if (least > done) /* long passes only after short ones */
+        least = done;
+    while (target - done < least && (spp == 0 || target < spp) &&
+           pass_plan_has_shares(target, is_adaptive(r)) == shares)
+        target = pass_plan_next(target, &r->limits, is_adaptive(r));
     return target;
 }
 

@@ -9,6 +9,12 @@
 #include "base/memory.h"
 #include "kernels/hit.h"
 
+/* Fewest triangles that are worth the start of threads, about 0.1 ms. */
+#define POOL_TRIS_MIN 50000
+
+/* Triangles that are tested as one. */
+#define BLOCK_TRIS 16384u
+
 /* Returns true if the triangle has an area, computed in double. */
 static bool has_area(const double a[3], const double b[3], const double c[3])
 {
@@ -17,8 +23,11 @@ static bool has_area(const double a[3], const double b[3], const double c[3])
     double e[3], f[3];
     int exponent;
 
-    for (int k = 0; k < 3; k++)
-        most = fmax(most, fmax(fabs(a[k]), fmax(fabs(b[k]), fabs(c[k]))));
+    for (int k = 0; k < 3; k++) {
+        most = fabs(a[k]) > most ? fabs(a[k]) : most;
+        most = fabs(b[k]) > most ? fabs(b[k]) : most;
+        most = fabs(c[k]) > most ? fabs(c[k]) : most;
+    }
     /* Scaling by a power of two is exact, and keeps the products finite. */
     if (!(most > 1e-50 && most < 1e50)) {
         frexp(most, &exponent);
@@ -30,6 +39,15 @@ static bool has_area(const double a[3], const double b[3], const double c[3])
     }
     return e[1] * f[2] != e[2] * f[1] || e[2] * f[0] != e[0] * f[2] ||
            e[0] * f[1] != e[1] * f[0];
+}
+
+struct pool *scene_pool(const struct scene *scene, uint32_t tri_count)
+{
+    struct error ignored;
+
+    return scene->thread_count > 1 && tri_count >= POOL_TRIS_MIN
+               ? pool_create(scene->thread_count, &ignored)
+               : NULL;
 }
 
 static bool is_finite(const double p[3])
@@ -49,13 +67,40 @@ static bool file_tri_is_usable(const struct scene *scene, struct tri *t)
     return has_area(p[0], p[1], p[2]);
 }
 
-/* Sets the geometric normal. Returns false if the normalised triangle has no
- * area or no unit normal. */
+static bool is_before(struct vec3 a, struct vec3 b)
+{
+    if (a.x != b.x)
+        return a.x < b.x;
+    return a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
+/* Rotates a triangle to begin with the corner that is first by coordinates.
+ * Copies of a face then have the same distance from a ray, whatever their first
+ * corner and winding, and the first in the file is the hit. */
+static void turn_tri(const struct scene *scene, struct tri *t)
+{
+    const struct tri old = *t;
+    uint32_t first = 0;
+
+    for (uint32_t k = 1; k < 3; k++)
+        if (is_before(scene->positions[old.v[k]],
+                      scene->positions[old.v[first]]))
+            first = k;
+    for (uint32_t k = 0; first > 0 && k < 3; k++) {
+        t->v[k] = old.v[(first + k) % 3];
+        t->vn[k] = old.vn[(first + k) % 3];
+        t->vt[k] = old.vt[(first + k) % 3];
+    }
+}
+
+/* Turns the triangle and sets its geometric normal. Returns false if the
+ * normalised triangle has no area or no unit normal. */
 static bool tri_gets_normal(const struct scene *scene, struct tri *t)
 {
     const struct vec3 *v[3];
     double p[3][3];
 
+    turn_tri(scene, t);
     for (int k = 0; k < 3; k++) {
         v[k] = &scene->positions[t->v[k]];
         p[k][0] = (double)v[k]->x;
@@ -66,26 +111,63 @@ static bool tri_gets_normal(const struct scene *scene, struct tri *t)
            triangle_normal(*v[0], *v[1], *v[2], &t->ng);
 }
 
-static void drop_tris(struct scene *scene, struct warnings *report,
-                      bool (*is_usable)(const struct scene *, struct tri *))
+/* Test of all triangles. */
+struct tri_test {
+    struct scene *scene;
+    bool (*is_usable)(const struct scene *, struct tri *);
+    bool *results; /* of triangles */
+};
+
+static void test_block(void *context, uint32_t block, int worker)
+{
+    const struct tri_test *t = context;
+    uint32_t count = t->scene->tri_count;
+    uint32_t begin = block * BLOCK_TRIS;
+
+    (void)worker;
+    for (uint32_t i = begin; i < count && i < begin + BLOCK_TRIS; i++)
+        t->results[i] = t->is_usable(t->scene, &t->scene->tris[i]);
+}
+
+static void keep_tris(struct scene *scene, const bool *is_usable,
+                      struct warnings *report)
 {
     uint32_t kept = 0;
 
     for (uint32_t i = 0; i < scene->tri_count; i++) {
-        if (!is_usable(scene, &scene->tris[i])) {
+        if (!is_usable[i]) {
             warnings_add(report, "triangles without area",
                          "%s: found a triangle without area in face %" PRIu32
                          " of the file: triangle dropped",
                          scene->path, scene->tri_faces[i] + 1);
             continue;
         }
-        scene->tris[kept] = scene->tris[i];
-        scene->tri_faces[kept] = scene->tri_faces[i];
-        scene->tri_objects[kept] = scene->tri_objects[i];
+        if (kept < i) {
+            scene->tris[kept] = scene->tris[i];
+            scene->tri_faces[kept] = scene->tri_faces[i];
+            scene->tri_objects[kept] = scene->tri_objects[i];
+        }
         kept++;
     }
     scene->dropped_count += scene->tri_count - kept;
     scene->tri_count = kept;
+}
+
+static bool drop_tris(struct scene *scene, struct pool *pool,
+                      struct warnings *report,
+                      bool (*is_usable)(const struct scene *, struct tri *),
+                      struct error *err)
+{
+    struct tri_test test = {scene, is_usable,
+                            alloc_array(scene->tri_count, sizeof(bool))};
+
+    if (test.results == NULL)
+        return fail(err, "%s: out of memory for %" PRIu32 " triangles",
+                    scene->path, scene->tri_count);
+    pool_each(pool, scene->tri_count / BLOCK_TRIS + 1, test_block, &test);
+    keep_tris(scene, test.results, report);
+    free(test.results);
+    return true;
 }
 
 /* Computes the bounds of the vertices that triangles use. */
@@ -163,35 +245,6 @@ static bool fill_positions(struct scene *scene, struct error *err)
     return true;
 }
 
-static bool is_before(struct vec3 a, struct vec3 b)
-{
-    if (a.x != b.x)
-        return a.x < b.x;
-    return a.y != b.y ? a.y < b.y : a.z < b.z;
-}
-
-/* Rotates each triangle to begin with the corner that is first by coordinates.
- * Copies of a face then have the same distance from a ray, whatever their first
- * corner and winding, and the first in the file is the hit. */
-static void turn_tris(struct scene *scene)
-{
-    for (uint32_t i = 0; i < scene->tri_count; i++) {
-        struct tri *t = &scene->tris[i];
-        const struct tri old = *t;
-        uint32_t first = 0;
-
-        for (uint32_t k = 1; k < 3; k++)
-            if (is_before(scene->positions[old.v[k]],
-                          scene->positions[old.v[first]]))
-                first = k;
-        for (uint32_t k = 0; k < 3; k++) {
-            t->v[k] = old.v[(first + k) % 3];
-            t->vn[k] = old.vn[(first + k) % 3];
-            t->vt[k] = old.vt[(first + k) % 3];
-        }
-    }
-}
-
 uint32_t scene_find_object(const struct scene *scene, const char *name)
 {
     for (uint32_t i = 0; i < scene->object_count; i++)
@@ -210,22 +263,31 @@ uint64_t scene_geometry_bytes(const struct scene *s)
                                      sizeof *s->tri_objects);
 }
 
-bool scene_finish(struct scene *scene, struct warnings *report,
-                  struct error *err)
+static bool finish(struct scene *scene, struct pool *pool,
+                   struct warnings *report, struct error *err)
 {
-    drop_tris(scene, report, file_tri_is_usable);
+    if (!drop_tris(scene, pool, report, file_tri_is_usable, err))
+        return false;
     find_bounds(scene);
     find_scale(scene);
     if (!fill_positions(scene, err))
         return false;
-    turn_tris(scene);
-    drop_tris(scene, report, tri_gets_normal);
-    if (scene->tri_count == 0)
+    return drop_tris(scene, pool, report, tri_gets_normal, err);
+}
+
+bool scene_finish(struct scene *scene, struct warnings *report,
+                  struct error *err)
+{
+    struct pool *pool = scene_pool(scene, scene->tri_count);
+    bool ok = finish(scene, pool, report, err);
+
+    pool_destroy(pool);
+    if (ok && scene->tri_count == 0)
         warnings_add(
             report, "scenes without a face",
             "%s: found no visible face: only the background is rendered",
             scene->path);
-    return true;
+    return ok;
 }
 
 static bool is_same_place(const struct scene *a, const struct scene *b)

@@ -15,6 +15,7 @@
 #define GLIM_SCENE_H
 
 #include "base/error.h"
+#include "base/thread_pool.h"
 #include "base/warnings.h"
 #include "scene/material.h"
 #include "kernels/types.h"
@@ -32,7 +33,10 @@ struct material_origin {
 };
 
 struct scene {
-    char *path; /* path of the OBJ file */
+    char *path; /* path of the scene file */
+
+    int thread_count; /* of the threads that may load it; 0 means one */
+    bool up_is_z; /* axis of the file, as its format and its writer have it */
 
     /* only while loading; freed by scene_finish() */
     double *file_positions; /* 3 coordinates for each vertex */
@@ -61,6 +65,7 @@ struct scene {
     uint32_t material_count;
     char **mtl_paths; /* paths of the MTL files, in order of reading */
     uint32_t mtl_path_count;
+    bool has_own_mtl; /* the first is glim's, for edits, and may not exist */
 
     struct texture *textures; /* lookup parameters, without texels */
     char **texture_paths;
@@ -72,6 +77,10 @@ struct scene {
     double scale;
     double bounds_lo[3], bounds_hi[3]; /* file units; all 0 without triangles */
 };
+
+/* Returns a pool of the threads that load the scene, for pool_destroy(), or
+ * NULL if one is enough for this number of triangles or no other can start. */
+struct pool *scene_pool(const struct scene *scene, uint32_t tri_count);
 
 /* Drops triangles that have no area or a vertex that is not finite, with
  * warnings. Computes bounds, centre and scale, and fills positions from

@@ -16,10 +16,13 @@
 #include "scene/textures.h"
 #include "kernels/light.h"
 
-/* Elevation of the camera that frames a scene, and the factor of its distance
- * that leaves a margin. */
+/* Elevation of the camera that frames a scene, its azimuth before a model, of
+ * which it shows two sides, and the factors of its distance that leave a
+ * margin. */
 #define FRAME_ELEVATION_DEG 20
+#define MODEL_AZIMUTH_DEG   30
 #define FRAME_MARGIN        1.05
+#define MODEL_MARGIN        1.12
 
 /* Limit for coordinates in float, whose squares do not overflow. */
 #define EYE_MAX 1e18
@@ -34,9 +37,38 @@ static double narrow_angle_rad(const struct view *view)
     return half;
 }
 
+/* Moves the eye as near as all triangles allow, since a sphere around a model
+ * has more room than the model needs. */
+static void come_near(const struct scene *scene, struct view *view)
+{
+    double up = tan(angle_rad(view->pose.fovy_deg) / 2) / MODEL_MARGIN;
+    double side = up * view->width_px / view->height_px;
+    double distance = 0, reach;
+    struct axes axes;
+
+    pose_axes(&view->pose, &axes);
+    for (uint32_t i = 0; i < scene->tri_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            struct vec3 v = scene->positions[scene->tris[i].v[k]];
+            const double p[3] = {(double)v.x, (double)v.y, (double)v.z};
+            double along = vec3d_dot(p, axes.forward);
+            double x = fabs(vec3d_dot(p, axes.right)) / side;
+            double y = fabs(vec3d_dot(p, axes.up)) / up;
+
+            distance = fmax(distance, fmax(x, y) - along);
+        }
+    }
+    reach = pose_reach(&view->pose);
+    for (int k = 0; distance > 0 && k < 3; k++)
+        view->pose.eye[k] =
+            view->pose.at[k] + (view->pose.eye[k] - view->pose.at[k]) / reach *
+                                   (distance / scene->scale);
+}
+
 void scene_frame(const struct scene *scene, struct view *view)
 {
     double elevation = angle_rad(FRAME_ELEVATION_DEG);
+    double azimuth = scene->has_own_mtl ? angle_rad(MODEL_AZIMUTH_DEG) : 0;
     double radius = 0;
     double distance;
 
@@ -51,7 +83,12 @@ void scene_frame(const struct scene *scene, struct view *view)
     memcpy(view->pose.at, scene->center, sizeof view->pose.at);
     memcpy(view->pose.eye, scene->center, sizeof view->pose.eye);
     view->pose.eye[1] += distance * sin(elevation) / scene->scale;
-    view->pose.eye[2] += distance * cos(elevation) / scene->scale;
+    view->pose.eye[0] +=
+        distance * cos(elevation) * sin(azimuth) / scene->scale;
+    view->pose.eye[2] +=
+        distance * cos(elevation) * cos(azimuth) / scene->scale;
+    if (scene->has_own_mtl)
+        come_near(scene, view);
 }
 
 static struct vec3 scaled(const double v[3], double scale)
@@ -293,7 +330,7 @@ uint32_t world_features(const struct host_world *host)
 
     if (host->guide.grid.table_count > 0)
         features |= FEATURE_GUIDE;
-    if (host->guide.lamps.cell_count > 0)
+    if (host->guide.lamps.node_count > 0)
         features |= FEATURE_CAUSTICS;
     if (host->point_light_count > 0)
         features |= FEATURE_POINT_LIGHTS;

@@ -28,9 +28,8 @@ static const enum film_part film_parts[WORLD_LIST_COUNT] = {
     [WORLD_LIST_point_lights] = FILM_LIGHT,
     [WORLD_LIST_directional_lights] = FILM_LIGHT,
     [WORLD_LIST_profiles] = FILM_LIGHT,
-    [WORLD_LIST_caustic_cells] = FILM_GUIDE,
-    [WORLD_LIST_caustic_groups] = FILM_GUIDE,
-    [WORLD_LIST_caustic_bins] = FILM_GUIDE,
+    [WORLD_LIST_caustic_nodes] = FILM_GUIDE,
+    [WORLD_LIST_caustic_lobes] = FILM_GUIDE,
 };
 
 static void add(uint64_t *hash, const void *bytes, size_t size)
@@ -50,7 +49,6 @@ static void add_settings(const struct settings *s, uint64_t hashes[FILM_PARTS])
     add(&hashes[FILM_LIMITS], &s->order, sizeof s->order);
     add(&hashes[FILM_LIMITS], &s->sample, sizeof s->sample);
     add(&hashes[FILM_GUIDE], &s->guide, sizeof s->guide);
-    add(&hashes[FILM_GUIDE], s->caustic_grids, sizeof s->caustic_grids);
 }
 
 void world_hash(const struct world *w, uint64_t hashes[FILM_PARTS])

@@ -39,9 +39,8 @@
     X(directional_lights, s->directional_light_count,                   \
       WORLD_DIRECTIONAL_LIGHTS)                                         \
     X(profiles, s->profile_value_count, WORLD_LIGHTS)                   \
-    X(caustic_cells, s->caustic_cell_count, WORLD_GUIDE)                \
-    X(caustic_groups, s->caustic_group_count, WORLD_GUIDE)              \
-    X(caustic_bins, s->caustic_bin_count, WORLD_GUIDE)
+    X(caustic_nodes, s->caustic_node_count, WORLD_GUIDE)                \
+    X(caustic_lobes, s->caustic_lobe_count, WORLD_GUIDE)
 
 #define WORLD_LIST_NAME(name, count, part) WORLD_LIST_##name,
 enum world_list_index { WORLD_LIST(WORLD_LIST_NAME) WORLD_LIST_COUNT };

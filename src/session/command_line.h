@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "render/render_loop.h"
+#include "formats/scene_format.h"
 #include "terminal/term_caps.h"
 #include "session/keymap.h"
 
@@ -94,7 +95,7 @@ struct options {
     bool denoise;             /* filter the picture, in batch mode */
     const char *denoise_path; /* file of the filtered picture; NULL: -o */
     enum show_kind show;      /* in batch mode */
-    bool up_is_z;
+    enum scene_up up;
     bool has_sun;
     double sun_azimuth_deg, sun_elevation_deg;
     double turbidity; /* 0 if not given */
@@ -114,6 +115,7 @@ struct options {
         text_rows; /* size of text output in batch mode; 0: a picture */
     bool show_help, show_version;
     bool list_devices;  /* list devices; no scene is needed */
+    bool list_formats;  /* list formats of scenes; no scene is needed */
     bool list_sessions; /* list kept sessions; no scene is needed */
     int ranks;          /* processes of a cluster to start; 0: none */
     bool is_worker;     /* render for rank 0; no scene is needed */
@@ -149,8 +151,5 @@ int options_threads(const struct options *o);
 
 /* Names of enum show_kind in batch mode, ending with NULL. */
 extern const char *const options_shows[];
-
-/* Text of --help. */
-extern const char options_help[];
 
 #endif

@@ -441,6 +441,11 @@ const char *edit_redo(struct edit *e)
     return first != NULL ? name_step(e, first) : NULL;
 }
 
+void edit_forget_steps(struct edit *e)
+{
+    edit_history_free(&e->history);
+}
+
 /* ---- shown and saved state ---- */
 
 static bool has_unsaved_assigned(const struct edit *e)

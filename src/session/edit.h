@@ -94,6 +94,9 @@ uint32_t edit_sky(struct edit *edit, const char *path);
 const char *edit_undo(struct edit *edit);
 const char *edit_redo(struct edit *edit);
 
+/* Drops all steps. The values stay. */
+void edit_forget_steps(struct edit *edit);
+
 /* Chooses whether the saved or the current materials and light are shown. */
 void edit_compare(struct edit *edit, bool is_comparing);
 

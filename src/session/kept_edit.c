@@ -145,10 +145,13 @@ static void restore_material(struct edit *e, uint32_t material,
     edit_material(e, material, &source);
 }
 
-/* Restores the materials of the list, whose statements `mtl` has. */
+/* Restores the materials of the list, whose statements `mtl` has, and the saved
+ * values of all others. */
 static void restore_list(struct edit *e, const char *list,
                          const struct scene *mtl, uint32_t *missing)
 {
+    bool *is_listed =
+        xcalloc(e->material_count + mtl->material_count, sizeof *is_listed);
     char *name, *original, *maps_off;
 
     for (uint32_t i = 1; i < mtl->material_count; i++) {
@@ -159,14 +162,20 @@ static void restore_list(struct edit *e, const char *list,
         maps_off = original != NULL ? next_line(&list) : NULL;
         if (maps_off != NULL)
             material = find_or_duplicate(e, name, original);
-        if (material != NO_INDEX)
+        if (material != NO_INDEX) {
             restore_material(e, material, &mtl->material_origins[i].source,
                              (uint32_t)strtoul(maps_off, NULL, 10));
+            is_listed[material] = true;
+        }
         *missing += material == NO_INDEX;
         free(name);
         free(original);
         free(maps_off);
     }
+    for (uint32_t i = 0; i < e->material_count; i++)
+        if (!is_listed[i] && e->saved.is_there[i])
+            edit_material(e, i, &e->saved.sources[i]);
+    free(is_listed);
 }
 
 static bool restore_materials(const struct kept *k, struct session *s,
@@ -226,7 +235,7 @@ bool kept_edit_restore(const struct kept *k, struct session *s,
          pose_check(&view.pose, path, err) &&
          restore_materials(k, s, path, missing, err);
     if (ok) {
-        keep_soft_sky(&view, &e->now.view);
+        keep_soft_sky(&view, &e->saved.view);
         find_assigned(s, &view, assigned);
         edit_take_view(e, &view, assigned);
         edit_end_step(e);

@@ -20,9 +20,9 @@
 bool kept_edit_take(struct kept *k, const struct session *s, const char *path,
                     struct error *err);
 
-/* Changes the edit of a scene that was just opened to the kept state, in one
- * step. *missing is the number of edited materials that the scene does not
- * have. */
+/* Changes the edit of a scene that was opened from its files to the kept state,
+ * in one step. *missing is the number of edited materials that the scene does
+ * not have. */
 bool kept_edit_restore(const struct kept *k, struct session *s,
                        const char *path, uint32_t *missing, struct error *err);
 

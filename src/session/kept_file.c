@@ -31,8 +31,8 @@ enum field {
 };
 
 static const char *const keys[FIELDS] = {
-    "live", "edits", "render_ns", "view", "materials",
-    "mtl",  "film",  "texts",     "head",
+    "live", "edits",   "render_ns", "view",  "materials",
+    "mtl",  "history", "film",      "texts", "head",
 };
 
 static uint64_t hash_of(const char *bytes, size_t size_bytes)

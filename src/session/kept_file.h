@@ -25,6 +25,7 @@ enum kept_part {
     KEPT_VIEW,      /* text of a view file */
     KEPT_MATERIALS, /* names of edited materials (kept_edit.h) */
     KEPT_MTL,       /* their statements, MTL text */
+    KEPT_HISTORY,   /* states before and after it (kept_history.h) */
     KEPT_FILM,      /* bytes of a film file */
     KEPT_PARTS
 };

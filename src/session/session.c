@@ -88,7 +88,7 @@ static bool open_scene(struct session *s, struct view *view, struct error *err)
         return false;
     file = *view;
     if (!apply_options(o, view, err) || !find_crop(s, view, err) ||
-        !scene_open(&s->scene, &s->world, view, o->scene_path, o->up_is_z,
+        !scene_open(&s->scene, &s->world, view, o->scene_path, o->up,
                     options_threads(o), &s->report, err))
         return false;
     edit_init(&s->edit, &s->scene, view, &s->report);

@@ -9,8 +9,8 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/thread.h"
-#include "glim/version.h"
 #include "scene/world_hash.h"
+#include "render/film_describe.h"
 #include "opencl/cl_source.h"
 
 /* ---- shares ---- */
@@ -65,36 +65,14 @@ static bool check_share(const struct options *o, struct error *err)
 
 /* ---- header ---- */
 
-/* Returns the end of a path that fits, from a character on. */
-static const char *end_of(const char *path, size_t size_bytes)
-{
-    size_t length = strlen(path);
-
-    if (length >= size_bytes)
-        path += length - size_bytes + 1;
-    while ((*path & 0xc0) == 0x80)
-        path++;
-    return path;
-}
-
 bool session_film_describe(const struct session *s, struct film_identity *id,
                            struct world *world, struct error *err)
 {
     struct view view = edit_view(&s->edit);
-    float exposure = (float)view.lighting.exposure;
 
-    *id = (struct film_identity){
-        .seed = s->options->seed,
-        .picture_width = view.width_px,
-        .picture_height = view.height_px,
-        .x = s->crop.x,
-        .y = s->crop.y,
-        .width = s->crop.width,
-        .height = s->crop.height,
-        .has_surfaces = (session_features(s) & FEATURE_FILTER) != 0,
-        .is_adaptive = options_adaptive(s->options),
-    };
-    memcpy(&id->exposure_bits, &exposure, sizeof exposure);
+    *id = film_describe_identity(&view, s->crop, s->options->seed,
+                                 session_features(s),
+                                 options_adaptive(s->options));
     return world_lend(&s->world, &s->scene, &view, s->options->seed, world,
                       err);
 }
@@ -125,21 +103,10 @@ struct film_header session_film_header(const struct session *s, uint64_t total,
                                        struct film_range *range)
 {
     struct render_progress p = render_progress(s->render);
-    struct film_header h = {.tone = session_develop(s).tone,
-                            .ranges = range,
-                            .range_count = 1,
-                            .total = total,
-                            .render_ns = p.render_ns,
-                            .samples = p.samples,
-                            .rays = p.rays,
-                            .non_finite = p.non_finite,
-                            .saturated = p.saturated,
-                            .cut_paths = p.cut_paths};
+    struct film_header h = film_describe_header(&p, s->options->scene_path,
+                                                s->first_sample, total, range);
 
-    snprintf(h.version, sizeof h.version, "%s", GLIM_VERSION);
-    snprintf(h.scene, sizeof h.scene, "%s",
-             end_of(s->options->scene_path, sizeof h.scene));
-    *range = (struct film_range){s->first_sample, s->first_sample + p.spp_done};
+    h.tone = session_develop(s).tone;
     return h;
 }
 
@@ -156,23 +123,17 @@ static bool write_file(const struct session *s, const char *path,
     struct film_range range;
     struct film_header h =
         session_film_header(s, options_limits(s->options).spp, &range);
-    size_t size;
-    char *bytes;
-    bool ok;
 
     h.identity = s->film_identity;
-    bytes = film_file_bytes(&h, render_film(s->render), shares_of, s->render,
-                            &size, err);
-    ok = bytes != NULL && file_write(path, bytes, size, false, NULL, err);
-    free(bytes);
-    return ok;
+    return film_file_write(path, &h, render_film(s->render), shares_of,
+                           s->render, err);
 }
 
 /* Waits for the next checkpoint. Returns false if the thread is to end. The
  * caller holds the lock. */
 static bool wait_interval(struct session_film *f, uint64_t interval_ns)
 {
-    struct timespec until = clock_time_after((int)(interval_ns / 1000000 + 1));
+    struct timespec until = clock_time_after((int64_t)interval_ns);
     int reason = 0;
 
     while (!f->is_ending && reason == 0)
@@ -240,12 +201,18 @@ void session_film_stop(struct session_film *f)
 
 bool session_film_write(struct session_film *f, struct error *err)
 {
-    const struct session *s = f->session;
-    const char *checkpoint = s->options->checkpoint_path;
-    const char *film = s->options->film_path;
+    const struct options *o = f->session->options;
+    struct error film_err;
+    bool has_checkpoint = o->checkpoint_path == NULL ||
+                          write_file(f->session, o->checkpoint_path, err);
 
-    return (checkpoint == NULL || write_file(s, checkpoint, err)) &&
-           (film == NULL || write_file(s, film, err));
+    if (o->film_path == NULL || write_file(f->session, o->film_path, &film_err))
+        return has_checkpoint;
+    if (has_checkpoint)
+        *err = film_err;
+    else
+        error_add(err, &film_err);
+    return false;
 }
 
 /* ---- begin ---- */

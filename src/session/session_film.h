@@ -51,8 +51,8 @@ bool session_film_failed(struct session_film *f, struct error *err);
 /* Stops the thread, after a file that it is writing. */
 void session_film_stop(struct session_film *f);
 
-/* Writes the files of --checkpoint and --film as the film is now. The render is
- * halted. */
+/* Writes the files of --checkpoint and --film as the film is now, each even if
+ * the other one fails. The render is halted. */
 bool session_film_write(struct session_film *f, struct error *err);
 
 /* Finds what decides the samples of the session's picture. */

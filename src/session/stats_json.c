@@ -52,6 +52,23 @@ static void write_load(FILE *to, const struct session *s, uint64_t render_ns)
     fputs("],\n", to);
 }
 
+/* Writes the work of each rank of a cluster, of which there is none without
+ * one. */
+static void write_ranks(FILE *to, const struct backend *b)
+{
+    fputs("  \"ranks\": [", to);
+    for (int i = 0; i < b->rank_count; i++) {
+        struct rank_progress p = b->rank_progress(b, i);
+
+        fprintf(to,
+                "%s\n    {\"samples\": %" PRIu64 ", \"answers\": %" PRIu64
+                ", \"samples_per_s\": %.6g, \"silent_s\": %.6f}",
+                i > 0 ? "," : "", p.samples, p.answers, rank_rate(&p),
+                seconds_between(0, p.silent_ns));
+    }
+    fputs(b->rank_count > 0 ? "\n  ],\n" : "],\n", to);
+}
+
 /* Writes the progress as in the screen's panel. Rates exclude everything but
  * rendering. */
 static void write_progress(FILE *to, const struct session *s,
@@ -69,6 +86,7 @@ static void write_progress(FILE *to, const struct session *s,
     write_real(to, "left_s", left.ns * 1e-9, has_left);
     write_speeds(to, &s->speeds);
     write_load(to, s, p->render_ns);
+    write_ranks(to, render_backend(s->render));
 }
 
 /* Counts unused materials of files; material 0 is the default one. */

@@ -6,68 +6,49 @@
 #include "picture/image_write.h"
 #include "terminal/xmalloc.h"
 
-const char sub_command_help[] =
-    "\n"
-    "films, in batch mode\n"
-    "  --film FILE      write the film, the exact sums of all samples\n"
-    "  --checkpoint FILE\n"
-    "                   write the film at the end, after a signal, and while\n"
-    "                   rendering\n"
-    "  --checkpoint-interval TIME\n"
-    "                   time between checkpoints (default: 60)\n"
-    "  --resume FILE    go on with a film of the same picture; if it is that "
-    "of\n"
-    "                   --checkpoint it may be missing at first\n"
-    "  --share I/N      render only share I, from 1 to N, of the samples\n"
-    "  info             print what films are of\n"
-    "  merge            join films of the same picture; -o names a picture, or "
-    "a\n"
-    "                   film that ends in .film\n"
-    "  develop          as merge, of one film\n"
-    "  --exposure STOPS exposure of the picture of merge and develop\n"
-    "  --tone KIND      linear, reinhard or aces likewise\n"
-    "\n"
-    "clusters, in a program that is built with make MPI=1\n"
-    "  --ranks N        start N processes that render together\n"
-    "\n"
-    "measurements\n"
-    "  compare          compare two .pfm, .hdr or .png pictures of one size:\n"
-    "                   errors, and the tiles that differ by more than noise;\n"
-    "                   -o writes a picture of the differences\n"
-    "  curve            render with 1, 2, 4 .. samples up to -s (default: "
-    "256)\n"
-    "                   and print the error and the time of each; -o draws a\n"
-    "                   diagram\n"
-    "  reference        render with several seeds and write the mean, and its\n"
-    "                   error to out.json; -s counts the samples of all seeds\n"
-    "                   together (default: 4096)\n"
-    "  --seeds N        4 to 64 seeds (default: 8), from --seed on (default:\n"
-    "                   1000000)\n"
-    "  --csv FILE       write the curve as comma-separated values\n"
-    "  --tiles N        most tiles each way, 1 to 256 (default: 16)\n"
-    "  --false-alarms P probability that anything is marked although only\n"
-    "                   noise differs (default: 0.01)\n";
-
-static const char *const names[] = {
-    [COMMAND_RENDER] = "",          [COMMAND_COMPARE] = " compare",
-    [COMMAND_CURVE] = " curve",     [COMMAND_REFERENCE] = " reference",
-    [COMMAND_INFO] = " info",       [COMMAND_MERGE] = " merge",
-    [COMMAND_DEVELOP] = " develop",
+static const struct sub_command_rule rules[] = {
+    [COMMAND_RENDER] = {"", "", NULL},
+    [COMMAND_COMPARE] =
+        {" compare", "[options] picture.pfm reference.pfm",
+         "compare two .pfm, .hdr or .png pictures of one size: errors, and the "
+         "tiles that differ by more than noise; -o writes a picture of the "
+         "differences"},
+    [COMMAND_CURVE] =
+        {" curve", "[options] reference.pfm scene.obj",
+         "render with 1, 2, 4 .. samples up to -s (default: 256) and print the "
+         "error and the time of each; -o draws a diagram"},
+    [COMMAND_REFERENCE] =
+        {" reference", "[options] out.pfm scene.obj",
+         "render with several seeds and write the mean, and its error to "
+         "out.json; -s counts the samples of all seeds together (default: "
+         "4096)"},
+    [COMMAND_INFO] = {" info", "FILM ...", "print what films are of"},
+    [COMMAND_MERGE] =
+        {" merge", "-o OUT FILM ...",
+         "join films of the same picture; -o names a picture, or a film that "
+         "ends in .film"},
+    [COMMAND_DEVELOP] = {" develop", "-o PICTURE FILM",
+                         "as merge, of one film"},
 };
 
-#define COMMAND_COUNT (int)(sizeof names / sizeof names[0])
+#define COMMAND_COUNT (int)(sizeof rules / sizeof rules[0])
+
+const struct sub_command_rule *sub_command_rule(int i)
+{
+    return i + 1 < COMMAND_COUNT ? &rules[i + 1] : NULL;
+}
 
 enum sub_command sub_command_named(const char *name)
 {
     for (int i = COMMAND_RENDER + 1; i < COMMAND_COUNT; i++)
-        if (strcmp(names[i] + 1, name) == 0)
+        if (strcmp(rules[i].name + 1, name) == 0)
             return (enum sub_command)i;
     return COMMAND_RENDER;
 }
 
 const char *sub_command_name(enum sub_command command)
 {
-    return names[command];
+    return rules[command].name;
 }
 
 /* Returns true for the sub-commands whose operands are films. */
@@ -156,7 +137,7 @@ static bool check_output(const struct options *o, struct error *err)
     static const struct {
         const char *place, *expected;
         bool takes_png, takes_pfm;
-    } rules[] = {
+    } outputs[] = {
         [COMMAND_COMPARE] = {"-o: ", ".png or .pfm", true, true},
         [COMMAND_CURVE] = {"-o: ", ".png", true, false},
         [COMMAND_REFERENCE] = {"", ".pfm", false, true},
@@ -168,11 +149,11 @@ static bool check_output(const struct options *o, struct error *err)
         return true;
     format = image_write_format_of(path);
     if (strcmp(path, "-") != 0 &&
-        ((format == IMAGE_WRITE_PNG && rules[o->command].takes_png) ||
-         (format == IMAGE_WRITE_PFM && rules[o->command].takes_pfm)))
+        ((format == IMAGE_WRITE_PNG && outputs[o->command].takes_png) ||
+         (format == IMAGE_WRITE_PFM && outputs[o->command].takes_pfm)))
         return true;
     return fail(err, "%sfound '%s', expected a name that ends in %s",
-                rules[o->command].place, path, rules[o->command].expected);
+                outputs[o->command].place, path, outputs[o->command].expected);
 }
 
 static bool check_films(const struct options *o, struct error *err)
@@ -186,20 +167,12 @@ static bool check_films(const struct options *o, struct error *err)
                     "--help)",
                     o->film_count, o->film_count == 1 ? "" : "s",
                     needs_output && !o->output_path ? " and no -o" : "",
-                    names[o->command],
-                    o->command == COMMAND_INFO    ? "FILM ..."
-                    : o->command == COMMAND_MERGE ? "-o OUT FILM ..."
-                                                  : "-o PICTURE FILM");
+                    rules[o->command].name, rules[o->command].operands);
     return true;
 }
 
 bool sub_command_check(struct options *o, struct error *err)
 {
-    static const char *const expected[] = {
-        [COMMAND_COMPARE] = "picture.pfm reference.pfm",
-        [COMMAND_CURVE] = "reference.pfm scene.obj",
-        [COMMAND_REFERENCE] = "out.pfm scene.obj",
-    };
     const char **operands[2];
 
     if (takes_films(o->command))
@@ -207,8 +180,8 @@ bool sub_command_check(struct options *o, struct error *err)
     operands_of(o, operands);
     if (!*operands[0] || !*operands[1])
         return fail(err,
-                    "found too few files, expected: glim%s [options] %s (see "
-                    "glim --help)",
-                    names[o->command], expected[o->command]);
+                    "found too few files, expected: glim%s %s (see glim "
+                    "--help)",
+                    rules[o->command].name, rules[o->command].operands);
     return check_output(o, err);
 }

@@ -9,7 +9,16 @@
 #ifndef GLIM_SUB_COMMAND_H
 #define GLIM_SUB_COMMAND_H
 
-#include "session/option_table.h"
+#include "session/option_set.h"
+
+struct sub_command_rule {
+    const char *name;     /* after a blank */
+    const char *operands; /* and options that it needs, for messages */
+    const char *help;
+};
+
+/* Returns the rule of sub-command i, from 0 on; NULL after the last. */
+const struct sub_command_rule *sub_command_rule(int i);
 
 /* Returns the sub-command of this name, COMMAND_RENDER if there is none. */
 enum sub_command sub_command_named(const char *name);
@@ -24,9 +33,6 @@ bool sub_command_takes(enum sub_command command, enum option_id id);
  * of a sub-command. */
 bool sub_command_set_operand(struct options *o, const char *path,
                              struct error *err);
-
-/* Text of --help about sub-commands, after options_help. */
-extern const char sub_command_help[];
 
 /* Checks the operands and options of a sub-command together. */
 bool sub_command_check(struct options *o, struct error *err);

@@ -53,8 +53,10 @@ void progress_panel_draw(struct progress_panel *panel,
                          const struct render_control *control,
                          struct screen *screen, uint64_t now_ns)
 {
-    size_t thread_count = (size_t)backend_of(control)->thread_count;
-    double *loads = xcalloc(thread_count, sizeof *loads);
+    const struct backend *b = backend_of(control);
+    double *loads = xcalloc((size_t)b->thread_count, sizeof *loads);
+    struct rank_progress *ranks = xcalloc((size_t)b->rank_count, sizeof *ranks);
+    int row_count;
     char texts[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES];
     const char *lines[PROGRESS_TEXT_ROWS];
     struct progress_text_facts facts = {
@@ -62,18 +64,23 @@ void progress_panel_draw(struct progress_panel *panel,
         .speeds = &control->session->speeds,
         .loads = loads,
         .has_unicode = screen->display.has_unicode,
+        .ranks = ranks,
+        .rank_count = b->rank_count,
     };
 
     measure_loads(panel, control, now_ns, loads);
     facts.load_count = panel->load.count;
-    progress_text_format(texts, &facts);
+    for (int i = 0; i < b->rank_count; i++)
+        ranks[i] = b->rank_progress(b, i);
+    row_count = progress_text_format(texts, &facts);
     free(loads);
-    for (int i = 0; i < PROGRESS_TEXT_ROWS; i++)
+    free(ranks);
+    for (int i = 0; i < row_count; i++)
         lines[i] = texts[i];
     if (screen->window.cols == 0)
-        screen_open_corner(screen, " progress ", lines, PROGRESS_TEXT_ROWS);
+        screen_open_corner(screen, " progress ", lines, row_count);
     else
-        screen_set_corner(screen, lines, PROGRESS_TEXT_ROWS);
+        screen_set_corner(screen, lines, row_count);
     panel->due_ns = now_ns + UPDATE_NS;
 }
 

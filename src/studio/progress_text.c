@@ -243,11 +243,71 @@ static void format_load_title(char *line, const struct progress_text_facts *f)
     put_sides(line, left, right);
 }
 
-void progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],
-                          const struct progress_text_facts *f)
+/* ---- ranks ---- */
+
+/* Returns true if rank a is to be shown before rank b. */
+static bool comes_first(const struct rank_progress *a,
+                        const struct rank_progress *b)
+{
+    bool a_is_late = rank_is_late(a), b_is_late = rank_is_late(b);
+
+    if (a_is_late != b_is_late)
+        return a_is_late;
+    return rank_rate(a) < rank_rate(b);
+}
+
+/* Chooses the ranks that are shown, in the order of their numbers. */
+static int choose_ranks(const struct progress_text_facts *f,
+                        int chosen[PROGRESS_TEXT_RANKS])
+{
+    int count = 0;
+
+    for (int i = 0; i < f->rank_count; i++) {
+        int before = 0;
+
+        for (int k = 0; k < f->rank_count; k++)
+            before += comes_first(&f->ranks[k], &f->ranks[i]) ||
+                      (k < i && !comes_first(&f->ranks[i], &f->ranks[k]));
+        if (before < PROGRESS_TEXT_RANKS)
+            chosen[count++] = i;
+    }
+    return count;
+}
+
+static void format_rank_title(char *line, const struct progress_text_facts *f)
+{
+    char left[32], right[32] = "";
+    int late = 0;
+
+    for (int i = 0; i < f->rank_count; i++)
+        late += rank_is_late(&f->ranks[i]);
+    snprintf(left, sizeof left, "%d ranks", f->rank_count);
+    if (late > 0)
+        snprintf(right, sizeof right, "%d late", late);
+    else if (f->rank_count > PROGRESS_TEXT_RANKS)
+        snprintf(right, sizeof right, "the slowest %d", PROGRESS_TEXT_RANKS);
+    put_sides(line, left, right);
+}
+
+static void format_rank(char *line, const struct rank_progress *p, int rank)
+{
+    char samples[NUMBER_BYTES], rate[NUMBER_BYTES], silent[24];
+    char left[64], right[32];
+
+    progress_text_number(samples, sizeof samples, (double)p->samples);
+    progress_text_number(rate, sizeof rate, rank_rate(p));
+    status_line_duration(silent, sizeof silent, p->silent_ns);
+    snprintf(left, sizeof left, "rank %-5d%10s", rank, samples);
+    snprintf(right, sizeof right, rank_is_late(p) ? "late %s" : "%s/s",
+             rank_is_late(p) ? silent : rate);
+    put_sides(line, left, right);
+}
+
+int progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],
+                         const struct progress_text_facts *f)
 {
     const struct render_progress *p = f->progress;
-    int row = 0;
+    int row = 0, chosen[PROGRESS_TEXT_RANKS], count = choose_ranks(f, chosen);
 
     format_done(lines[row++], p);
     format_bar(lines[row++], f);
@@ -260,4 +320,9 @@ void progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],
         format_plot(lines[row++], f, i);
     format_load_title(lines[row++], f);
     format_loads(lines[row++], f);
+    if (count > 0)
+        format_rank_title(lines[row++], f);
+    for (int i = 0; i < count; i++)
+        format_rank(lines[row++], &f->ranks[chosen[i]], chosen[i]);
+    return row;
 }

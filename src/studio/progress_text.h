@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
  * progress_text.h - the text of the progress panel: samples, noise, speed, load
- * of the threads
+ * of the threads, ranks of a cluster
  *
- * The number of lines and columns is constant, so that the text stays in place.
+ * The number of columns is constant, and that of lines depends on the number of
+ * ranks alone, so that the text stays in place.
  * The diagrams use Unicode, or ASCII where the terminal has no Unicode.
  *
  * Units:     terminal columns
@@ -20,7 +21,12 @@
 #include "render/render_rates.h"
 
 #define PROGRESS_TEXT_COLS 36
-#define PROGRESS_TEXT_ROWS 12
+
+/* Ranks that have a line: the late ones first, then the slow ones. */
+#define PROGRESS_TEXT_RANKS 8
+
+/* Most lines: those of one process, a title, and the ranks. */
+#define PROGRESS_TEXT_ROWS (12 + 1 + PROGRESS_TEXT_RANKS)
 
 /* Size of a line: characters of the diagrams take three bytes in UTF-8. */
 #define PROGRESS_TEXT_BYTES (3 * PROGRESS_TEXT_COLS + 1)
@@ -31,10 +37,13 @@ struct progress_text_facts {
     const double *loads; /* load of each thread, from 0 to 1 */
     int load_count;      /* 0 if an OpenCL device renders */
     bool has_unicode;
+    const struct rank_progress *ranks;
+    int rank_count; /* 0 without a cluster */
 };
 
-void progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],
-                          const struct progress_text_facts *facts);
+/* Returns the number of lines. */
+int progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],
+                         const struct progress_text_facts *facts);
 
 /* Formats a number with three digits and a unit: 950, 9.50 k, 12.3 M, 123 G. */
 void progress_text_number(char *text, size_t size_bytes, double value);

@@ -10,7 +10,7 @@
 #include "base/hash.h"
 #include "picture/film_file.h"
 #include "terminal/xmalloc.h"
-#include "session/kept_edit.h"
+#include "session/kept_history.h"
 #include "session/session_film.h"
 
 /* Least render time for which a picture is kept. */
@@ -121,7 +121,7 @@ static bool begin(struct session_keeper *k)
     bool film = is_film_worth(k), ok;
     struct error err;
 
-    ok = kept_edit_take(&kept, s, k->path, &err);
+    ok = kept_history_take(&kept, s, k->path, &err);
     if (ok && !film && !kept.has_edits)
         remove_file(k);
     else if (ok && !is_written(k, &kept, film))
@@ -243,7 +243,8 @@ static void restore(struct session_keeper *k, const struct kept *kept)
     uint32_t missing;
     struct error err;
 
-    if (!kept_edit_restore(kept, control->session, k->path, &missing, &err)) {
+    if (!kept_history_restore(kept, control->session, k->path, &missing,
+                              &err)) {
         render_control_say_error(control, err.text);
         return;
     }

@@ -2,8 +2,9 @@
 /*
  * checks.c - tests of what glim.h promises, in a program that has only that
  *
- * usage: checks SCENE: prints a line for each failure, then
- * "api: N passed, N failed"
+ * usage: checks SCENE FILM...: prints a line for each failure, then
+ * "api: N passed, N failed". The films are shares of 8 samples of 32 x 24
+ * pixels, and joined.png becomes their picture; saved.film has 3 samples.
  */
 #include <math.h>
 #include <pthread.h>
@@ -197,6 +198,62 @@ static void check_limits(void)
     glim_close(g);
 }
 
+/* A film that was saved in a progress function and loaded goes on to the
+ * picture of a render at once. */
+static bool save_film(void *context, const struct glim_progress *p)
+{
+    struct glim *g = context;
+
+    if (p->samples > 0)
+        check(glim_save_film(g, "part.film", NULL), "a film in between");
+    return p->samples == 0;
+}
+
+static void check_films(const char *const *shares, int count)
+{
+    static const char *const saved[] = {"saved.film"}, *const part[] = {
+                                                           "part.film"};
+    struct glim *a = open_small(), *b = open_small();
+    uint8_t of_a[BYTES], of_b[BYTES];
+    struct glim_error err;
+
+    check_error(glim_save_film(a, "saved.film", &err), &err, "glim_render()");
+    check_error(glim_load_films(a, saved, 0, &err), &err, "found 0");
+    check(glim_render(a, 3, 0, NULL, NULL, NULL) == GLIM_DONE, "3 samples");
+    check(glim_save_film(a, "saved.film", &err), "a film");
+    check_error(glim_save_film(a, "nowhere/x.film", &err), &err, "no such");
+    check(glim_render(b, 0, 0, save_film, b, NULL) == GLIM_STOPPED, "stopped");
+    for (int i = 0; i < 3; i++) {
+        struct glim *c = open_small();
+        uint64_t spp;
+
+        check(i == 2 ? glim_load_films(c, shares, count, &err)
+                     : glim_load_films(c, i == 0 ? saved : part, 1, &err),
+              "films are loaded");
+        check(i > 0 || glim_get_progress(c).spp == 3, "3 samples are loaded");
+        if (i == 2)
+            check(glim_save(c, "joined.png", &err), "a joined picture");
+        /* some pixels of a film in between have more samples */
+        spp = glim_get_progress(c).spp + 200;
+        glim_set_seed(a, 0);
+        check(glim_render(a, spp, 0, NULL, NULL, NULL) == GLIM_DONE, "at once");
+        check(glim_render(c, spp, 0, NULL, NULL, NULL) == GLIM_DONE,
+              "the rest");
+        check(glim_read_bytes(a, of_a, BYTES, NULL), "bytes");
+        check(glim_read_bytes(c, of_b, BYTES, NULL), "bytes");
+        check(memcmp(of_a, of_b, BYTES) == 0, "a film goes on");
+        glim_close(c);
+    }
+    check_error(glim_load_films(a, shares + 1, count - 1, &err), &err,
+                "a part of the samples");
+    check(glim_get_progress(a).spp == 208, "the picture stays");
+    glim_set_seed(a, 4);
+    check_error(glim_load_films(a, saved, 1, &err), &err, "seed");
+    check_error(glim_load_films(a, &scene_path, 1, &err), &err, "another kind");
+    glim_close(a);
+    glim_close(b);
+}
+
 static void *render_in_thread(void *rgb)
 {
     struct glim *g = open_small();
@@ -257,7 +314,7 @@ static void check_signals(void)
 
 int main(int argc, char **argv)
 {
-    if (argc != 2)
+    if (argc < 3)
         return 2;
     scene_path = argv[1];
     check(strcmp(glim_version(), GLIM_VERSION) == 0, "one version");
@@ -267,6 +324,7 @@ int main(int argc, char **argv)
     check_parts();
     check_stops();
     check_limits();
+    check_films((const char *const *)argv + 2, argc - 2);
     check_threads();
     check_device();
     check_signals();

@@ -97,7 +97,24 @@ check stopped grep -q '^stopped$' "$folder/out"
 check 'its error' test "$? $(cat "$folder/err")" = \
     "1 example: scenes/none.obj: no such file or folder"
 
-"$folder/checks" scenes/cornell.obj >"$folder/out" 2>"$folder/err"
+# Films of the program are joined by the library, and the other way round.
+small='-b -w 32 -h 24'
+for i in 1 2 3; do
+    # shellcheck disable=SC2086 # words
+    "$build/glim" $small -s 8 --share $i/3 --film "$folder/$i.film" \
+        -o "$folder/share.png" scenes/cornell.obj 2>"$folder/log"
+done
+scene=$PWD/scenes/cornell.obj
+(cd "$folder" && ./checks "$scene" 1.film 3.film 2.film) >"$folder/out" \
+    2>"$folder/err"
+# shellcheck disable=SC2086 # words
+"$build/glim" $small -s 8 --resume "$folder/saved.film" -o "$folder/saved.png" \
+    scenes/cornell.obj 2>"$folder/log" || cat "$folder/log"
+# shellcheck disable=SC2086 # words
+"$build/glim" $small -s 8 -o "$folder/whole.png" scenes/cornell.obj \
+    2>"$folder/log"
+check 'films of the library' cmp "$folder/saved.png" "$folder/whole.png"
+check 'films of the program' cmp "$folder/joined.png" "$folder/whole.png"
 check 'nothing on standard error' test ! -s "$folder/err"
 grep -v '^api: ' "$folder/out"
 counts=$(sed -n 's/^api: \([0-9]*\) passed, \([0-9]*\) failed$/\1 \2/p' \

@@ -188,7 +188,7 @@ bench_filters() {
     "$build/bench/filters" scenes/cornell.obj scenes/interior.obj
 }
 
-# Measures loading: a million triangles of text.
+# Measures loading: a million triangles of text and of binary data.
 bench_load() {
     echo
     echo 'load: a grid of 1,000,000 triangles'
@@ -198,6 +198,10 @@ bench_load() {
     echo "load_s $(value load_s load) ($(divide "$bytes" \
         "($(value load_s load) * 1e6)") MB/s with textures and clean-up)," \
         "build_s $(value build_s load)"
+    for format in ply stl; do
+        "$build/bench/grid" 1000 500 "$format" >"$work/grid.$format"
+    done
+    "$build/bench/loads" "$work/grid.obj" "$work/grid.ply" "$work/grid.stl"
 }
 
 bench_sampling() {

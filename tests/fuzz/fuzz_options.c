@@ -8,8 +8,8 @@
 static void check(const struct options *o)
 {
     require(o->show_help || o->show_version || o->scene_path ||
-                o->list_devices || o->list_sessions || o->probe ||
-                (o->picture_path && o->reference_path),
+                o->list_devices || o->list_formats || o->list_sessions ||
+                o->probe || (o->picture_path && o->reference_path),
             "a scene or two pictures");
     require(o->error_limit >= 0 && o->error_limit <= 1, "an error");
     require(o->time_ns <= UINT64_C(1000000000000000000), "a time");

@@ -28,7 +28,20 @@ failed=0
 # minutes, or all of the memory.
 generate()
 {
-    mkdir -p "$work/"{mtl,obj,scene}
+    mkdir -p "$work/"{mtl,obj,ply,scene}
+    # a hub of 100,000 faces, each a colour of its own and each twice
+    awk 'BEGIN {
+        n = 100000
+        print "ply\nformat ascii 1.0\nelement vertex " n + 1
+        print "property float x\nproperty float y\nproperty float z"
+        print "element face " 2 * n "\nproperty list uchar int vertex_index"
+        print "property uchar red\nproperty ushort green"
+        print "property uchar blue\nend_header\n0 0 1"
+        for (i = 0; i < n; i++)
+            print cos(i), sin(i), i % 7
+        for (i = 0; i < 2 * n; i++)
+            print 3, 0, i % n + 1, (i + 1) % n + 1, 1, i, 2
+    }' >"$work/ply/hub"
     # a star polygon, whose edges cross nearly all others
     awk 'BEGIN {
         n = 8000

@@ -36,6 +36,8 @@ search() # NAME
     case $name in
     obj | scene) seeds "$name" obj ;;
     mtl) seeds mtl mtl ;;
+    ply) seeds ply ply ;;
+    stl) seeds stl stl STL ;;
     view) seeds view view ;;
     image) seeds image png jpg tga ;;
     *) seeds "$name" ;;

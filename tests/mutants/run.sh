@@ -44,7 +44,8 @@ try() # name, file, sed expression, test
 }
 
 mkdir -p "$copy"
-# times are kept, so that only changes are compiled
+# without files that are gone; times are kept, so that only changes are compiled
+find "$copy" -mindepth 1 -maxdepth 1 ! -name build -exec rm -r {} +
 git ls-files -z | tar --null -T - -c | tar -x -C "$copy"
 while IFS='|' read -r name file change test; do
     case $name in

@@ -302,8 +302,8 @@ static void open_scene(struct series *of, const char *path)
     view_init(&of->view);
     stop_if(!view_find(&of->view, path, NULL, &view_path, &report, &err), &err);
     view_set_size(&of->view, WIDTH, HEIGHT);
-    stop_if(!scene_open(&of->scene, &of->host, &of->view, path, false, 2,
-                        &report, &err),
+    stop_if(!scene_open(&of->scene, &of->host, &of->view, path,
+                        SCENE_UP_OF_FILE, 2, &report, &err),
             &err);
     stop_if(!world_guide(&of->host, &of->scene, &of->view, &err), &err);
     warnings_free(&report);

@@ -191,8 +191,15 @@ stress_keys() {
 stress_films() {
     mkdir "$work/films"
     # shellcheck disable=SC2086,SC2046 # words
-    count_rows films tests/stress/films.sh "$build/glim" "$work/films" \
+    count_rows films tests/stress/films.sh "$(realpath "$build")/glim" "$work/films" \
         $(printf "$PWD/scenes/%s.obj " $scenes)
+}
+
+# Runs the recipes of docs/cluster.md.
+stress_schedulers() {
+    mkdir "$work/schedulers"
+    count_rows schedulers tests/stress/schedulers.sh "$(realpath "$build")/glim" \
+        "$work/schedulers" scenes/cornell.obj
 }
 
 stress_error() {
@@ -207,7 +214,7 @@ stress_extremes() {
     rows extremes
 }
 
-for name in samples geometry light films error filter blender extremes sizes keys rays oclgrind valgrind; do
+for name in samples geometry light films schedulers error filter blender extremes sizes keys rays oclgrind valgrind; do
     if wanted "$name"; then
         "stress_$name"
     fi

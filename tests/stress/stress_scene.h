@@ -180,9 +180,10 @@ static inline void load_scene(struct scene *scene, struct host_world *host,
 
     *scene = (struct scene){0};
     *host = (struct host_world){.tris = NULL};
-    o->is_refused = !scene_load(scene, "a.obj", false, &report, &o->err) ||
-                    !world_init(host, scene, 1, &report, &o->err) ||
-                    !world_load_sky(host, view, &report, &o->err);
+    o->is_refused =
+        !scene_load(scene, "a.obj", SCENE_UP_OF_FILE, &report, &o->err) ||
+        !world_init(host, scene, 1, &report, &o->err) ||
+        !world_load_sky(host, view, &report, &o->err);
     for (int i = 0; i < report.entry_count; i++)
         o->warning_count += report.entries[i].count;
     warnings_free(&report);

@@ -31,7 +31,8 @@ static inline int open_scene(void **state)
                  "o lamp\nusemtl lamp\nf 1 2 3\no ball\nusemtl wall\nf 1 2 3\n"
                  "o floor\nusemtl wall\nf 1 2 3\n");
     put("s.mtl", "newmtl lamp\nKe 3 2 1\nnewmtl wall\nKd .5 .5 .5\n");
-    return scene_load(&scene, "s.obj", false, &report, &err) ? 0 : -1;
+    return scene_load(&scene, "s.obj", SCENE_UP_OF_FILE, &report, &err) ? 0
+                                                                        : -1;
 }
 
 static inline int close_scene(void **state)

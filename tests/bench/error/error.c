@@ -113,6 +113,7 @@ static const struct subject {
     {"coat", MADE, DIRECT_MIS, 0.95},
     {"sheen", MADE, DIRECT_MIS, 0.95},
     {"grain", MADE, DIRECT_MIS, 0.95},
+    {"film", MADE, DIRECT_MIS, 0.95},
     {"absorbing", MADE, DIRECT_MIS, 0.95},
     {"frosted", MADE, DIRECT_MIS, 0.95},
 };

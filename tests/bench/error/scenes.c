@@ -2,9 +2,9 @@
 /*
  * scenes - writes special scenes that are not shipped, to measure the limits of
  * light sampling: plates lamps2000 sun balls sunball; some with a layer or a
- * glass of the principled surface: coat sheen grain absorbing frosted; and two
- * to compare with other renderers: glass_box, whose glass has flat sides only,
- * and door_room
+ * glass of the principled surface: coat sheen grain film absorbing frosted; and
+ * two to compare with other renderers: glass_box, whose glass has flat sides
+ * only, and door_room
  *
  * usage: scenes FOLDER
  */
@@ -276,6 +276,9 @@ static void make_surfaces(void)
     make_surface("coat", "Kd .6 .1 .05\nKs .5\nPr .5\nPc 1\nPcr .1\n", false);
     make_surface("sheen", "Kd .1 .1 .3\nPs 1\n", false);
     make_surface("grain", "Kd .9 .8 .6\nPm 1\nPr .4\naniso .8\n", false);
+    make_surface("film",
+                 "Kd .05 .05 .05\nKs .5\nPr .2\nPf 1\nPf_thickness 400\n",
+                 false);
     make_surface("absorbing", "illum 7\nNi 1.5\nTf .3 .7 .5\nTf_distance .5\n",
                  false);
     make_surface("frosted", "illum 4\nNi 1.5\nTf .9 .95 1\nPr .4\n", true);

@@ -60,7 +60,7 @@ static void add_square(struct scene *s, uint32_t a, uint32_t across)
                          .vt = {NO_INDEX, NO_INDEX, NO_INDEX}};
 }
 
-/* Fills the scene as obj_read() does. */
+/* Fills the scene as obj_parse() does. */
 static bool make_terrain(struct scene *s, uint32_t across, struct error *err)
 {
     uint32_t along = across / 2;
@@ -115,7 +115,7 @@ static bool load_file(struct scene *s, const char *name, const char *shared,
     bool ok = access(path, R_OK) == 0;
 
     err->text[0] = '\0';
-    ok = ok && scene_load(s, path, false, report, err) &&
+    ok = ok && scene_load(s, path, SCENE_UP_OF_FILE, report, err) &&
          view_read(view, camera, report, err);
     free(folder);
     free(path);

@@ -204,6 +204,10 @@ table_oidn() {
     plain oidn
 }
 
+table_surfaces() {
+    plain surfaces
+}
+
 table_blender() {
     plain blender
 }

@@ -26,7 +26,7 @@ mkdir -p "$results" "$cache"
 
 shipped='cornell materials glass_mirror interior skylit lights200'
 sections='samples cores frames triangles features convergence peers oidn stress'
-sections="$sections calibration filter adaptive blender"
+sections="$sections calibration filter adaptive blender surfaces"
 
 say() {
     echo "results: $*"
@@ -351,6 +351,22 @@ measure_filter() {
     stress_log filter
     sed -n 's#^\(ok\|FAIL\) filter: scenes/\([a-z_0-9]*\).obj, \([0-9]*\) spp: relMSE \([0-9.e+-]*\), filtered \([0-9.e+-]*\), own \([0-9.e+-]*\);.*#\2,\3,\4,\5,\6#p' "$log" |
         save filter 'scene,samples per pixel,relMSE raw,filtered,own error of the reference'
+}
+
+# Error of scenes with layers, special glass and caustics of the sun after 64
+# samples, with all techniques and by the first integrator.
+measure_surfaces() {
+    local scene
+
+    for scene in coat sheen grain film absorbing frosted sunball; do
+        make -s bench-error ROUNDS=3 FILTER="$scene" >"$work/said"
+        awk -F, '$3 == 64 { error[$2] = $5; s[$2] = $4 }
+            END { a = "everything"; b = "first integrator"
+                printf "%s,%.2g,%.2f,%.2g,%.2f\n", scene, error[a], s[a],
+                    error[b], s[b] }' scene="$scene" build/bench-error/error.csv |
+            sed "s/\$/,$(sed -n "s/^$scene  *\([0-9.e+]*\) times.*/\1/p" \
+                "$work/said")/"
+    done | save surfaces 'scene,relMSE,seconds,relMSE of the first integrator,seconds,error lower by'
 }
 
 measure_blender() {

@@ -30,6 +30,30 @@ for options in '-s 40' '-s 24 --adaptive --denoise' '-e 20%'; do
     same many.png one.png
 done
 
+# all ranks have rendered, and their samples together are those of the picture
+timeout -k 5 60 mpirun --oversubscribe -n 3 "$mpi" $b -w 480 -h 360 -s 16 \
+    --stats ranks.json -o many.png box.obj 2>/dev/null
+awk -F '[:,]' '/"samples":/ { if (/answers/) { sum += $2; ranks++; none += $2 == 0 }
+        else all = $2 }
+    END { print ranks " ranks, " none " without samples, " \
+        (sum == all ? "all" : sum " of " all) " samples" }' ranks.json
+
+# ranks that the program starts have its kernels and instruction set
+cp -r "$root/kernels" k
+echo '/* another version */' >>k/path.h
+glim $b -s 3 -o one.png box.obj 2>/dev/null
+timeout -k 5 100 "$mpi" $b -s 3 --ranks 2 --kernels k -o many.png box.obj \
+    2>&1 | untimed
+same many.png one.png
+timeout -k 5 60 "$mpi" $b -s 100000 -w 320 --ranks 2 --isa plain -o many.png \
+    box.obj 2>/dev/null &
+until pgrep -f -- "$mpi --worker --backend cpu --isa plain -t 1" >/dev/null; do
+    sleep 0.1
+done
+kill $!
+wait $! 2>/dev/null
+echo "ended by a signal: $?"
+
 # a killed job goes on, with another number of ranks
 glim $b -s 300 -w 96 -o one.png box.obj 2>/dev/null
 timeout -s KILL 1.5 mpirun --oversubscribe -n 4 "$mpi" $b -w 96 -s 300 \

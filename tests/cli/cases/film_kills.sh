@@ -56,3 +56,20 @@ mkdir disk
 unshare -m true 2>/dev/null && own='unshare -m' || own=
 $own sh -c '. "$CLI/lib.sh"; . ./fill.sh'
 kind x.png
+
+# what cannot be written at the end is named, and the other files are written
+for outputs in '--film f.film -o p.pfm' '--film gone/f.film -o p.pfm' \
+    '--film gone/f.film -o gone/p.pfm'; do
+    mkdir gone
+    glim -b -s 100000 -w 96 -h 72 --checkpoint gone/c.film \
+        --checkpoint-interval 0.1 $outputs box.obj 2>said &
+    until [ -f gone/c.film ]; do sleep 0.05; done
+    mv gone went
+    kill -TERM $!
+    wait $!
+    echo "exit $?"
+    grep '^glim: [^w]' said
+    rm -r went
+done
+kind p.pfm
+glim info f.film | grep -o picture.*

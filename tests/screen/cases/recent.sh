@@ -15,7 +15,9 @@ done
 fresh
 size=120x21
 start_line "cd / && TERM=tmux-256color glim; status=\$?; cd - >/dev/null; (exit \$status)"
-wait_for "^  1  .*/lamp.obj"
+# The question is the last line; a key before it would be echoed between the lines.
+wait_for "^number or file of a scene"
+expect "^  1  .*/lamp.obj"
 expect "^  2  .*/flat.obj"
 keys 7 Enter
 wait_for "7: no such scene"
@@ -26,13 +28,15 @@ keys q
 expect_end 0
 fresh
 start_line "TERM=tmux-256color glim"
-wait_for "^  1  .*/flat.obj" # it was opened last
+wait_for "^number or file of a scene"
+expect "^  1  .*/flat.obj" # it was opened last
 keys q Enter
 expect_end 0
 # With options, but no scene, it is the same; they count.
 fresh
 start_line "TERM=tmux-256color glim --color mono -t 1"
-wait_for "^  1  .*/flat.obj"
+wait_for "^number or file of a scene"
+expect "^  1  .*/flat.obj"
 keys Enter
 wait_for "LIVE .* mono "
 keys q

@@ -28,7 +28,7 @@ static atomic_long call_count; /* allocations since the run began */
 static atomic_long live_count; /* blocks that are not freed */
 static long failing;           /* number of the call that fails; 0: none */
 
-static char picture_path[200];
+static char picture_path[200], film_path[200];
 
 static bool fails(void)
 {
@@ -161,8 +161,10 @@ static bool render(struct glim *g, struct outcome *o, const char *picture)
            glim_set_threads(g, 2, &o->err) &&
            glim_set_denoise(g, true, &o->err) &&
            glim_render(g, 2, 0, NULL, NULL, &o->err) == GLIM_DONE &&
-           glim_read_bytes(g, o->rgb, BYTES, &o->err) &&
-           glim_save(g, picture, &o->err);
+           glim_save(g, picture, &o->err) &&
+           glim_save_film(g, film_path, &o->err) &&
+           glim_load_films(g, &(const char *){film_path}, 1, &o->err) &&
+           glim_read_bytes(g, o->rgb, BYTES, &o->err);
 }
 
 /* Opens, renders and saves; allocation n fails. */
@@ -211,9 +213,11 @@ static void every_allocation_may_fail(void **state)
 {
     (void)state;
     snprintf(picture_path, sizeof picture_path, "%s/picture.png", folder);
+    snprintf(film_path, sizeof film_path, "%s/film", folder);
     check_scene("scenes/cornell.obj");
     check_scene("scenes/skylit.obj");
     unlink(picture_path);
+    unlink(film_path);
 }
 
 int main(void)

@@ -24,10 +24,26 @@ static void fail_formats_one_line_and_returns_false(void **state)
     assert_int_equal(strlen(err.text), sizeof err.text - 1);
 }
 
+static void failures_are_added_in_the_same_line(void **state)
+{
+    struct error err, more, cut;
+
+    (void)state;
+    fail(&err, "a.film: full");
+    fail(&more, "b.film: gone");
+    error_add(&err, &more);
+    assert_string_equal(err.text, "a.film: full; b.film: gone");
+    memset(cut.text, 'x', sizeof cut.text);
+    cut.text[sizeof cut.text - 4] = '\0';
+    error_add(&cut, &more);
+    assert_string_equal(cut.text + sizeof cut.text - 5, "x; b");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fail_formats_one_line_and_returns_false),
+        cmocka_unit_test(failures_are_added_in_the_same_line),
     };
 
     setlocale(LC_CTYPE, "C.UTF-8");

@@ -6,9 +6,10 @@
 #include "tests/unit/check.h"
 #include "tests/unit/mesh.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-#include "cluster/band.h"
+#include "cluster/band_answer.h"
 #include "picture/film_merge.h"
 #include "render/cpu_dispatch.h"
 
@@ -58,13 +59,13 @@ static int close_room(void **state)
 
 static const struct cancel never;
 
-static struct pass pass_to(uint64_t target, bool has_shares)
+static struct pass pass_to(uint64_t done, uint64_t target, bool has_shares)
 {
-    return (struct pass){.stride = 1,
-                         .target = target,
-                         .shares = has_shares ? shares : NULL,
-                         .samples = 100,
-                         .order = 3};
+    struct pass pass = {.stride = 1,
+                        .shares = has_shares ? shares : NULL,
+                        .order = 3};
+
+    return pass_with(pass, target, target - done);
 }
 
 static void make_film(struct film *f, uint64_t first_sample)
@@ -85,16 +86,30 @@ static void render_whole(struct film *f, const struct pass *pass)
     assert_true(backend->pass(backend, pass, &never, &err) == PASS_DONE);
 }
 
+static struct band_range rows_of(int y, int rows, const struct pass *pass)
+{
+    return (struct band_range){.y = y, .rows = rows, .pass = *pass};
+}
+
+static void render_range(struct band *band, const struct film *f,
+                         const struct band_range *range,
+                         const struct cancel *cancel, enum pass_result result)
+{
+    struct error err = {""};
+
+    check_or_say(band_init(band, WIDTH, range, true, &err), err.text);
+    band_take(band, f, range);
+    assert_true(band_render(band, backend, &mesh.host, &mesh.world, 11, 7,
+                            f->first_sample, cancel, &err) == result);
+}
+
 static void render_band(struct film *f, int y, int rows,
                         const struct pass *pass)
 {
+    struct band_range range = rows_of(y, rows, pass);
     struct band band;
-    struct error err = {""};
 
-    check_or_say(band_init(&band, WIDTH, y, rows, true, pass, &err), err.text);
-    band_take(&band, f, pass);
-    assert_true(band_render(&band, backend, &mesh.host, &mesh.world, 11, 7,
-                            f->first_sample, &never, &err) == PASS_DONE);
+    render_range(&band, f, &range, &never, PASS_DONE);
     film_merge(f, y, &band.film);
     band_free(&band);
 }
@@ -128,7 +143,8 @@ static void bands_make_the_whole_film(void **state)
     for (int i = 0; i < 3; i++) {
         static const uint64_t firsts[] = {0, 0, 1000};
         bool has_shares = i == 1;
-        struct pass to_16 = pass_to(16, false), to_40 = pass_to(40, has_shares);
+        struct pass to_16 = pass_to(0, 16, false),
+                    to_40 = pass_to(16, 40, has_shares);
         struct film whole, parts;
 
         make_film(&whole, firsts[i]);
@@ -148,20 +164,17 @@ static void bands_make_the_whole_film(void **state)
 /* A band that is cancelled has whole samples, and the rest follows. */
 static void cancelled_bands_lose_nothing(void **state)
 {
-    struct pass to_40 = pass_to(40, false);
+    struct pass to_40 = pass_to(0, 40, false);
+    struct band_range range = rows_of(0, 16, &to_40);
     struct cancel now = {.deadline_ns = 1};
     struct film whole, parts;
     struct band band;
-    struct error err;
 
     (void)state;
     make_film(&whole, 0);
     make_film(&parts, 0);
     render_whole(&whole, &to_40);
-    assert_true(band_init(&band, WIDTH, 0, 16, true, &to_40, &err));
-    band_take(&band, &parts, &to_40);
-    assert_true(band_render(&band, backend, &mesh.host, &mesh.world, 11, 7, 0,
-                            &now, &err) == PASS_CANCELLED);
+    render_range(&band, &parts, &range, &now, PASS_CANCELLED);
     film_merge(&parts, 0, &band.film);
     band_free(&band);
     render_bands(&parts, &to_40);
@@ -170,11 +183,60 @@ static void cancelled_bands_lose_nothing(void **state)
     film_free(&parts);
 }
 
+/* Bands of a pass that ranks would have, whose answers come in any order. */
+static void slices_make_the_whole_film(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        struct pass to_16 = pass_to(0, 16, false),
+                    to_200 = pass_to(16, 200, i == 1);
+        struct band_answer *answers[200];
+        struct band_range ranges[200];
+        size_t sizes[200];
+        struct film whole, parts;
+        struct band_plan plan;
+        int count = 0, done = 0;
+        struct error err = {""};
+
+        make_film(&whole, 0);
+        make_film(&parts, 0);
+        render_whole(&whole, &to_16);
+        render_whole(&parts, &to_16);
+        render_whole(&whole, &to_200);
+        plan = band_plan_begin(&parts, &to_200, 5, HEIGHT);
+        assert_int_equal(plan.slices, 3); /* 15 bands of rows for 5 ranks */
+        for (; band_plan_next(&plan, &ranges[count]); count++) {
+            struct band band;
+
+            render_range(&band, &parts, &ranges[count], &never, PASS_DONE);
+            answers[count] = band_answer_make(&band, 1, "", &sizes[count]);
+            band_free(&band);
+        }
+        assert_true(count >= 20);
+        /* the newest first, and none before those that it follows */
+        while (done < count) {
+            int k = count - 1;
+
+            while (answers[k] == NULL || !band_plan_is_next(&parts, &ranges[k]))
+                k--;
+            check_or_say(band_answer_add(answers[k], sizes[k], &parts, &err),
+                         err.text);
+            free(answers[k]);
+            answers[k] = NULL;
+            done++;
+        }
+        check_same(&whole, &parts);
+        film_free(&whole);
+        film_free(&parts);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bands_make_the_whole_film),
         cmocka_unit_test(cancelled_bands_lose_nothing),
+        cmocka_unit_test(slices_make_the_whole_film),
     };
 
     return cmocka_run_group_tests(tests, open_room, close_room);

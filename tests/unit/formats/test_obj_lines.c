@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "formats/scene_load.h"
 #include "tests/unit/formats/obj_texts.h"
 #include "tests/unit/locales.h"
 
@@ -143,8 +144,12 @@ static void other_files_are_refused(void **state)
     l = load_bytes("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
     assert_false(l.ok);
     unload(&l);
-    assert_false(obj_read(&l.scene, "/", &l.report, &l.err));
-    assert_false(obj_read(&l.scene, "no/such.obj", &l.report, &l.err));
+    assert_false(
+        scene_load(&l.scene, "/", SCENE_UP_OF_FILE, &l.report, &l.err));
+    assert_string_equal(l.err.text, "/: found a folder, expected a file");
+    assert_false(scene_load(&l.scene, "no/such.obj", SCENE_UP_OF_FILE,
+                            &l.report, &l.err));
+    assert_string_equal(l.err.text, "no/such.obj: no such file or folder");
     unload(&l);
 }
 

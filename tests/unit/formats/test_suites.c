@@ -30,7 +30,7 @@ static struct loaded load(const char *path)
 {
     struct loaded l = {.ok = false};
 
-    l.ok = scene_load(&l.scene, path, false, &l.report, &l.err) &&
+    l.ok = scene_load(&l.scene, path, SCENE_UP_OF_FILE, &l.report, &l.err) &&
            world_init(&l.world, &l.scene, 1, &l.report, &l.err);
     return l;
 }

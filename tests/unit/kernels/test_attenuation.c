@@ -212,7 +212,7 @@ static void files_state_colour_and_distance(void **state)
     put("a.obj", obj);
     view_init(&view);
     view.pose.eye[2] = 5;
-    check_or_say(scene_load(&scene, "a.obj", false, &report, &err) &&
+    check_or_say(scene_load(&scene, "a.obj", SCENE_UP_OF_FILE, &report, &err) &&
                      world_init(&host, &scene, 1, &report, &err) &&
                      world_lend(&host, &scene, &view, 0, &w.world, &err) &&
                      bvh_build(&bvh, &w.world, NULL, &err),

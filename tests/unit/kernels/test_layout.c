@@ -83,14 +83,13 @@
       M(settings, material_count) M(settings, texture_count)                  \
       M(settings, texel_count) M(settings, light_count)                       \
       M(settings, light_node_count) M(settings, sky_cdf_count)                \
-      M(settings, guide) M(settings, caustic_grids)                           \
-      M(settings, caustic_cell_count) M(settings, caustic_group_count)        \
-      M(settings, caustic_bin_count)                                          \
-    S(caustic_group) M(caustic_group, p) M(caustic_group, before)             \
-      M(caustic_group, dx) M(caustic_group, dy) M(caustic_group, share)       \
-      M(caustic_group, first_bin) M(caustic_group, bin_count)                 \
-      M(caustic_group, level) M(caustic_group, next)                          \
-    S(caustic_bin) M(caustic_bin, index) M(caustic_bin, sum)                  \
+      M(settings, guide) M(settings, caustic_node_count)                      \
+      M(settings, caustic_lobe_count)                                         \
+    S(caustic_node) M(caustic_node, split) M(caustic_node, next)              \
+    S(caustic_lobe) M(caustic_lobe, axis) M(caustic_lobe, height)             \
+      M(caustic_lobe, u) M(caustic_lobe, v) M(caustic_lobe, du)               \
+      M(caustic_lobe, dv) M(caustic_lobe, u0) M(caustic_lobe, v0)             \
+      M(caustic_lobe, scale) M(caustic_lobe, sum)                             \
     S(ray) M(ray, o) M(ray, d) M(ray, t_max) M(ray, key) M(ray, from)         \
     S(path_sample) M(path_sample, radiance) M(path_sample, rays)              \
       M(path_sample, cut)                                                     \

@@ -62,7 +62,7 @@ static void load(struct loaded *l, const char *statements)
     put_bytes("a.obj", obj, sizeof obj - 1);
     view_init(&l->view);
     l->view.pose.eye[2] = 5;
-    if (!scene_load(&l->scene, "a.obj", false, &l->report, &err) ||
+    if (!scene_load(&l->scene, "a.obj", SCENE_UP_OF_FILE, &l->report, &err) ||
         !world_init(&l->host, &l->scene, 2, &l->report, &err) ||
         !world_lend(&l->host, &l->scene, &l->view, 0, &l->world, &err))
         print_error("%s\n", err.text);
@@ -230,7 +230,8 @@ static void many_images_are_read(void **state)
     }
     assert_int_equal(fclose(obj), 0);
     assert_int_equal(fclose(mtl), 0);
-    assert_true(scene_load(&scene, "many.obj", false, &report, &err));
+    assert_true(
+        scene_load(&scene, "many.obj", SCENE_UP_OF_FILE, &report, &err));
     assert_true(world_init(&host, &scene, 2, &report, &err));
     assert_int_equal(report.entry_count, 1);
     for (int i = 0; i < MANY; i++) {

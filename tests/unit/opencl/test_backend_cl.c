@@ -92,7 +92,8 @@ static void open_pair(struct pair *p, const char *path, int width, int height)
     view_init(&p->view);
     assert_non_null(cpu);
     check_or_say(view_read(&p->view, view_path, &report, &err) &&
-                     scene_load(&p->scene, path, false, &report, &err) &&
+                     scene_load(&p->scene, path, SCENE_UP_OF_FILE, &report,
+                                &err) &&
                      world_init(&p->world, &p->scene, 1, &report, &err) &&
                      world_load_sky(&p->world, &p->view, &report, &err) &&
                      world_guide(&p->world, &p->scene, &p->view, &err),
@@ -628,7 +629,7 @@ static void load_again(struct pair *p, const char *path)
     struct host_world world;
     struct error err;
 
-    check_or_say(scene_load(&scene, path, false, &report, &err) &&
+    check_or_say(scene_load(&scene, path, SCENE_UP_OF_FILE, &report, &err) &&
                      world_init(&world, &scene, 1, &report, &err),
                  err.text);
     assert_true(scene_has_same_shape(&scene, &p->scene));

@@ -92,7 +92,8 @@ static struct loaded load(const char *path)
     struct loaded l = {.report = {0}};
     struct error err;
 
-    check_or_say(scene_load(&l.scene, path, false, &l.report, &err) &&
+    check_or_say(scene_load(&l.scene, path, SCENE_UP_OF_FILE, &l.report,
+                            &err) &&
                      world_init(&l.world, &l.scene, 1, &l.report, &err),
                  err.text);
     return l;

@@ -24,12 +24,12 @@ struct loaded {
     struct error err;
 };
 
-static struct loaded load_turned(const char *text, bool up_is_z)
+static struct loaded load_turned(const char *text, enum scene_up up)
 {
     struct loaded l = {.scene = {.path = NULL}};
 
     put_bytes("a.obj", text, strlen(text));
-    if (!scene_load(&l.scene, "a.obj", up_is_z, &l.report, &l.err) ||
+    if (!scene_load(&l.scene, "a.obj", up, &l.report, &l.err) ||
         !world_init(&l.world, &l.scene, 2, &l.report, &l.err)) {
         print_error("%s\n", l.err.text);
         _fail(__FILE__, __LINE__);
@@ -40,7 +40,7 @@ static struct loaded load_turned(const char *text, bool up_is_z)
 
 static struct loaded load(const char *text)
 {
-    return load_turned(text, false);
+    return load_turned(text, SCENE_UP_OF_FILE);
 }
 
 static void unload(struct loaded *l)
@@ -239,7 +239,7 @@ static void z_up_turns_the_scene(void **state)
 {
     struct loaded l = load_turned("v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 -1 0\n"
                                   "vn 0 1 0\nf 1//1 2//1 3//1\nf 1 2 4\n",
-                                  true);
+                                  SCENE_UP_Z);
     const struct vec3 *p = l.scene.positions;
 
     (void)state;

@@ -76,7 +76,8 @@ static void defaults_are_set(void **state)
     assert_int_equal(o.max_bounces, -1);
     assert_false(o.has_max_bounces);
     assert_int_equal(o.seed, 0);
-    assert_false(o.batch || o.up_is_z || o.has_crop || o.phoe_keys);
+    assert_false(o.batch || o.up != SCENE_UP_OF_FILE || o.has_crop ||
+                 o.phoe_keys);
     assert_int_equal(o.display.color, COLOR_AUTO);
     assert_int_equal(o.display.glyph, GLYPH_AUTO);
     assert_true(o.display.cell_aspect == 0.0);
@@ -93,7 +94,7 @@ static void every_option_sets_its_value(void **state)
              "-w 1280 -h 720 -s 500 --crop 1,2,3,4 --up z -f house.obj");
 
     (void)state;
-    assert_true(o.batch && o.up_is_z && o.has_crop);
+    assert_true(o.batch && o.up == SCENE_UP_Z && o.has_crop);
     assert_int_equal(o.thread_count, 2);
     assert_int_equal(o.seed, 7);
     assert_true(o.has_max_bounces);
@@ -132,7 +133,7 @@ static void words_select_values(void **state)
     assert_int_equal(good("a --glyph braille").display.glyph, GLYPH_BRAILLE);
     assert_int_equal(good("a --glyph sixel").display.glyph, GLYPH_SIXEL);
     assert_int_equal(good("a --glyph kitty").display.glyph, GLYPH_KITTY);
-    assert_false(good("a --up y").up_is_z);
+    assert_int_equal(good("a --up y").up, SCENE_UP_Y);
     assert_true(good("a --phoe-keys").phoe_keys);
     assert_true(good("a --cell-aspect 1.5e0").display.cell_aspect == 1.5);
     bad("a --color red",

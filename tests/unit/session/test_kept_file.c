@@ -18,6 +18,7 @@
 static char view[] = "eye 0 0 5\n";
 static char list[] = "m\n-\n0\n";
 static char mtl[] = "newmtl m0\nKd 1 0 0\n";
+static char history[] = "0 0\n";
 static char film[] = "any bytes\0 of a film";
 static char scene[] = "/a b/s.obj";
 
@@ -28,9 +29,9 @@ static struct kept some_session(void)
         .is_live = true,
         .has_edits = true,
         .render_ns = UINT64_C(200000000000),
-        .parts = {view, list, mtl, film},
+        .parts = {view, list, mtl, history, film},
         .sizes = {sizeof view - 1, sizeof list - 1, sizeof mtl - 1,
-                  sizeof film},
+                  sizeof history - 1, sizeof film},
     };
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_session_film.c - what makes two films films of the same picture, and the
- * samples of shares
+ * test_session_film.c - what makes two films films of the same picture, the
+ * samples of shares, and checkpoints on a slow disk
  */
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -16,7 +18,27 @@
 #define MTL  "newmtl m\nKd 0.5 0.5 0.5\n"
 #define VIEW "eye 0 0 5\nat 0 0 0\nbackground 1 1 1\n"
 
-static const char *const names[] = {"s.obj", "s.mtl", "s.view", "s.film"};
+static const char *const names[] = {"s.obj", "s.mtl", "s.view", "s.film",
+                                    "c.film"};
+
+/* A disk that does not answer until it is released. */
+static atomic_bool is_slow, is_writing, is_released;
+
+static void rest(void)
+{
+    nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+}
+
+int __real_fsync(int fd);
+int __wrap_fsync(int fd);
+
+int __wrap_fsync(int fd)
+{
+    atomic_store(&is_writing, true);
+    while (atomic_load(&is_slow) && !atomic_load(&is_released))
+        rest();
+    return __real_fsync(fd);
+}
 
 static int leave(void **state)
 {
@@ -166,12 +188,49 @@ static void shares_cover_all_samples(void **state)
         }
 }
 
+/* While the disk holds a checkpoint, the render goes on and can be halted. */
+static void renders_do_not_wait_for_the_disk(void **state)
+{
+    struct options o = some_options();
+    struct render_progress before, p;
+    struct session_film f;
+    struct session s;
+    struct error err;
+
+    (void)state;
+    put_files(OBJ, MTL, VIEW);
+    o.checkpoint_path = "c.film";
+    o.checkpoint_ns = 100000000;
+    o.has_spp = true;
+    o.spp = 1000000000;
+    check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
+    check_or_say(session_film_begin(&f, &s, &err), err.text);
+    atomic_store(&is_slow, true);
+    check_or_say(session_restart(&s, options_limits(&o), &err), err.text);
+    check_or_say(session_film_watch(&f, &err), err.text);
+    while (!atomic_load(&is_writing))
+        rest();
+    before = render_progress(s.render);
+    do {
+        rest();
+        p = render_progress(s.render);
+    } while (p.spp_done < before.spp_done + 1000);
+    render_halt(s.render);
+    assert_int_equal(access("c.film", F_OK), -1);
+    atomic_store(&is_released, true);
+    session_film_stop(&f);
+    assert_int_equal(access("c.film", F_OK), 0);
+    session_film_end(&f);
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_the_picture_counts),
         cmocka_unit_test(options_count),
         cmocka_unit_test(shares_cover_all_samples),
+        cmocka_unit_test(renders_do_not_wait_for_the_disk),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, leave);

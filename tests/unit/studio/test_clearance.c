@@ -72,7 +72,7 @@ static void load(struct obj *o, struct scene *scene)
 
     assert_int_equal(fclose(o->to), 0);
     *scene = (struct scene){0};
-    check_or_say(scene_load(scene, "a.obj", false, &report, &err) &&
+    check_or_say(scene_load(scene, "a.obj", SCENE_UP_OF_FILE, &report, &err) &&
                      world_init(&host, scene, 1, &report, &err),
                  err.text);
     world = world_arrays(&host, scene);

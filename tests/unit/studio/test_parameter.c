@@ -274,7 +274,8 @@ static void open_fixture(struct fixture *s)
         lamp_init(&lamp, (enum lamp_kind)i);
         assert_true(lamps_add(&s->view.lamps, &lamp));
     }
-    check_or_say(scene_load(&s->scene, "k.obj", false, &s->report, &err),
+    check_or_say(scene_load(&s->scene, "k.obj", SCENE_UP_OF_FILE, &s->report,
+                            &err),
                  err.text);
     edit_init(&s->edit, &s->scene, &s->view, &s->report);
 }

@@ -24,7 +24,7 @@ static void load(struct scene *scene, const char *obj)
 
     *scene = (struct scene){0};
     put("a.obj", obj);
-    check_or_say(scene_load(scene, "a.obj", false, &report, &err) &&
+    check_or_say(scene_load(scene, "a.obj", SCENE_UP_OF_FILE, &report, &err) &&
                      world_init(&host, scene, 1, &report, &err),
                  err.text);
     warnings_free(&report);

@@ -94,6 +94,8 @@ static void edits_are_kept_until_they_are_declined(void **state)
 
     (void)state;
     begin(&w);
+    set_exposure(&w, 1);
+    edit_end_step(&w.session.edit);
     set_exposure(&w, 1.5);
     end(&w, true);
     assert_int_equal(count_sessions(), 1);
@@ -107,6 +109,10 @@ static void edits_are_kept_until_they_are_declined(void **state)
     session_keeper_go_on(&w.keeper);
     check_close(exposure(&w), 1.5, 0);
     assert_false(w.keeper.has_offer);
+    /* with its history */
+    assert_non_null(edit_undo(&w.session.edit));
+    check_close(exposure(&w), 1, 0);
+    assert_non_null(edit_redo(&w.session.edit));
     end(&w, true);
     begin(&w);
     assert_true(w.keeper.has_offer);

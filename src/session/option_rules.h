@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
 /*
- * option_table.h - table of all options, and the function that sets each
+ * option_rules.h - table of all options: names, values, the text of --help
  *
- * Units:     as in command_line.h
- * Ownership: strings stay the caller's and must outlive the options
- * Threads:   main only
- * Errors:    a wrong value: the option, the value and the expected one
+ * Ownership: strings live as long as the program
+ * Threads:   any
  */
-#ifndef GLIM_OPTION_TABLE_H
-#define GLIM_OPTION_TABLE_H
+#ifndef GLIM_OPTION_RULES_H
+#define GLIM_OPTION_RULES_H
 
 #include <stdbool.h>
 #include <stddef.h>
-
-#include "session/command_line.h"
 
 enum option_id {
     OPTION_SCENE,
@@ -29,6 +25,7 @@ enum option_id {
     OPTION_SEED,
     OPTION_CROP,
     OPTION_UP,
+    OPTION_FORMATS,
     OPTION_SUN,
     OPTION_TURBIDITY,
     OPTION_THREADS,
@@ -73,8 +70,20 @@ enum option_id {
 struct option_rule {
     const char *name; /* without dashes; one letter is a short option */
     enum option_id id;
-    const char *value; /* the expected value, for messages; NULL: no value */
+    const char *value;    /* the expected value, for messages; NULL: no value */
+    const char *argument; /* the value in --help; NULL: none */
+    const char *help;     /* NULL: not for people */
 };
+
+/* Options under one title of --help. */
+struct option_section {
+    const char *title;
+    const struct option_rule *rules;
+    size_t rule_count;
+};
+
+/* All options; the section after the last has no title. */
+extern const struct option_section option_sections[];
 
 /* Returns true if the value may be missing. It then follows a = sign. */
 static inline bool option_value_is_optional(const struct option_rule *rule)
@@ -82,27 +91,8 @@ static inline bool option_value_is_optional(const struct option_rule *rule)
     return rule->id == OPTION_DENOISE;
 }
 
-/* Option from the command line or a file, with its value. */
-struct option_given {
-    const struct option_rule *rule;
-    char shown[512]; /* "-w", "--seed" or the place in a file, for messages */
-    const char *value;
-};
-
 /* Returns the rule of the option of this name, without dashes; NULL if there is
  * none. */
 const struct option_rule *option_rule_named(const char *name, size_t length);
-
-/* Sets an option. The value must be present if the rule wants one and it is not
- * optional. */
-bool option_set(struct options *o, const struct option_given *g,
-                struct error *err);
-
-/* Sets the scene, which is given without an option. */
-bool option_set_scene(struct options *o, const char *path, struct error *err);
-
-/* Returns a hint to append to a message about a wrong value: -h is the height
- * here, but help in other programs. "" if there is none. */
-const char *option_hint(const struct option_given *g);
 
 #endif

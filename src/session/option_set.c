@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/option_table.h"
+#include "session/option_set.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -26,66 +26,6 @@
 /* Limits of the time between checkpoints. */
 #define INTERVAL_NS_MIN 100000000u
 #define INTERVAL_NS_MAX 86400000000000u
-
-static const struct option_rule rules[] = {
-    {"f", OPTION_SCENE, "the name of a scene"},
-    {"c", OPTION_VIEW, "the name of a view file"},
-    {"w", OPTION_WIDTH, "a width in pixels"},
-    {"h", OPTION_HEIGHT, "a height in pixels"},
-    {"s", OPTION_SPP, "a number of samples"},
-    {"e", OPTION_ERROR, "an error such as 1% or 0.01"},
-    {"time", OPTION_TIME, "a time such as 90, 1.5m or 2h"},
-    {"adaptive", OPTION_ADAPTIVE, NULL},
-    {"no-adaptive", OPTION_NO_ADAPTIVE, NULL},
-    {"d", OPTION_BOUNCES, "a number of bounces"},
-    {"seed", OPTION_SEED, "a number"},
-    {"crop", OPTION_CROP, "X,Y,W,H in pixels"},
-    {"up", OPTION_UP, "y or z"},
-    {"sun", OPTION_SUN, "AZ,EL in degrees"},
-    {"turbidity", OPTION_TURBIDITY, "a number"},
-    {"t", OPTION_THREADS, "a number of threads"},
-    {"backend", OPTION_BACKEND, "cpu, opencl or auto"},
-    {"device", OPTION_DEVICE, "the number or name of a device"},
-    {"list-devices", OPTION_LIST_DEVICES, NULL},
-    {"kernels", OPTION_KERNELS, "the name of a folder"},
-    {"isa", OPTION_ISA, "the name of a set of instructions"},
-    {"probe", OPTION_PROBE,
-     "a number of features"}, /* internal, see cl_probe.h */
-    {"ranks", OPTION_RANKS, "a number of processes"},
-    {"worker", OPTION_WORKER, NULL}, /* internal, see cluster.h */
-    {"b", OPTION_BATCH, NULL},
-    {"o", OPTION_OUTPUT, "the name of a picture"},
-    {"ansi", OPTION_ANSI, "COLSxROWS in characters"},
-    {"show", OPTION_SHOW,
-     "light, preview, normals, faces, uvs, depth, materials or cost"},
-    {"denoise", OPTION_DENOISE, "the name of a picture"},
-    {"stats", OPTION_STATS, "the name of a file"},
-    {"error-map", OPTION_ERROR_MAP, "the name of a picture"},
-    {"film", OPTION_FILM, "the name of a film"},
-    {"checkpoint", OPTION_CHECKPOINT, "the name of a film"},
-    {"checkpoint-interval", OPTION_CHECKPOINT_INTERVAL,
-     "a time such as 90, 1.5m or 2h"},
-    {"resume", OPTION_RESUME, "the name of a film"},
-    {"share", OPTION_SHARE, "I/N such as 3/8"},
-    {"exposure", OPTION_EXPOSURE, "a number of stops"},
-    {"tone", OPTION_TONE, "linear, reinhard or aces"},
-    {"color", OPTION_COLOR, "24, 256, 16, mono or auto"},
-    {"glyph", OPTION_GLYPH,
-     "auto, half, upper, lower, quadrant, sextant, braille, space, ascii, "
-     "sixel or kitty"},
-    {"cell-aspect", OPTION_CELL_ASPECT, "a number"},
-    {"filter", OPTION_FILTER, NULL},
-    {"no-filter", OPTION_NO_FILTER, NULL},
-    {"watch", OPTION_WATCH, NULL},
-    {"phoe-keys", OPTION_PHOE_KEYS, NULL},
-    {"sessions", OPTION_SESSIONS, NULL},
-    {"csv", OPTION_CSV, "the name of a file"},
-    {"seeds", OPTION_SEEDS, "a number of seeds"},
-    {"tiles", OPTION_TILES, "a number of tiles"},
-    {"false-alarms", OPTION_FALSE_ALARMS, "a probability"},
-    {"help", OPTION_HELP, NULL},
-    {"version", OPTION_VERSION, NULL},
-};
 
 static bool parse_digits(const char *text, uint64_t max, uint64_t *value)
 {
@@ -358,7 +298,7 @@ static bool set_word(struct options *o, const struct option_given *g,
     case OPTION_UP:
         if (!choice(g, ups, &index, err))
             return false;
-        o->up_is_z = index == 1;
+        o->up = index == 1 ? SCENE_UP_Z : SCENE_UP_Y;
         return true;
     case OPTION_BACKEND:
         if (!choice(g, backends, &index, err))
@@ -460,6 +400,7 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_WORKER: o->is_worker = true; return true;
     case OPTION_BATCH: o->batch = true; return true;
     case OPTION_LIST_DEVICES: o->list_devices = true; return true;
+    case OPTION_FORMATS: o->list_formats = true; return true;
     case OPTION_SESSIONS: o->list_sessions = true; return true;
     case OPTION_FILTER:
     case OPTION_NO_FILTER: /* the last one counts */
@@ -477,14 +418,4 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_VERSION: o->show_version = true; return true;
     }
     return true;
-}
-
-const struct option_rule *option_rule_named(const char *name, size_t length)
-{
-    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
-        if (strlen(rules[i].name) == length &&
-            memcmp(rules[i].name, name, length) == 0)
-            return &rules[i];
-    }
-    return NULL;
 }

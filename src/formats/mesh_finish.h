@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+/*
+ * mesh_finish.h - completes the scenes of files that have a mesh and no
+ * materials: PLY and STL
+ *
+ * All faces have the material "clay", which an MTL file beside the scene, such
+ * as model.ply.mtl for model.ply, may define anew; glim writes edits there.
+ *
+ * Ownership: everything belongs to the scene
+ * Threads:   one for each scene
+ * Errors:    memory; those of the MTL file
+ */
+#ifndef GLIM_MESH_FINISH_H
+#define GLIM_MESH_FINISH_H
+
+#include "base/lexer.h"
+#include "scene/scene.h"
+
+/* Number of the material of all faces. */
+#define MESH_MATERIAL 1u
+
+/* Sets the scene's path and adds the object of all faces, named "". */
+bool mesh_begin(struct scene *scene, const char *path, struct error *err);
+
+/* Returns sRGB clay: the colour of faces and vertices that have none in a file
+ * with colours. */
+struct vec3 mesh_clay(void);
+
+/* Adds the material, smooth normals if there are none, and the linear colours
+ * of faces, if face_colors is not NULL, to the vertices: those with several
+ * colours are doubled. `texture` is the name of an image file, or empty. */
+bool mesh_finish(struct scene *scene, const struct vec3 *face_colors,
+                 struct word texture, struct warnings *report,
+                 struct error *err);
+
+#endif
