@@ -93,7 +93,7 @@ PROGRAM := $(B)/$(if $(MPI),mpi/)glim
 MPI_PROGRAM := $(if $(SAN),,$(if $(shell command -v mpicc),$(B)/mpi/glim))
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 # libglim: the folders up to src/api/ in the table of CONTRIBUTING.md.
-LIB_FOLDERS := base picture filter bvh light scene formats render opencl api
+LIB_FOLDERS := base picture filter bvh light scene formats load render opencl api
 LIB_OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(foreach d,$(LIB_FOLDERS), \
 	$(wildcard src/$(d)/*.c))) $(B)/kernels.o $(PATHS) $(FILTERS)
 VERSION := $(shell sed -n 's/.*GLIM_VERSION *"\(.*\)"/\1/p' include/glim/version.h)

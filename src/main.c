@@ -22,7 +22,7 @@
 #include "base/memory.h"
 #include "base/print.h"
 #include "glim/version.h"
-#include "formats/scene_format.h"
+#include "load/scene_format.h"
 #include "render/cpu_dispatch.h"
 #include "opencl/cl_device.h"
 #include "opencl/cl_environment.h"

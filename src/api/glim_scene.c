@@ -9,7 +9,7 @@
 #include "base/event_fd.h"
 #include "base/memory.h"
 #include "scene/world_materials.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 
 bool handle_fail(struct glim_error *to, const struct error *err)
 {

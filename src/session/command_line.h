@@ -15,7 +15,7 @@
 
 #include "base/error.h"
 #include "render/render_loop.h"
-#include "formats/scene_format.h"
+#include "load/scene_format.h"
 #include "terminal/term_caps.h"
 #include "session/keymap.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "terminal/xmalloc.h"
 
 /* ---- states ---- */

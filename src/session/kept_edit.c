@@ -9,7 +9,7 @@
 #include "formats/mtl.h"
 #include "formats/mtl_dialect.h"
 #include "formats/mtl_save.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "formats/view_file.h"
 #include "terminal/xmalloc.h"
 #include "session/session_save.h"

@@ -8,7 +8,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "scene/world_lamps.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "terminal/xmalloc.h"
 
 /* Overrides values of the view file by those of the command line. */

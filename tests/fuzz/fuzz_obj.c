@@ -5,7 +5,7 @@
  * describes the input.
  */
 #include "scene/world.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "fuzz_tris.h"
 
 static void check_textures(const struct host_world *host,

@@ -24,7 +24,7 @@
 #include <unistd.h>
 
 #include "scene/world.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "render/cpu_dispatch.h"
 #include "render/render_loop.h"
 #include "opencl/backend_cl.h"

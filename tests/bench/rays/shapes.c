@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "scene/world.h"
 #include "formats/mtl.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "formats/view_file.h"
 #include "terminal/xmalloc.h"
 #include "kernels/rng.h"

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "formats/scene_format.h"
+#include "load/scene_format.h"
 #include "tests/unit/check.h"
 
 struct mesh_file {

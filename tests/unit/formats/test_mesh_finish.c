@@ -9,7 +9,7 @@
 #include "formats/mesh_finish.h"
 #include "formats/mtl.h"
 #include "formats/mtl_save.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "tests/unit/check.h"
 #include "tests/unit/files.h"
 

@@ -12,7 +12,7 @@
 
 #include "base/file.h"
 #include "scene/world.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/check.h"
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "tests/unit/formats/obj_texts.h"
 #include "tests/unit/locales.h"
 

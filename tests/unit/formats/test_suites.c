@@ -14,7 +14,7 @@
 #include "scene/world.h"
 #include "formats/mtl.h"
 #include "formats/obj.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/check.h"
 

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "scene/world.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "tests/unit/files.h"
 
 #include "kernels/traverse.h"

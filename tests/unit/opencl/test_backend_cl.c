@@ -16,7 +16,7 @@
 #include "scene/world_lamps.h"
 #include "scene/world_materials.h"
 #include "scene/world.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "formats/view_file.h"
 #include "render/cpu_dispatch.h"
 #include "render/render_loop.h"

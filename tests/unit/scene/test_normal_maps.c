@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "scene/world.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/files.h"
 

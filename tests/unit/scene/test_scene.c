@@ -6,7 +6,7 @@
 
 #include "scene/world_lamps.h"
 #include "formats/obj.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "tests/unit/files.h"
 
 /* Two texels: an opaque 255 128 0 and a transparent 10 20 30. */

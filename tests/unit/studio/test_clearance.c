@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "studio/camera_input.h"
 #include "studio/clearance.h"
 

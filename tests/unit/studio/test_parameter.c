@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "studio/material_parameters.h"
 #include "tests/unit/check.h"
 #include "tests/unit/files.h"

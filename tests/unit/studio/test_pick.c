@@ -8,7 +8,7 @@
 
 #include "bvh/bvh.h"
 #include "scene/world.h"
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 #include "studio/pick.h"
 #include "tests/unit/check.h"
 #include "tests/unit/files.h"

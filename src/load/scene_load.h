@@ -11,7 +11,7 @@
 #define GLIM_SCENE_LOAD_H
 
 #include "scene/world.h"
-#include "formats/scene_format.h"
+#include "load/scene_format.h"
 
 /* Loads a scene file with its MTL files and finishes the scene. Models with z
  * up are turned to y up: (x, y, z) becomes (x, z, -y). */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/scene_format.h"
+#include "load/scene_format.h"
 
 #include <string.h>
 #include <strings.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/scene_load.h"
+#include "load/scene_load.h"
 
 #include <stdlib.h>
 #include <string.h>
