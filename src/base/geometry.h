@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * geometry.h - angles, and vectors of three doubles
+ * geometry.h - angles, vectors of three doubles, affine maps
  *
  * Cameras and files are computed in double; kernels/vec.h has the floats of
  * samples.
@@ -62,6 +62,32 @@ static inline bool vec3d_normalize(double v[3])
     v[1] = y / length;
     v[2] = z / length;
     return true;
+}
+
+/* An affine map. m has rows, whose last column is the translation. */
+struct affine {
+    double m[3][4];
+};
+
+static inline void affine_point(const struct affine *a, const double p[3],
+                                double to[3])
+{
+    for (int i = 0; i < 3; i++)
+        to[i] = vec3d_dot(a->m[i], p) + a->m[i][3];
+}
+
+/* Fills the rows of the matrix that moves normals, up to a factor above 0.
+ * Returns true if the map mirrors. */
+static inline bool affine_normals(const struct affine *a, double rows[3][3])
+{
+    bool is_mirror;
+
+    for (int i = 0; i < 3; i++)
+        vec3d_cross(a->m[(i + 1) % 3], a->m[(i + 2) % 3], rows[i]);
+    is_mirror = vec3d_dot(a->m[0], rows[0]) < 0;
+    for (int i = 0; is_mirror && i < 9; i++)
+        rows[i / 3][i % 3] = -rows[i / 3][i % 3];
+    return is_mirror;
 }
 
 #endif

@@ -20,6 +20,23 @@ static const double soft_sky[3] = {0.7, 0.8, 0.9};
 static const double studio_sky[3] = {0.35, 0.37, 0.4};
 static const double studio_lamp[3] = {2.6, 2.5, 2.35};
 
+/* Makes a matrix that maps z-up space to itself map y-up space to itself. */
+static void turn_matrix(struct affine *a)
+{
+    for (int k = 0; k < 4; k++) {
+        double y = a->m[1][k];
+
+        a->m[1][k] = a->m[2][k];
+        a->m[2][k] = -y;
+    }
+    for (int i = 0; i < 3; i++) {
+        double y = a->m[i][1];
+
+        a->m[i][1] = a->m[i][2];
+        a->m[i][2] = -y;
+    }
+}
+
 static void turn_z_up(struct scene *scene)
 {
     for (size_t i = 0; i < scene->position_count; i++) {
@@ -36,6 +53,8 @@ static void turn_z_up(struct scene *scene)
         n->y = n->z;
         n->z = -y;
     }
+    for (uint32_t i = 0; i < scene->instances.count; i++)
+        turn_matrix(&scene->instances.items[i].matrix);
 }
 
 static bool read_file(struct scene *scene, const char *path,

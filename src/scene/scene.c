@@ -278,9 +278,13 @@ static bool finish(struct scene *scene, struct pool *pool,
 bool scene_finish(struct scene *scene, struct warnings *report,
                   struct error *err)
 {
-    struct pool *pool = scene_pool(scene, scene->tri_count);
-    bool ok = finish(scene, pool, report, err);
+    struct pool *pool;
+    bool ok;
 
+    if (!scene_flatten(scene, err))
+        return false;
+    pool = scene_pool(scene, scene->tri_count);
+    ok = finish(scene, pool, report, err);
     pool_destroy(pool);
     if (ok && scene->tri_count == 0)
         warnings_add(
@@ -321,6 +325,7 @@ void scene_free(struct scene *scene)
 {
     free(scene->path);
     free(scene->file_positions);
+    scene_instances_free(&scene->instances);
     free(scene->positions);
     free(scene->normals);
     free(scene->uvs);

@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "base/thread_pool.h"
 #include "base/warnings.h"
+#include "scene/instances.h"
 #include "scene/material.h"
 #include "kernels/types.h"
 
@@ -40,6 +41,7 @@ struct scene {
 
     /* only while loading; freed by scene_finish() */
     double *file_positions; /* 3 coordinates for each vertex */
+    struct scene_instances instances;
 
     struct vec3 *positions;
     uint32_t position_count;

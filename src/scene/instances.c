@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include "scene/instances.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene/scene.h"
+
+/* ---- lists ---- */
+
+static bool out_of_memory(const struct scene *scene, struct error *err)
+{
+    return fail(err, "%s: out of memory for its instances", scene->path);
+}
+
+bool scene_begin_mesh(struct scene *scene, struct error *err)
+{
+    struct scene_instances *s = &scene->instances;
+    void *meshes = s->meshes;
+
+    if (!grow_array(&meshes, &s->mesh_capacity, (size_t)s->mesh_count + 1,
+                    sizeof *s->meshes))
+        return out_of_memory(scene, err);
+    s->meshes = meshes;
+    s->meshes[s->mesh_count] = (struct scene_mesh){
+        .first_tri = scene->tri_count,
+        .first_position = scene->position_count,
+        .first_normal = scene->normal_count,
+    };
+    return true;
+}
+
+uint32_t scene_end_mesh(struct scene *scene)
+{
+    struct scene_instances *s = &scene->instances;
+    struct scene_mesh *mesh = &s->meshes[s->mesh_count];
+
+    mesh->tri_count = scene->tri_count - mesh->first_tri;
+    mesh->position_count = scene->position_count - mesh->first_position;
+    mesh->normal_count = scene->normal_count - mesh->first_normal;
+    return s->mesh_count++;
+}
+
+bool scene_add_instance(struct scene *scene, uint32_t mesh,
+                        const struct affine *matrix, uint32_t object,
+                        struct error *err)
+{
+    struct scene_instances *s = &scene->instances;
+    void *items = s->items;
+
+    if (s->count == NO_INDEX - 1 ||
+        !grow_array(&items, &s->capacity, (size_t)s->count + 1,
+                    sizeof *s->items))
+        return out_of_memory(scene, err);
+    s->items = items;
+    s->items[s->count++] = (struct scene_instance){*matrix, mesh, object};
+    return true;
+}
+
+void scene_instances_free(struct scene_instances *s)
+{
+    free(s->meshes);
+    free(s->items);
+    *s = (struct scene_instances){.meshes = NULL};
+}
+
+/* ---- copies of meshes ---- */
+
+/* Counts of what a scene has with all copies. */
+struct totals {
+    uint64_t tris, positions, normals;
+};
+
+/* A scene's arrays while they are made anew, and how much of them is used. */
+struct flattening {
+    struct scene *scene;
+    struct tri *tris;
+    uint32_t *faces, *objects;
+    uint32_t tri_count;
+    uint32_t position_count, normal_count;
+};
+
+static struct vec3 moved_normal(double rows[3][3], struct vec3 n)
+{
+    const double from[3] = {(double)n.x, (double)n.y, (double)n.z};
+    double to[3];
+
+    for (int i = 0; i < 3; i++)
+        to[i] = vec3d_dot(rows[i], from);
+    if (!vec3d_normalize(to))
+        return (struct vec3){0, 0, 0};
+    return (struct vec3){(float)to[0], (float)to[1], (float)to[2]};
+}
+
+/* Exchanges two corners, and so the sides of the face. */
+static void turn_over(struct tri *t)
+{
+    uint32_t *corners[] = {t->v, t->vn, t->vt};
+
+    for (int i = 0; i < 3; i++) {
+        uint32_t second = corners[i][1];
+
+        corners[i][1] = corners[i][2];
+        corners[i][2] = second;
+    }
+}
+
+/* Copies the vertices and normals of a mesh to the end of the scene's. */
+static void copy_vertices(struct flattening *f, const struct scene_mesh *mesh)
+{
+    struct scene *s = f->scene;
+
+    memcpy(s->file_positions + 3 * (size_t)f->position_count,
+           s->file_positions + 3 * (size_t)mesh->first_position,
+           mesh->position_count * 3 * sizeof *s->file_positions);
+    if (s->color_count > 0)
+        memcpy(s->colors + f->position_count, s->colors + mesh->first_position,
+               mesh->position_count * sizeof *s->colors);
+    if (mesh->normal_count > 0)
+        memcpy(s->normals + f->normal_count, s->normals + mesh->first_normal,
+               mesh->normal_count * sizeof *s->normals);
+}
+
+/* Appends the triangles of a mesh as those of an object, with vertices and
+ * normals from these indices on. */
+static void append_tris(struct flattening *f, const struct scene_mesh *mesh,
+                        uint32_t object, uint32_t first_position,
+                        uint32_t first_normal, bool is_mirror)
+{
+    for (uint32_t i = 0; i < mesh->tri_count; i++) {
+        struct tri t = f->scene->tris[mesh->first_tri + i];
+
+        for (int k = 0; k < 3; k++) {
+            t.v[k] += first_position - mesh->first_position;
+            if (t.vn[k] != NO_INDEX)
+                t.vn[k] += first_normal - mesh->first_normal;
+        }
+        if (is_mirror)
+            turn_over(&t);
+        f->faces[f->tri_count] = f->scene->tri_faces[mesh->first_tri + i];
+        f->objects[f->tri_count] = object;
+        f->tris[f->tri_count++] = t;
+    }
+}
+
+/* Moves vertices and normals. Returns true if the matrix mirrors. */
+static bool move_vertices(struct scene *s, const struct affine *matrix,
+                          const struct scene_mesh *mesh,
+                          uint32_t first_position, uint32_t first_normal)
+{
+    double rows[3][3];
+    bool is_mirror = affine_normals(matrix, rows);
+
+    for (uint32_t i = 0; i < mesh->position_count; i++) {
+        double *p = s->file_positions + 3 * (size_t)(first_position + i);
+        const double from[3] = {p[0], p[1], p[2]};
+
+        affine_point(matrix, from, p);
+    }
+    for (uint32_t i = 0; i < mesh->normal_count; i++) {
+        struct vec3 *n = &s->normals[first_normal + i];
+
+        *n = moved_normal(rows, *n);
+    }
+    return is_mirror;
+}
+
+/* Adds the triangles of an instance. The last one of a mesh takes the mesh's
+ * own vertices, and the others copies. */
+static void flatten_instance(struct flattening *f,
+                             const struct scene_instance *instance,
+                             bool is_last)
+{
+    const struct scene_mesh *mesh = &f->scene->instances.meshes[instance->mesh];
+    uint32_t first_position = mesh->first_position;
+    uint32_t first_normal = mesh->first_normal;
+    bool is_mirror;
+
+    if (!is_last) {
+        first_position = f->position_count;
+        first_normal = f->normal_count;
+        copy_vertices(f, mesh);
+        f->position_count += mesh->position_count;
+        f->normal_count += mesh->normal_count;
+    }
+    is_mirror = move_vertices(f->scene, &instance->matrix, mesh, first_position,
+                              first_normal);
+    append_tris(f, mesh, instance->object, first_position, first_normal,
+                is_mirror);
+}
+
+/* Appends the triangles outside of meshes. */
+static void append_others(struct flattening *f)
+{
+    const struct scene *s = f->scene;
+    const struct scene_mesh *mesh = s->instances.meshes;
+    const struct scene_mesh *end = mesh + s->instances.mesh_count;
+
+    for (uint32_t i = 0; i < s->tri_count; i++) {
+        while (mesh < end && i >= mesh->first_tri + mesh->tri_count)
+            mesh++;
+        if (mesh < end && i >= mesh->first_tri)
+            continue;
+        f->tris[f->tri_count] = s->tris[i];
+        f->faces[f->tri_count] = s->tri_faces[i];
+        f->objects[f->tri_count++] = s->tri_objects[i];
+    }
+}
+
+/* Counts the instances of each mesh, and what the scene has with all copies. */
+static struct totals count_all(const struct scene *scene, uint32_t *uses)
+{
+    const struct scene_instances *s = &scene->instances;
+    struct totals all = {scene->tri_count, scene->position_count,
+                         scene->normal_count};
+
+    for (uint32_t i = 0; i < s->mesh_count; i++)
+        all.tris -= s->meshes[i].tri_count;
+    for (uint32_t i = 0; i < s->count; i++) {
+        const struct scene_mesh *mesh = &s->meshes[s->items[i].mesh];
+
+        all.tris += mesh->tri_count;
+        if (uses[s->items[i].mesh]++ == 0)
+            continue;
+        all.positions += mesh->position_count;
+        all.normals += mesh->normal_count;
+    }
+    return all;
+}
+
+static bool grow_to(void **array, uint64_t count, size_t size_bytes)
+{
+    void *p = count < NO_INDEX
+                  ? realloc(*array, (size_t)(count + 1) * size_bytes)
+                  : NULL;
+
+    if (p != NULL)
+        *array = p;
+    return p != NULL;
+}
+
+/* Makes room for all copies. */
+static bool grow_all(struct flattening *f, const struct totals *all)
+{
+    struct scene *s = f->scene;
+    void *positions = s->file_positions, *normals = s->normals;
+    void *colors = s->colors;
+    bool ok =
+        grow_to(&positions, all->positions, 3 * sizeof *s->file_positions) &&
+        (s->color_count == 0 ||
+         grow_to(&colors, all->positions, sizeof *s->colors)) &&
+        grow_to(&normals, all->normals, sizeof *s->normals);
+
+    s->file_positions = positions;
+    s->normals = normals;
+    s->colors = colors;
+    if (!ok || all->tris >= NO_INDEX)
+        return false;
+    f->tris = alloc_array((size_t)all->tris, sizeof *f->tris);
+    f->faces = alloc_array((size_t)all->tris, sizeof *f->faces);
+    f->objects = alloc_array((size_t)all->tris, sizeof *f->objects);
+    return f->tris != NULL && f->faces != NULL && f->objects != NULL;
+}
+
+static void give_arrays(struct flattening *f)
+{
+    struct scene *s = f->scene;
+
+    free(s->tris);
+    free(s->tri_faces);
+    free(s->tri_objects);
+    s->tris = f->tris;
+    s->tri_faces = f->faces;
+    s->tri_objects = f->objects;
+    s->tri_count = f->tri_count;
+    s->position_count = f->position_count;
+    s->normal_count = f->normal_count;
+    if (s->color_count > 0)
+        s->color_count = f->position_count;
+}
+
+bool scene_flatten(struct scene *scene, struct error *err)
+{
+    struct scene_instances *s = &scene->instances;
+    struct flattening f = {.scene = scene,
+                           .position_count = scene->position_count,
+                           .normal_count = scene->normal_count};
+    uint32_t *uses;
+    struct totals all;
+
+    if (s->mesh_count == 0)
+        return true;
+    uses = alloc_array(s->mesh_count, sizeof *uses);
+    if (uses == NULL)
+        return out_of_memory(scene, err);
+    all = count_all(scene, uses);
+    if (!grow_all(&f, &all)) {
+        free(uses);
+        free(f.tris);
+        free(f.faces);
+        free(f.objects);
+        return fail(err, "%s: out of memory for %llu triangles of instances",
+                    scene->path, (unsigned long long)all.tris);
+    }
+    append_others(&f);
+    for (uint32_t i = 0; i < s->count; i++)
+        flatten_instance(&f, &s->items[i], --uses[s->items[i].mesh] == 0);
+    give_arrays(&f);
+    free(uses);
+    scene_instances_free(s);
+    return true;
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+/*
+ * instances.h - meshes of a scene, and the instances that place them
+ *
+ * A reader adds the vertices, normals and triangles of a mesh between
+ * scene_begin_mesh() and scene_end_mesh(), in the mesh's own space and with
+ * vertices and normals that no other triangle uses. A mesh is seen only where
+ * scene_add_instance() places it. Triangles outside of meshes are seen where
+ * they are.
+ *
+ * Units:     file units
+ * Ownership: the lists belong to the scene
+ * Threads:   one thread while loading
+ * Errors:    memory; more triangles than have numbers
+ */
+#ifndef GLIM_INSTANCES_H
+#define GLIM_INSTANCES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "base/geometry.h"
+
+struct scene;
+
+/* Ranges of the scene's arrays. */
+struct scene_mesh {
+    uint32_t first_tri, tri_count;
+    uint32_t first_position, position_count;
+    uint32_t first_normal, normal_count;
+};
+
+struct scene_instance {
+    struct affine matrix;
+    uint32_t mesh;
+    uint32_t object; /* index into object_names, for all its triangles */
+};
+
+struct scene_instances {
+    struct scene_mesh *meshes;
+    uint32_t mesh_count;
+    size_t mesh_capacity;
+    struct scene_instance *items;
+    uint32_t count;
+    size_t capacity;
+};
+
+/* Begins a mesh: what the reader adds from here on belongs to it. */
+bool scene_begin_mesh(struct scene *scene, struct error *err);
+
+/* Ends the mesh and returns its index. */
+uint32_t scene_end_mesh(struct scene *scene);
+
+/* Places a mesh. A matrix that mirrors also exchanges the sides of its faces,
+ * so that the outside stays outside. */
+bool scene_add_instance(struct scene *scene, uint32_t mesh,
+                        const struct affine *matrix, uint32_t object,
+                        struct error *err);
+
+/* Replaces the instances by copies of their meshes, of which the first is the
+ * mesh itself, and removes meshes without instances. Called by scene_finish().
+ */
+bool scene_flatten(struct scene *scene, struct error *err);
+
+void scene_instances_free(struct scene_instances *instances);
+
+#endif

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/instanced.h"
+
+#define PLACES 20
+
+/* A triangle on its own, a mesh with normals, and one that is not placed. */
+static const char faces[] = "v -3 0 0\nv 3 0 0\nv 0 3 0\nvn 0 0 1\n"
+                            "f 1 2 3\n"
+                            "o mesh\n"
+                            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                            "vn 0 0 -1\nvn 0 -.6 -.8\n"
+                            "f 4//2 6//2 5//3\nf 4 5 7\nf 4 7 6\nf 5 6 7\n"
+                            "o mesh2\n"
+                            "v 9 0 0\nv 9 1 0\nv 9 1 1\n"
+                            "f 8 9 10\n";
+
+static struct vec3 file_point(const struct scene *s, struct vec3 p)
+{
+    return v3((float)((double)p.x / s->scale + s->center[0]),
+              (float)((double)p.y / s->scale + s->center[1]),
+              (float)((double)p.z / s->scale + s->center[2]));
+}
+
+/* The corner of tetrahedron face f by the matrix, in double. */
+static void want_corner(const struct affine *a, int face, int k, double p[3])
+{
+    static const int corners[4][3] = {{0, 2, 1},
+                                      {0, 1, 3},
+                                      {0, 3, 2},
+                                      {1, 2, 3}};
+    double from[3] = {0, 0, 0};
+
+    if (corners[face][k] > 0)
+        from[corners[face][k] - 1] = 1;
+    affine_point(a, from, p);
+}
+
+/* Checks that the triangle has the corners of a face, in any order, and that
+ * its normal points away from the tetrahedron. */
+static void check_face(const struct scene *s, const struct tri *t,
+                       const struct affine *a, int face)
+{
+    double middle[3] = {0.25, 0.25, 0.25}, inside[3], out[3] = {0, 0, 0};
+
+    affine_point(a, middle, inside);
+    for (int k = 0; k < 3; k++) {
+        double want[3], nearest = INFINITY;
+
+        want_corner(a, face, k, want);
+        for (int i = 0; i < 3; i++) {
+            struct vec3 p = file_point(s, s->positions[t->v[i]]);
+            double d[3] = {(double)p.x, (double)p.y, (double)p.z};
+
+            vec3d_sub(d, want, d);
+            nearest = fmin(nearest, vec3d_length(d));
+        }
+        check_at_most(nearest, 1e-5);
+        for (int i = 0; i < 3; i++)
+            out[i] += want[i] / 3;
+    }
+    vec3d_sub(out, inside, out);
+    assert_true(out[0] * (double)t->ng.x + out[1] * (double)t->ng.y +
+                    out[2] * (double)t->ng.z >
+                0);
+}
+
+/* The file's normal of the first face is that face's; it still is after the
+ * mesh was moved. The other normal is still a unit vector. */
+static void check_normals(const struct scene *s, const struct tri *t)
+{
+    int same = 0;
+
+    for (int k = 0; k < 3; k++) {
+        struct vec3 n = s->normals[t->vn[k]];
+
+        check_close((double)v3_length(n), 1, 1e-6);
+        same += (double)v3_dot(n, t->ng) > 1 - 1e-5;
+    }
+    assert_int_equal(same, 2);
+}
+
+static void instances_place_their_mesh(void **state)
+{
+    struct scene s = {.path = NULL};
+    struct affine at[PLACES];
+    struct warnings report = {0};
+    struct error err;
+    uint64_t seed = 5;
+
+    (void)state;
+    instanced_parse(&s, "", faces);
+    assert_int_equal(s.instances.mesh_count, 2);
+    for (int i = 0; i < PLACES; i++) {
+        at[i] = random_affine(&seed, 1, i % 2 == 0);
+        assert_true(scene_add_instance(&s, 0, &at[i], (uint32_t)i % 2, &err));
+    }
+    check_or_say(scene_finish(&s, &report, &err), err.text);
+    assert_int_equal(s.tri_count, 1 + 4 * PLACES);
+    assert_int_equal(report.entry_count, 0);
+    check_close(s.bounds_lo[0], -3, 0.5);
+    for (int i = 0; i < 4 * PLACES; i++) {
+        const struct tri *t = &s.tris[1 + i];
+
+        assert_int_equal(s.tri_objects[1 + i], i / 4 % 2);
+        check_face(&s, t, &at[i / 4], i % 4);
+        if (i % 4 == 0)
+            check_normals(&s, t);
+    }
+    scene_free(&s);
+    warnings_free(&report);
+}
+
+/* A matrix that flattens the mesh leaves the faces that have an area. */
+static void matrices_may_be_singular(void **state)
+{
+    const struct affine flat = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+    const struct affine nowhere = {{{NAN, 0, 0, 0}}};
+    struct scene s = {.path = NULL};
+    struct warnings report = {0};
+    struct error err;
+
+    (void)state;
+    instanced_parse(&s, "", faces);
+    instanced_place(&s, 0, &flat);
+    instanced_place(&s, 0, &nowhere);
+    check_or_say(scene_finish(&s, &report, &err), err.text);
+    assert_int_equal(s.tri_count, 1 + 2);
+    assert_int_equal(s.dropped_count, 2 + 4);
+    scene_free(&s);
+    warnings_free(&report);
+}
+
+/* The triangles of all instances must have numbers. */
+static void too_many_triangles_are_an_error(void **state)
+{
+    const struct affine same = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    struct scene s = {.path = NULL};
+    struct warnings report = {0};
+    struct error err;
+
+    (void)state;
+    instanced_parse(&s, "", faces);
+    s.instances.meshes[0].tri_count = 1u << 31; /* not read */
+    for (int i = 0; i < 3; i++)
+        instanced_place(&s, 0, &same);
+    assert_false(scene_finish(&s, &report, &err));
+    check_has(err.text, "triangles");
+    scene_free(&s);
+    warnings_free(&report);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(instances_place_their_mesh),
+        cmocka_unit_test(matrices_may_be_singular),
+        cmocka_unit_test(too_many_triangles_are_an_error),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
