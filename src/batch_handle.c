@@ -37,6 +37,8 @@ struct glim *batch_handle_open(const struct options *o, struct error *err)
         .sun = o->has_sun ? &sun : NULL,
         .turbidity = o->turbidity,
         .up = (enum glim_up)o->up,
+        .camera = o->camera,
+        .view_lines = o->view_lines,
         .threads = options_threads(o),
     };
     struct glim_error why;

@@ -285,6 +285,7 @@ static bool parse(struct options *o, int argc, char **argv, char **scene,
         err->text[0] = '\0';
     if (!*scene)
         return false;
+    free(o->view_lines);
     *o = before;
     return parse_with_scene(o, *scene, argc, argv, err);
 }

@@ -127,8 +127,15 @@ struct glim_open_options {
     const struct glim_sun *sun; /* NULL means that of the view file, if any */
     double turbidity; /* haze of the sun's sky, 1.7 to 10; 0 means that of the
                          view file */
-    int threads;      /* CPU threads as in glim_set_threads(), also for reading
-                         images */
+    /* number or name of the camera: a numbered view of the view file, or a
+     * camera of the scene; NULL means the view's own */
+    const char *camera;
+    /* lines of a view file that go over its own: "exposure 1.5\nsky a.hdr". A
+     * sky or background replaces the sun. Names of files are relative to the
+     * current folder. NULL means none */
+    const char *view_lines;
+    int threads; /* CPU threads as in glim_set_threads(), also for reading
+                    images */
 };
 
 /* Opens the scene of an OBJ, PLY or STL file, which gzip may have packed ("-":

@@ -85,13 +85,18 @@ static bool set_sun(struct view *view, const struct glim_open_options *o,
 static bool open_all(struct glim *g, const char *path,
                      const struct glim_open_options *o, struct error *err)
 {
+    struct scene_options how = {.up = (enum scene_up)o->up,
+                                .camera = o->camera,
+                                .view_lines = o->view_lines};
+
     g->cancel_fd = event_fd_open("glim", err);
-    return g->cancel_fd >= 0 && handle_set_threads(g, o->threads, err) &&
-           view_find(&g->view, path, o->view_path, &g->view_path, &g->report,
+    if (g->cancel_fd < 0 || !handle_set_threads(g, o->threads, err))
+        return false;
+    how.thread_count = handle_threads(g);
+    return view_find(&g->view, path, o->view_path, &g->view_path, &g->report,
                      err) &&
            set_sun(&g->view, o, err) &&
-           scene_open(&g->scene, &g->world, &g->view, path,
-                      (enum scene_up)o->up, handle_threads(g), &g->report,
+           scene_open(&g->scene, &g->world, &g->view, path, &how, &g->report,
                       err) &&
            assign(g, err) && make_warnings(g, err);
 }

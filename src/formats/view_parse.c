@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "light/daylight.h"
@@ -67,6 +68,26 @@ static bool is_in_range(const struct view_key *key, int i, double value)
         return fabs(value) <= SUN_ELEVATION_MAX;
     return value >= key->least && value <= key->greatest &&
            (!key->is_whole || value == floor(value));
+}
+
+/* Returns true if the numbers of `up` are no direction. */
+static bool is_no_direction(const struct view_key *key, const double *values)
+{
+    return key->id == KEY_UP && values[0] == 0 && values[1] == 0 &&
+           values[2] == 0;
+}
+
+bool view_key_numbers(const struct view_key *key, const char *text,
+                      double values[3])
+{
+    const char *p = text, *end = text + strlen(text);
+
+    for (int i = 0; i < key->count; i++) {
+        if ((i > 0 && *p++ != ',') || !decimal_parse(&p, end, &values[i]) ||
+            !is_in_range(key, i, values[i]))
+            return false;
+    }
+    return *p == '\0' && !is_no_direction(key, values);
 }
 
 bool view_read_number(struct view_reader *r, const struct view_key *key, int i,
@@ -131,13 +152,22 @@ static bool read_numbers(struct view_reader *r, const struct view_key *key,
         if (!view_read_number(r, key, i, &values[i], err))
             return false;
     }
-    if (key->id == KEY_UP && values[0] == 0 && values[1] == 0 && values[2] == 0)
+    if (is_no_direction(key, values))
         return fail(err,
                     "%s:%" PRIu64 ": found 0 0 0, expected a direction "
                     "for up",
                     r->path, r->lex->line);
     store(view, key->id, values);
     return true;
+}
+
+const struct view_key *view_key(enum view_key_id id)
+{
+    size_t i = 0;
+
+    while (view_keys[i].id != id)
+        i++;
+    return &view_keys[i];
 }
 
 const struct view_key *view_find_key(struct word name)
@@ -288,6 +318,17 @@ static bool read_assign(struct view_reader *r, struct error *err)
                 r->path, line);
 }
 
+/* Removes what goes before the key that was read in the light of a view. */
+static void replace_sky(struct view *view, enum view_key_id id)
+{
+    if (id == KEY_SKY || id == KEY_BACKGROUND)
+        view->lighting.sun.is_on = false;
+    if (id == KEY_BACKGROUND) {
+        free(view->lighting.sky_path);
+        view->lighting.sky_path = NULL;
+    }
+}
+
 bool view_parse_line(void *context, struct lexer *lex, struct error *err)
 {
     struct view_reader *r = context;
@@ -297,6 +338,8 @@ bool view_parse_line(void *context, struct lexer *lex, struct error *err)
         return true;
     struct word name = lexer_word(r->lex);
     const struct view_key *key = view_find_key(name);
+    if (key && r->is_over)
+        replace_sky(r->view, key->id);
     if (key && key->id == KEY_SKY)
         return read_sky(r, err);
     if (key && key->id == KEY_TONE)
@@ -333,11 +376,28 @@ static bool finish_camera(struct view_reader *r, struct error *err)
     return pose_check(&r->view->pose, place, err);
 }
 
+static bool parse(struct view_reader *r, const char *text, size_t size_bytes,
+                  struct error *err)
+{
+    return lexer_lines(text, size_bytes, view_parse_line, r, err) &&
+           finish_camera(r, err);
+}
+
 bool view_parse(struct view *view, const char *text, size_t size_bytes,
                 const char *path, struct warnings *report, struct error *err)
 {
     struct view_reader r = {.view = view, .path = path, .report = report};
 
-    return lexer_lines(text, size_bytes, view_parse_line, &r, err) &&
-           finish_camera(&r, err);
+    return parse(&r, text, size_bytes, err);
+}
+
+bool view_parse_over(struct view *view, const char *lines,
+                     struct warnings *report, struct error *err)
+{
+    struct view_reader r = {.view = view,
+                            .path = "view options",
+                            .is_over = true,
+                            .report = report};
+
+    return parse(&r, lines, strlen(lines), err);
 }

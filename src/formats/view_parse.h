@@ -56,14 +56,23 @@ struct view_key {
 /* All keys, in the order in which a new file has them. */
 extern const struct view_key view_keys[VIEW_KEYS];
 
+/* Returns the key of this number. */
+const struct view_key *view_key(enum view_key_id id);
+
 /* Returns the key of this name, or NULL. background_map, which other programs
  * write, is another name for sky. */
 const struct view_key *view_find_key(struct word name);
+
+/* Reads the numbers of a key from a text of its own, where commas separate
+ * them. Returns false if they are not what the key expects. */
+bool view_key_numbers(const struct view_key *key, const char *text,
+                      double values[3]);
 
 /* Context of view_parse_line(). */
 struct view_reader {
     struct view *view;
     const char *path;
+    bool is_over; /* see view_parse_over() */
     struct lexer *lex;
     struct warnings *report;
     uint64_t eye_line, at_line; /* 0 if not in this file */
@@ -94,5 +103,11 @@ char *view_read_path(const struct view_reader *reader, const char *expected,
  * text are relative to its folder. */
 bool view_parse(struct view *view, const char *text, size_t size_bytes,
                 const char *path, struct warnings *report, struct error *err);
+
+/* Parses lines that go over those of a view file: a sky or a background
+ * replaces its sun, and a background its sky image. File names are relative to
+ * the current folder. */
+bool view_parse_over(struct view *view, const char *lines,
+                     struct warnings *report, struct error *err);
 
 #endif

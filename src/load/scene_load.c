@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "load/scene_load.h"
 
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/decimal.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "scene/world_lamps.h"
@@ -37,14 +40,24 @@ static void turn_matrix(struct affine *a)
     }
 }
 
+static void turn_vector(double v[3])
+{
+    double y = v[1];
+
+    v[1] = v[2];
+    v[2] = -y;
+}
+
 static void turn_z_up(struct scene *scene)
 {
-    for (size_t i = 0; i < scene->position_count; i++) {
-        double *p = scene->file_positions + 3 * i;
-        double y = p[1];
+    for (size_t i = 0; i < scene->position_count; i++)
+        turn_vector(scene->file_positions + 3 * i);
+    for (uint32_t i = 0; i < scene->camera_count; i++) {
+        struct pose *pose = &scene->cameras[i].pose;
 
-        p[1] = p[2];
-        p[2] = -y;
+        turn_vector(pose->eye);
+        turn_vector(pose->at);
+        turn_vector(pose->up);
     }
     for (size_t i = 0; i < scene->normal_count; i++) {
         struct vec3 *n = &scene->normals[i];
@@ -133,6 +146,77 @@ bool view_find(struct view *view, const char *scene_path, const char *view_path,
                : read_beside(view, scene_path, *path, report, err);
 }
 
+/* ---- cameras ---- */
+
+/* Returns the pose of a camera by its number, from 1, or NULL. The numbered
+ * poses of the view go before the scene's cameras. */
+static const struct pose *numbered_pose(const struct scene *scene,
+                                        const struct view *view,
+                                        uint64_t number)
+{
+    if (number >= 1 && number <= VIEW_SHOTS && view->has_shot[number - 1])
+        return &view->shots[number - 1];
+    return number >= 1 && number <= scene->camera_count
+               ? &scene->cameras[number - 1].pose
+               : NULL;
+}
+
+static const struct pose *named_pose(const struct scene *scene,
+                                     const char *name)
+{
+    for (uint32_t i = 0; i < scene->camera_count; i++)
+        if (strcmp(scene->cameras[i].name, name) == 0)
+            return &scene->cameras[i].pose;
+    return NULL;
+}
+
+/* Fails with the cameras that there are. */
+static bool fail_camera(const struct scene *scene, const struct view *view,
+                        const char *wanted, struct error *err)
+{
+    char known[256] = "";
+    size_t length = 0;
+
+    for (uint32_t i = 1; i <= VIEW_SHOTS || i <= scene->camera_count; i++) {
+        const char *name =
+            i <= scene->camera_count ? scene->cameras[i - 1].name : "";
+
+        if (numbered_pose(scene, view, i) == NULL || length > sizeof known / 2)
+            continue;
+        length +=
+            (size_t)snprintf(known + length, sizeof known - length,
+                             "%s%" PRIu32 "%s%.60s", length > 0 ? ", " : "", i,
+                             *name != '\0' ? " " : "", name);
+    }
+    return fail(err, "%s: found no camera '%s', expected %s%s", scene->path,
+                wanted, length > 0 ? "one of " : "a numbered view",
+                length > 0 ? known : " in its view file");
+}
+
+/* Gives the view the camera of the options, or the first one of the scene if
+ * the view has none. */
+static bool choose_camera(const struct scene *scene, const char *wanted,
+                          struct view *view, struct error *err)
+{
+    const char *p = wanted;
+    const struct pose *pose = NULL;
+    uint64_t number;
+
+    if (wanted == NULL && (view->has_camera || scene->camera_count == 0))
+        return true;
+    if (wanted == NULL)
+        pose = &scene->cameras[0].pose;
+    else if (digits_parse(&p, 10, UINT32_MAX, &number) && *p == '\0')
+        pose = numbered_pose(scene, view, number);
+    if (pose == NULL)
+        pose = named_pose(scene, wanted);
+    if (pose == NULL)
+        return fail_camera(scene, view, wanted, err);
+    view->pose = *pose;
+    view->has_camera = true;
+    return true;
+}
+
 /* ---- the scene with its view ---- */
 
 static bool is_dark(const struct host_world *host, const struct view *view)
@@ -199,12 +283,15 @@ static bool complete_view(const struct scene *scene, struct host_world *host,
 }
 
 bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
-                const char *path, enum scene_up up, int thread_count,
+                const char *path, const struct scene_options *options,
                 struct warnings *report, struct error *err)
 {
-    scene->thread_count = thread_count;
-    if (!scene_load(scene, path, up, report, err) ||
-        !world_init(host, scene, thread_count, report, err) ||
+    scene->thread_count = options->thread_count;
+    if (!scene_load(scene, path, options->up, report, err) ||
+        !choose_camera(scene, options->camera, view, err) ||
+        (options->view_lines != NULL &&
+         !view_parse_over(view, options->view_lines, report, err)) ||
+        !world_init(host, scene, options->thread_count, report, err) ||
         !world_load_sky(host, view, report, err) ||
         !world_set_lamps(host, scene, view, err))
         return false;

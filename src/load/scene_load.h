@@ -13,6 +13,16 @@
 #include "scene/world.h"
 #include "load/scene_format.h"
 
+/* How a scene is opened. Zeroed, all is as the files say. */
+struct scene_options {
+    enum scene_up up;
+    int thread_count; /* of loading; at least 1 */
+    /* number or name of the camera; NULL: that of the view, or the first one of
+     * the scene */
+    const char *camera;
+    const char *view_lines; /* for view_parse_over(); NULL: none */
+};
+
 /* Loads a scene file with its MTL files and finishes the scene. Models with z
  * up are turned to y up: (x, y, z) becomes (x, z, -y). */
 bool scene_load(struct scene *scene, const char *path, enum scene_up up,
@@ -25,10 +35,10 @@ bool view_find(struct view *view, const char *scene_path, const char *view_path,
                char **path, struct warnings *report, struct error *err);
 
 /* Loads the scene and makes its world with the sky of the view. Completes the
- * view with a camera that sees the whole scene, the size of the picture, and a
- * soft sky if there is no light. */
+ * view with what the options say, with a camera that sees the whole scene, and
+ * with a soft sky if there is no light. */
 bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
-                const char *path, enum scene_up up, int thread_count,
+                const char *path, const struct scene_options *options,
                 struct warnings *report, struct error *err);
 
 /* Returns true if scene_open() has added the soft sky. */

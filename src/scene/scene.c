@@ -334,6 +334,9 @@ void scene_free(struct scene *scene)
     free(scene->tri_faces);
     free(scene->tri_objects);
     free_strings(scene->object_names, scene->object_count);
+    for (uint32_t i = 0; i < scene->camera_count; i++)
+        free(scene->cameras[i].name);
+    free(scene->cameras);
     free(scene->materials);
     free(scene->material_origins);
     free_strings(scene->material_names, scene->material_count);

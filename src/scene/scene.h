@@ -19,6 +19,7 @@
 #include "base/warnings.h"
 #include "scene/instances.h"
 #include "scene/material.h"
+#include "scene/pose.h"
 #include "kernels/types.h"
 
 /* Place of the first statement that names a texture. */
@@ -31,6 +32,12 @@ struct texture_origin {
 struct material_origin {
     struct mtl_source source;
     uint32_t file; /* index into mtl_paths; NO_INDEX for the default */
+};
+
+/* Camera of the scene file, in file units. */
+struct scene_camera {
+    char *name; /* "" if it has none */
+    struct pose pose;
 };
 
 struct scene {
@@ -60,6 +67,9 @@ struct scene {
 
     char **object_names; /* 0 is "": faces before the first o line */
     uint32_t object_count;
+
+    struct scene_camera *cameras; /* a view without a camera has the first */
+    uint32_t camera_count;
 
     struct material *materials; /* 0 is the default, named "" */
     char **material_names;

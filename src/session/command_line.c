@@ -136,6 +136,13 @@ static bool is_standard_output(const char *path)
     return path && strcmp(path, "-") == 0;
 }
 
+/* Refuses a sun beside another sky. */
+static bool check_sky(const struct options *o, struct error *err)
+{
+    return !o->has_sun || !o->has_sky ||
+           fail(err, "--sun: found --sky, expected one of the two");
+}
+
 /* Refuses options that only batch mode has. */
 static bool check_batch(const struct options *o, struct error *err)
 {
@@ -314,7 +321,7 @@ static bool check_together(const struct options *o, struct error *err)
 {
     if (needs_no_scene(o))
         return true;
-    return check_batch(o, err) && check_denoise(o, err) &&
+    return check_sky(o, err) && check_batch(o, err) && check_denoise(o, err) &&
            check_error_map(o, err) && check_films(o, err) && check_show(o, err);
 }
 

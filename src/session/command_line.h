@@ -3,7 +3,7 @@
  * command_line.h - parses the command line
  *
  * Units:     pixels, samples per pixel
- * Ownership: strings point into argv
+ * Ownership: strings point into argv; view_lines and films are allocated once
  * Threads:   main only
  * Errors:    a wrong value is an error that names it, never a silent default
  */
@@ -65,6 +65,9 @@ struct options {
     bool has_exposure, has_tone; /* merge, develop: not those of the render */
     double exposure;             /* in stops */
     uint32_t tone;               /* enum tone */
+    char *view_lines;            /* over those of the view file; NULL: none */
+    bool has_sky;                /* in view_lines */
+    const char *camera;          /* number or name; NULL: that of the view */
     int tile_count;              /* compare: most tiles each way */
     double false_alarms;         /* compare: probability of any */
     const char *scene_path;

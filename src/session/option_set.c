@@ -10,6 +10,7 @@
 #include "light/daylight.h"
 #include "scene/view.h"
 #include "render/cpu_dispatch.h"
+#include "session/option_view.h"
 
 /* Limits on values; anything beyond is a mistake. */
 #define SPP_MAX     1000000000000u
@@ -284,7 +285,6 @@ static bool set_seed(struct options *o, const struct option_given *g,
 static bool set_word(struct options *o, const struct option_given *g,
                      struct error *err)
 {
-    static const char *const ups[] = {"y", "z", NULL};
     static const char *const backends[] = {"cpu", "opencl", "auto", NULL};
     static const char *const colors[] = {"auto", "mono",  "16", "256",
                                          "24",   "24bit", NULL};
@@ -295,11 +295,6 @@ static bool set_word(struct options *o, const struct option_given *g,
     int index = 0;
 
     switch (g->rule->id) {
-    case OPTION_UP:
-        if (!choice(g, ups, &index, err))
-            return false;
-        o->up = index == 1 ? SCENE_UP_Z : SCENE_UP_Y;
-        return true;
     case OPTION_BACKEND:
         if (!choice(g, backends, &index, err))
             return false;
@@ -319,6 +314,7 @@ static bool set_word(struct options *o, const struct option_given *g,
             return false;
         o->tone = (uint32_t)index;
         o->has_tone = true;
+        option_view_add(o, "tone %s", g->value);
         return true;
     case OPTION_SHOW:
         if (!choice(g, options_shows, &index, err))
@@ -379,9 +375,6 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_CHECKPOINT: return given_text(g, &o->checkpoint_path, err);
     case OPTION_CHECKPOINT_INTERVAL: return set_interval(o, g, err);
     case OPTION_RESUME: return given_text(g, &o->resume_path, err);
-    case OPTION_EXPOSURE:
-        o->has_exposure = true;
-        return set_decimal(g, -100, 100, &o->exposure, err);
     case OPTION_SHARE: return set_share(o, g, err);
     case OPTION_CELL_ASPECT:
         return set_decimal(g, 0.25, 8, &o->display.cell_aspect, err);
@@ -390,8 +383,16 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_ISA:
         o->paths = cpu_kernel_named(g->value, err);
         return o->paths != NULL;
-    case OPTION_TONE:
+    case OPTION_EYE:
+    case OPTION_AT:
     case OPTION_UP:
+    case OPTION_FOV:
+    case OPTION_SKY:
+    case OPTION_SKY_STRENGTH:
+    case OPTION_SKY_ROTATION:
+    case OPTION_EXPOSURE: return option_view_set(o, g, err);
+    case OPTION_CAMERA: return given_text(g, &o->camera, err);
+    case OPTION_TONE:
     case OPTION_BACKEND:
     case OPTION_COLOR:
     case OPTION_SHOW:

@@ -81,6 +81,8 @@ static bool apply_edit(struct session *s, const struct view *view,
 static bool open_scene(struct session *s, struct view *view, struct error *err)
 {
     const struct options *o = s->options;
+    struct scene_options how = {o->up, options_threads(o), o->camera,
+                                o->view_lines};
     struct view file;
 
     if (!view_find(view, o->scene_path, o->view_path, &s->view_path, &s->report,
@@ -88,8 +90,8 @@ static bool open_scene(struct session *s, struct view *view, struct error *err)
         return false;
     file = *view;
     if (!apply_options(o, view, err) || !find_crop(s, view, err) ||
-        !scene_open(&s->scene, &s->world, view, o->scene_path, o->up,
-                    options_threads(o), &s->report, err))
+        !scene_open(&s->scene, &s->world, view, o->scene_path, &how, &s->report,
+                    err))
         return false;
     edit_init(&s->edit, &s->scene, view, &s->report);
     view_copy_frame(&s->edit.saved.view, &file);

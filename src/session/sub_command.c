@@ -70,7 +70,7 @@ bool sub_command_takes(enum sub_command command, enum option_id id)
         return command != COMMAND_REFERENCE && command != COMMAND_INFO;
     case OPTION_EXPOSURE:
     case OPTION_TONE:
-        return command == COMMAND_MERGE || command == COMMAND_DEVELOP;
+        return command != COMMAND_COMPARE && command != COMMAND_INFO;
     case OPTION_DENOISE:
         return command == COMMAND_RENDER || command == COMMAND_MERGE ||
                command == COMMAND_DEVELOP;
@@ -85,7 +85,14 @@ bool sub_command_takes(enum sub_command command, enum option_id id)
     case OPTION_TIME:
     case OPTION_ADAPTIVE:
     case OPTION_NO_ADAPTIVE:
+    case OPTION_EYE:
+    case OPTION_AT:
     case OPTION_UP:
+    case OPTION_FOV:
+    case OPTION_CAMERA:
+    case OPTION_SKY:
+    case OPTION_SKY_STRENGTH:
+    case OPTION_SKY_ROTATION:
     case OPTION_SUN:
     case OPTION_TURBIDITY:
     case OPTION_THREADS:

@@ -9,8 +9,9 @@ static void check(const struct options *o)
 {
     require(o->show_help || o->show_version || o->scene_path ||
                 o->list_devices || o->list_formats || o->list_sessions ||
-                o->probe || (o->picture_path && o->reference_path),
-            "a scene or two pictures");
+                o->probe || o->is_worker || o->film_count > 0 ||
+                (o->picture_path && o->reference_path),
+            "a scene, films or two pictures");
     require(o->error_limit >= 0 && o->error_limit <= 1, "an error");
     require(o->time_ns <= UINT64_C(1000000000000000000), "a time");
 }
@@ -32,6 +33,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         fuzz_check_message(err.text);
     else
         check(&options);
+    free(options.films);
+    free(options.view_lines);
     free(text);
     return 0;
 }

@@ -144,12 +144,39 @@ static void impossible_suns_are_refused(void **state)
     check_has(err.text, "turbidity: found no sun");
 }
 
+/* Lines of the view go over its file: the picture is that of another file. */
+static void lines_of_the_view_replace_the_sun(void **state)
+{
+    const struct glim_sun sun = {0, 45};
+    const struct glim_open_options how = {
+        .sun = &sun, .view_lines = "background 0.25 0.5 1\neye 0 9 0\n"};
+    struct glim_error err;
+    struct glim *g;
+
+    (void)state;
+    write_scene(0, 1, false);
+    g = glim_open("sun.obj", &how, &err);
+    assert_non_null(g);
+    assert_true(glim_get_camera(g).eye[1] == 9);
+    glim_close(g);
+    assert_null(glim_open("sun.obj",
+                          &(struct glim_open_options){.view_lines = "fovy x"},
+                          &err));
+    assert_string_equal(err.text, "view options:1: found 'x', expected an "
+                                  "angle above 0 and below 180 degrees for "
+                                  "fovy");
+    assert_null(
+        glim_open("sun.obj", &(struct glim_open_options){.camera = "2"}, &err));
+    check_has(err.text, "sun.obj: found no camera '2', expected a numbered");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(penumbras_are_half_a_degree_wide),
         cmocka_unit_test(the_azimuth_is_clockwise_from_north),
         cmocka_unit_test(impossible_suns_are_refused),
+        cmocka_unit_test(lines_of_the_view_replace_the_sun),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

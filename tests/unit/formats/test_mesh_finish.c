@@ -28,6 +28,7 @@ struct opened {
 
 static void open_model(struct opened *o, const char *path, const char *view)
 {
+    const struct scene_options how = {.thread_count = 1};
     struct error err;
     char *view_path;
 
@@ -35,8 +36,8 @@ static void open_model(struct opened *o, const char *path, const char *view)
     view_init(&o->view);
     check_or_say(view_find(&o->view, path, view, &view_path, &o->report,
                            &err) &&
-                     scene_open(&o->scene, &o->world, &o->view, path,
-                                SCENE_UP_OF_FILE, 1, &o->report, &err),
+                     scene_open(&o->scene, &o->world, &o->view, path, &how,
+                                &o->report, &err),
                  err.text);
     free(view_path);
 }

@@ -84,14 +84,14 @@ static void check_file(const struct expectation *e)
     struct scene scene = {.path = NULL};
     struct host_world world = {.tris = NULL};
     struct warnings report = {0};
+    /* boxes are in the file's own axes */
+    const struct scene_options how = {SCENE_UP_Y, 1, NULL, NULL};
     struct view view;
     struct error err = {""};
     bool ok;
 
     view_init(&view);
-    /* boxes are in the file's own axes */
-    ok = scene_open(&scene, &world, &view, e->path, SCENE_UP_Y, 1, &report,
-                    &err);
+    ok = scene_open(&scene, &world, &view, e->path, &how, &report, &err);
     if (e->loads && !ok)
         print_error("%s\n", err.text);
     if (e->is_refused && ok)

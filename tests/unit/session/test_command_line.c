@@ -141,7 +141,31 @@ static void words_select_values(void **state)
     bad("a --glyph=",
         "--glyph: found '', expected auto, half, upper, lower, quadrant, "
         "sextant, braille, space, ascii, sixel or kitty");
-    bad("a --up x", "--up: found 'x', expected y or z");
+    bad("a --up x", "--up: found 'x', expected y, z or a direction X,Y,Z: 3 "
+                    "numbers from -1e30 to 1e30");
+}
+
+static void values_of_the_view_become_its_lines(void **state)
+{
+    struct options o =
+        good("a --eye 1,-2,.5 --at 0,0,1e3 --up 0,0,1 --fov 30 --sky-strength "
+             "2 --sky #fff --exposure -1 --tone aces --camera Left");
+
+    (void)state;
+    assert_string_equal(o.view_lines,
+                        "eye 1 -2 0.5\nat 0 0 1000\nup 0 0 1\nfovy 30  \n"
+                        "sky_strength 2  \nbackground 1 1 1\n"
+                        "exposure -1  \ntone aces\n");
+    assert_string_equal(o.camera, "Left");
+    assert_true(o.has_sky && o.has_exposure && o.has_tone &&
+                o.up == SCENE_UP_OF_FILE);
+    free(o.view_lines);
+    o = good("a --sky ./1,2,3");
+    assert_string_equal(o.view_lines, "sky 1,2,3\n");
+    free(o.view_lines);
+    assert_null(good("a --up z").view_lines);
+    bad("a --sky 1,2,3 --sun 0,9", "--sun: found --sky, expected one of the "
+                                   "two");
 }
 
 #define WRONG_ERROR \
@@ -422,6 +446,7 @@ int main(void)
         cmocka_unit_test(defaults_are_set),
         cmocka_unit_test(every_option_sets_its_value),
         cmocka_unit_test(words_select_values),
+        cmocka_unit_test(values_of_the_view_become_its_lines),
         cmocka_unit_test(environment_gives_way_to_options),
         cmocka_unit_test(text_sizes_are_read_or_refused),
         cmocka_unit_test(limits_are_parsed),
