@@ -51,7 +51,7 @@ ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno \
 	-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer)
 ALL_LDFLAGS = -pthread -pie -Wl,-z,relro,-z,now $(LDFLAGS) \
 	$(if $(SAN),-fsanitize=$(SAN))
-LIB_LIBS = -lz -lm -ldl
+LIB_LIBS = -ljansson -lmeshoptimizer -lz -lm -ldl
 LIBS = -lncursesw -ltinfo $(LIB_LIBS)
 FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
@@ -93,7 +93,7 @@ PROGRAM := $(B)/$(if $(MPI),mpi/)glim
 MPI_PROGRAM := $(if $(SAN),,$(if $(shell command -v mpicc),$(B)/mpi/glim))
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 # libglim: the folders up to src/api/ in the table of CONTRIBUTING.md.
-LIB_FOLDERS := base picture filter bvh light scene formats load render opencl api
+LIB_FOLDERS := base picture filter bvh light scene formats gltf load render opencl api
 LIB_OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(foreach d,$(LIB_FOLDERS), \
 	$(wildcard src/$(d)/*.c))) $(B)/kernels.o $(PATHS) $(FILTERS)
 VERSION := $(shell sed -n 's/.*GLIM_VERSION *"\(.*\)"/\1/p' include/glim/version.h)

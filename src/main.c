@@ -107,7 +107,7 @@ static int list_formats(void)
     const struct scene_format *f;
 
     for (uint32_t i = 0; (f = scene_format_number(i)) != NULL; i++)
-        print_line(stdout, "%-14s .%-4s %s", f->name, f->endings, f->about);
+        print_line(stdout, "%-14s %-9s %s", f->name, f->endings, f->about);
     return print_out("");
 }
 

@@ -73,6 +73,10 @@ function check_include(name, is_system,    kernel, other)
         if (name == "zlib.h" && path != "src/formats/text_file.c" &&
             path != "src/picture/film_file.c")
             fault("only text_file.c includes <" name ">")
+        if (name == "jansson.h" && folder != "src/gltf")
+            fault("only src/gltf/ includes <" name ">")
+        if (name == "meshoptimizer.h" && path != "src/gltf/gltf_meshopt.c")
+            fault("only gltf_meshopt.c includes <" name ">")
         if (name ~ /^CL\// && folder != "src/opencl")
             fault("only src/opencl/ includes <" name ">")
         return

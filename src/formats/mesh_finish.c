@@ -160,10 +160,23 @@ static char *clay_text(const struct scene *s, struct word texture)
                        texture.length > 0 ? texture.start : "");
 }
 
-/* Reads the MTL file of the scene if there is one. */
-static bool read_beside(struct scene *scene, const char *path,
-                        struct warnings *report, struct error *err)
+bool mesh_mtl_begin(struct scene *scene, const char *text,
+                    struct warnings *report, struct error *err)
 {
+    char *path = material_path(scene->path);
+    bool ok;
+
+    scene->has_own_mtl = true;
+    ok = path != NULL ? mtl_parse(scene, text, strlen(text), path, report, err)
+                      : out_of_memory(scene, err);
+    free(path);
+    return ok;
+}
+
+bool mesh_mtl_read(struct scene *scene, struct warnings *report,
+                   struct error *err)
+{
+    const char *path = scene->mtl_paths[0];
     char *text;
     size_t size_bytes;
     bool ok;
@@ -180,16 +193,12 @@ static bool read_beside(struct scene *scene, const char *path,
 static bool add_material(struct scene *scene, struct word texture,
                          struct warnings *report, struct error *err)
 {
-    char *path = material_path(scene->path);
     char *text = clay_text(scene, texture);
-    bool ok = path != NULL && text != NULL;
+    bool ok = text != NULL ? mesh_mtl_begin(scene, text, report, err) &&
+                                 mesh_mtl_read(scene, report, err)
+                           : out_of_memory(scene, err);
 
-    scene->has_own_mtl = true;
-    ok = ok ? mtl_parse(scene, text, strlen(text), path, report, err) &&
-                  read_beside(scene, path, report, err)
-            : out_of_memory(scene, err);
     free(text);
-    free(path);
     return ok;
 }
 

@@ -26,6 +26,13 @@ bool mesh_begin(struct scene *scene, const char *path, struct error *err);
  * with colours. */
 struct vec3 mesh_clay(void);
 
+/* Names the MTL file beside the scene, which the materials of the text are
+ * taken to be from; then reads the file, if it is there. */
+bool mesh_mtl_begin(struct scene *scene, const char *text,
+                    struct warnings *report, struct error *err);
+bool mesh_mtl_read(struct scene *scene, struct warnings *report,
+                   struct error *err);
+
 /* Adds the material, smooth normals if there are none, and the linear colours
  * of faces, if face_colors is not NULL, to the vertices: those with several
  * colours are doubled. `texture` is the name of an image file, or empty. */

@@ -8,6 +8,7 @@
 #include "formats/ply.h"
 #include "formats/ply_header.h"
 #include "formats/stl.h"
+#include "gltf/gltf.h"
 
 /* The first row is that of files that no row recognises. */
 static const struct scene_format formats[] = {
@@ -15,6 +16,8 @@ static const struct scene_format formats[] = {
      obj_parse},
     {"PLY", "ply", "y up, z from Blender; ascii and binary", ply_matches,
      ply_parse},
+    {"glTF", "gltf glb", "y up; version 2.0, with buffers and images",
+     gltf_matches, gltf_parse},
     {"STL", "stl", "z up; ascii and binary", stl_matches, stl_parse},
 };
 

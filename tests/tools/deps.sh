@@ -87,6 +87,8 @@ look()
             need_header curses.h libncurses-dev
             need_header zlib.h zlib1g-dev
             need_header CL/cl.h opencl-c-headers
+            need_header jansson.h libjansson-dev
+            need_header meshoptimizer.h libmeshoptimizer-dev
             ;;
         test)
             need_header cmocka.h libcmocka-dev

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/gltf_buffer.h"
+
+#include <ctype.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/cgroup_quota.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "formats/asset_path.h"
+#include "gltf/gltf_meshopt.h"
+#include "kernels/types.h"
+
+/* Strides of the specification; vertices of meshopt have the same limit. */
+#define STRIDE_MAX 252
+
+static bool out_of_memory(const struct gltf_value *v, struct error *err)
+{
+    return gltf_fail(v, err, "out of memory for its bytes");
+}
+
+/* ---- URIs ---- */
+
+static int hex_digit(char c)
+{
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+/* Decodes %20 and its like. Other text stays, for files that are not encoded.
+ * The result is for free(), with a NUL behind its *size_bytes. */
+static char *decode_percents(const char *text, size_t *size_bytes)
+{
+    char *to = alloc_array(strlen(text) + 1, 1);
+    size_t n = 0;
+
+    for (const char *p = text; to != NULL && *p != '\0'; p++) {
+        int high = *p == '%' ? hex_digit(p[1]) : -1;
+        int low = high >= 0 ? hex_digit(p[2]) : -1;
+
+        to[n++] = low >= 0 ? (char)(16 * high + low) : *p;
+        p += low >= 0 ? 2 : 0;
+    }
+    *size_bytes = n;
+    return to;
+}
+
+static int base64_digit(char c)
+{
+    return c >= 'A' && c <= 'Z'   ? c - 'A'
+           : c >= 'a' && c <= 'z' ? c - 'a' + 26
+           : c >= '0' && c <= '9' ? c - '0' + 52
+           : c == '+' || c == '-' ? 62
+           : c == '/' || c == '_' ? 63
+                                  : -1;
+}
+
+/* Decodes base64 with or without = at its end. Returns false at another
+ * character. */
+static bool decode_base64(const char *text, unsigned char *to,
+                          size_t *size_bytes)
+{
+    uint32_t bits = 0;
+    int bit_count = 0;
+    size_t n = 0;
+
+    for (; *text != '\0' && *text != '='; text++) {
+        int digit = base64_digit(*text);
+
+        if (digit < 0)
+            return false;
+        bits = (bits << 6 | (uint32_t)digit) & 0xffffff;
+        bit_count += 6;
+        if (bit_count >= 8) {
+            bit_count -= 8;
+            to[n++] = (unsigned char)(bits >> bit_count);
+        }
+    }
+    *size_bytes = n;
+    return text[strspn(text, "=")] == '\0' && bit_count < 6;
+}
+
+bool gltf_uri_is_data(const char *uri)
+{
+    return strncasecmp(uri, "data:", 5) == 0;
+}
+
+static bool read_data(const struct gltf_value *v, const char *uri,
+                      struct gltf_bytes *to, struct error *err)
+{
+    const char *comma = strchr(uri, ',');
+    unsigned char *bytes;
+    bool is_base64;
+
+    if (comma == NULL)
+        return gltf_fail(v, err,
+                         "found a data URI without a comma, expected data");
+    is_base64 = comma - uri >= 7 && strncasecmp(comma - 7, ";base64", 7) == 0;
+    if (!is_base64) {
+        to->owned = decode_percents(comma + 1, &to->size_bytes);
+        to->bytes = to->owned;
+        return to->owned != NULL || out_of_memory(v, err);
+    }
+    bytes = alloc_array(strlen(comma) / 4 * 3 + 3, 1);
+    to->owned = bytes;
+    to->bytes = bytes;
+    if (bytes == NULL)
+        return out_of_memory(v, err);
+    return decode_base64(comma + 1, bytes, &to->size_bytes) ||
+           gltf_fail(v, err, "found a data URI that is no base64");
+}
+
+/* Returns true for "http:" and its like, but not for a drive such as "C:". */
+static bool has_scheme(const char *uri)
+{
+    size_t n = 0;
+
+    while (isalnum((unsigned char)uri[n]) ||
+           (uri[n] != '\0' && strchr("+-.", uri[n]) != NULL))
+        n++;
+    return n > 1 && uri[n] == ':';
+}
+
+bool gltf_uri_find(const struct gltf_value *value, const char *uri, char **path,
+                   struct error *err)
+{
+    size_t size_bytes;
+    char *name;
+    bool ok;
+
+    *path = NULL;
+    if (has_scheme(uri))
+        return gltf_fail(value, err,
+                         "found \"%.80s\", expected data or the name of a file",
+                         uri);
+    name = decode_percents(uri, &size_bytes);
+    if (name == NULL)
+        return out_of_memory(value, err);
+    if (strlen(name) != size_bytes) {
+        free(name);
+        return gltf_fail(value, err, "found \"%.80s\", a name with a NUL", uri);
+    }
+    ok = asset_path_find(value->document->path, name, path) &&
+         (*path != NULL || asset_path_find(value->document->path, uri, path));
+    free(name);
+    if (!ok)
+        return out_of_memory(value, err);
+    return *path != NULL ||
+           gltf_fail(value, err, "found no file \"%.200s\"", uri);
+}
+
+bool gltf_uri_read(const struct gltf_value *value, const char *uri,
+                   struct gltf_bytes *to, struct error *err)
+{
+    char *path, *bytes;
+    bool ok;
+
+    memset(to, 0, sizeof *to);
+    if (gltf_uri_is_data(uri))
+        return read_data(value, uri, to, err);
+    if (!gltf_uri_find(value, uri, &path, err))
+        return false;
+    ok = file_read(path, &bytes, &to->size_bytes, err);
+    free(path);
+    if (!ok)
+        return false;
+    to->owned = bytes;
+    to->bytes = to->owned;
+    return true;
+}
+
+/* ---- buffers ---- */
+
+/* A buffer without bytes is allowed: it may be one that meshopt's views name
+ * for other readers. */
+static bool read_buffer(struct gltf_document *d, size_t i, struct error *err)
+{
+    struct gltf_value v;
+    struct gltf_bytes *b = &d->buffers[i];
+    uint64_t length = 0;
+    const char *uri = NULL;
+
+    if (!gltf_entry(d, "buffers", i, &v, err) ||
+        !gltf_string(&v, "uri", &uri, err) ||
+        !gltf_integer(&v, "byteLength", INT64_MAX, &length, err))
+        return false;
+    if (uri != NULL && !gltf_uri_read(&v, uri, b, err))
+        return false;
+    if (uri == NULL && i == 0)
+        *b = d->chunk;
+    if (b->bytes == NULL)
+        return true;
+    if (b->size_bytes < length)
+        return gltf_fail(&v, err,
+                         "found %zu bytes, expected the byteLength of %" PRIu64,
+                         b->size_bytes, length);
+    b->size_bytes = (size_t)length;
+    d->buffer_bytes += length;
+    return true;
+}
+
+bool gltf_buffers_read(struct gltf_document *document, struct error *err)
+{
+    size_t count = gltf_entry_count(document, "buffers");
+    struct memory_quota memory = cgroup_quota_memory("");
+
+    document->buffers = alloc_array(count, sizeof *document->buffers);
+    if (document->buffers == NULL)
+        return fail(err, "%s: out of memory for its buffers", document->path);
+    document->buffer_count = count;
+    for (size_t i = 0; i < count; i++) {
+        if (!read_buffer(document, i, err))
+            return false;
+        if (document->buffer_bytes > memory.size_bytes)
+            return fail(err,
+                        "%s: found buffers of more than %.1f GiB, expected "
+                        "what the memory holds",
+                        document->path, (double)memory.size_bytes / (1 << 30));
+    }
+    return true;
+}
+
+/* ---- views ---- */
+
+bool gltf_buffer_part(const struct gltf_value *value, struct gltf_bytes *to,
+                      struct error *err)
+{
+    const struct gltf_document *d = value->document;
+    uint64_t offset = 0, length = 0;
+    uint32_t buffer;
+
+    if (!gltf_index(value, "buffer", "buffers", &buffer, err) ||
+        !gltf_integer(value, "byteOffset", INT64_MAX, &offset, err) ||
+        !gltf_integer(value, "byteLength", INT64_MAX, &length, err))
+        return false;
+    if (buffer == NO_INDEX)
+        return gltf_fail(value, err, "found no buffer, expected its number");
+    *to = d->buffers[buffer];
+    to->owned = NULL;
+    if (to->bytes == NULL)
+        return gltf_fail(value, err,
+                         "found buffer %" PRIu32
+                         " without a uri, expected one with data",
+                         buffer);
+    if (offset > to->size_bytes || length > to->size_bytes - offset)
+        return gltf_fail(
+            value, err,
+            "found bytes %" PRIu64 " to %" PRIu64
+            ", expected a part of the %zu bytes of buffer %" PRIu32,
+            offset, offset + length, to->size_bytes, buffer);
+    to->bytes += offset;
+    to->size_bytes = (size_t)length;
+    return true;
+}
+
+/* Limit of the bytes that all packed views give: each packed byte is used once
+ * in files that are not meant to fill the memory. */
+static uint64_t unpacked_limit(const struct gltf_document *d)
+{
+    return GLTF_MESHOPT_RATIO * d->buffer_bytes + (1 << 16);
+}
+
+static bool read_view(struct gltf_document *d, size_t i, uint64_t *unpacked,
+                      struct error *err)
+{
+    struct gltf_view *view = &d->views[i];
+    struct gltf_value v, meshopt;
+    uint64_t stride = 0;
+
+    if (!gltf_entry(d, "bufferViews", i, &v, err) ||
+        !gltf_integer(&v, "byteStride", STRIDE_MAX, &stride, err) ||
+        !gltf_extension(&v, "EXT_meshopt_compression", &meshopt, err))
+        return false;
+    view->stride_bytes = (size_t)stride;
+    if (meshopt.json == NULL)
+        return gltf_buffer_part(&v, &view->data, err);
+    if (!gltf_meshopt_unpack(&meshopt, unpacked_limit(d) - *unpacked, view,
+                             err))
+        return false;
+    *unpacked += view->data.size_bytes;
+    return true;
+}
+
+bool gltf_views_read(struct gltf_document *document, struct error *err)
+{
+    size_t count = gltf_entry_count(document, "bufferViews");
+    uint64_t unpacked = 0;
+
+    document->views = alloc_array(count, sizeof *document->views);
+    if (document->views == NULL)
+        return fail(err, "%s: out of memory for its views", document->path);
+    document->view_count = count;
+    for (size_t i = 0; i < count; i++)
+        if (!read_view(document, i, &unpacked, err))
+            return false;
+    return true;
+}

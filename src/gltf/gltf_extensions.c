@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/gltf_extensions.h"
+
+#include <string.h>
+
+#include "gltf/gltf_value.h"
+
+static const char *const known[] = {
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_lights_punctual",
+    "KHR_materials_unlit",     "KHR_mesh_quantization",   "KHR_node_visibility",
+};
+
+static bool is_known(const char *name)
+{
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (strcmp(name, known[i]) == 0)
+            return true;
+    return false;
+}
+
+/* Reads a list of names. */
+static bool read_names(const struct gltf_document *d, const char *key,
+                       struct gltf_value *names, struct error *err)
+{
+    struct gltf_value root = gltf_root(d);
+
+    if (!gltf_array(&root, key, names, err))
+        return false;
+    names->parent = NULL;
+    for (size_t i = 0; i < gltf_count(names); i++)
+        if (!json_is_string(json_array_get(names->json, i)))
+            return gltf_fail(names, err,
+                             "found an item that is no string, expected names "
+                             "of extensions");
+    return true;
+}
+
+bool gltf_extensions_check(const struct gltf_document *document,
+                           struct warnings *report, struct error *err)
+{
+    struct gltf_value required, used;
+
+    if (!read_names(document, "extensionsRequired", &required, err) ||
+        !read_names(document, "extensionsUsed", &used, err))
+        return false;
+    for (size_t i = 0; i < gltf_count(&required); i++) {
+        const char *name = json_string_value(json_array_get(required.json, i));
+
+        if (!is_known(name))
+            return fail(err,
+                        "%s: found the required extension '%.80s', expected "
+                        "one that glim knows",
+                        document->path, name);
+    }
+    for (size_t i = 0; i < gltf_count(&used); i++) {
+        const char *name = json_string_value(json_array_get(used.json, i));
+
+        if (!is_known(name))
+            warnings_add_named(report, "extensions that glim does not know",
+                               name,
+                               "%s: found the extension '%.80s', which glim "
+                               "does not know: ignored",
+                               document->path, name);
+    }
+    return true;
+}

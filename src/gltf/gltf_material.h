@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+/*
+ * gltf_material.h - the materials of a glTF document
+ *
+ * Ownership: everything belongs to the scene
+ * Threads:   one for each scene
+ * Errors:    memory; the place in the document
+ */
+#ifndef GLIM_GLTF_MATERIAL_H
+#define GLIM_GLTF_MATERIAL_H
+
+#include "gltf/gltf_document.h"
+#include "scene/scene.h"
+
+/* Adds all materials of the document to a scene that has the default only.
+ * Material i of the document is material i + 1 of the scene. Their names are
+ * unique, and their statements are those of MTL file 0. */
+bool gltf_materials_read(const struct gltf_document *document,
+                         struct scene *scene, struct warnings *report,
+                         struct error *err);
+
+#endif
