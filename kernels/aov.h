@@ -53,7 +53,7 @@ static inline struct vec3 preview_color(const struct world *w,
                                         const struct surface_point *v,
                                         struct vec3 wo)
 {
-    struct vec3 glow = preview_glow(emission_at(w, m, v->uv, v->has_uv));
+    struct vec3 glow = preview_glow(emission_at(w, m, v));
     float shade = PREVIEW_AMBIENT + (1.0f - PREVIEW_AMBIENT) * v3_dot(v->n, wo);
 
     return v3_add(v3_scale(b->color, shade), glow);
@@ -78,7 +78,8 @@ static inline struct vec3 aov_value(const struct world *w,
     case SAMPLE_FACE:
         return direction_numbers(v->is_outside ? v->ng : v3_neg(v->ng));
     case SAMPLE_UV:
-        return v3(v->uv.x - floorf(v->uv.x), v->uv.y - floorf(v->uv.y),
+        return v3(v->uv.first.x - floorf(v->uv.first.x),
+                  v->uv.first.y - floorf(v->uv.first.y),
                   v->has_uv ? 1.0f : 0.0f);
     case SAMPLE_DEPTH: return v3(h.t, 0.0f, 0.0f);
     case SAMPLE_MATERIAL:

@@ -16,6 +16,18 @@
 
 #include "kernels/texture.h"
 
+/* The texture coordinates of a hit, of both sets. */
+struct uv_pair {
+    struct vec2 first, second;
+};
+
+/* The pair's coordinates that a texture uses. */
+static inline struct vec2 uv_for(const struct world *w, uint32_t texture,
+                                 struct uv_pair uv)
+{
+    return uses_second_uvs(w, texture) ? uv.second : uv.first;
+}
+
 /* Cosine to the face normal of a reflection that was turned back. */
 #define BUMP_GRAZING 1e-3f
 
@@ -24,17 +36,18 @@ static inline bool has_bumps(const struct material *m)
     return m->normal_texture != NO_INDEX || m->bump_texture != NO_INDEX;
 }
 
-/* Unit tangents of the face, along which u and v grow. Returns false where
- * texture coordinates span no area. */
-static inline bool uv_tangents(const struct world *w, struct tri t,
+/* Unit tangents of the face, along which u and v of these texture coordinates
+ * grow. Returns false where they span no area. */
+static inline bool uv_tangents(const struct world *w,
+                               GLOBAL const struct vec2 *uvs, struct tri t,
                                struct vec3 *along_u, struct vec3 *along_v)
 {
     struct vec3 p0 = w->positions[t.v[0]];
     struct vec3 e1 = v3_sub(w->positions[t.v[1]], p0);
     struct vec3 e2 = v3_sub(w->positions[t.v[2]], p0);
-    struct vec2 a = w->uvs[t.vt[0]];
-    struct vec2 b = w->uvs[t.vt[1]];
-    struct vec2 c = w->uvs[t.vt[2]];
+    struct vec2 a = uvs[t.vt[0]];
+    struct vec2 b = uvs[t.vt[1]];
+    struct vec2 c = uvs[t.vt[2]];
     float du1 = b.x - a.x, dv1 = b.y - a.y;
     float du2 = c.x - a.x, dv2 = c.y - a.y;
     /* only the sign of the area in uv is used, as the area itself may be too
@@ -86,28 +99,35 @@ static inline struct vec3 bent_normal(struct vec3 n, struct vec3 ng,
 }
 
 /* Returns the shading normal n, bent by the bump and normal maps. wo.n > 0
- * before and after. uv: at the hit; the triangle has texture coordinates. */
+ * before and after. uv: at the hit; the triangle has texture coordinates. The
+ * tangents are of the coordinates of the map of normals. */
 static inline struct vec3 bumped_normal(const struct world *w,
                                         const struct material *m, struct tri t,
-                                        struct vec2 uv, struct vec3 n,
+                                        struct uv_pair uv, struct vec3 n,
                                         struct vec3 ng, struct vec3 wo)
 {
+    bool is_second =
+        has_second_uvs(w) &&
+        uses_second_uvs(w, m->normal_texture != NO_INDEX ? m->normal_texture
+                                                         : m->bump_texture);
     struct vec3 along_u, along_v, turned;
     struct vec3 slope = v3(0.0f, 0.0f, 1.0f); /* the normal in tangent space */
     float length;
 
-    if (!uv_tangents(w, t, &along_u, &along_v))
+    if (!uv_tangents(w, is_second ? w->uvs2 : w->uvs, t, &along_u, &along_v))
         return n;
     if (m->normal_texture != NO_INDEX) {
-        struct vec3 c = texture_at(w, m->normal_texture, uv).color;
-
+        struct vec3 c =
+            texture_at(w, m->normal_texture, uv_for(w, m->normal_texture, uv))
+                .color;
         float s = m->normal_strength;
+        float d = m->normal_depth;
 
         slope = v3(s * (2.0f * c.x - 1.0f), s * (2.0f * c.y - 1.0f),
-                   s * (2.0f * c.z - 1.0f) + (1.0f - s));
+                   d * (2.0f * c.z - 1.0f) + (1.0f - d));
     }
     if (m->bump_texture != NO_INDEX) {
-        struct vec2 s = height_slopes(w, m, uv);
+        struct vec2 s = height_slopes(w, m, uv_for(w, m->bump_texture, uv));
 
         slope.x -= s.x;
         slope.y -= s.y;

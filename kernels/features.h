@@ -32,10 +32,12 @@ enum feature {
     FEATURE_VERTEX_COLORS = 524288,
     FEATURE_ROUGH_SHEETS = 1048576, /* rough thin glass */
     FEATURE_CAUSTICS = 2097152,     /* of spheres and discs: caustic_lobes.h */
-    FEATURE_THIN_FILM = 4194304     /* iridescence: thin_film.h */
+    FEATURE_THIN_FILM = 4194304,    /* iridescence: thin_film.h */
+    /* texture_flag beyond TEXTURE_CLAMP, channels, maps of rare parameters */
+    FEATURE_TEXTURE_OPTIONS = 16777216
 };
 
-#define FEATURES_ALL 8388607u
+#define FEATURES_ALL 33554431u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

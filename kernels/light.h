@@ -19,7 +19,7 @@
 #include "kernels/point_light.h"
 #include "kernels/sample.h"
 #include "kernels/sky.h"
-#include "kernels/texture.h"
+#include "kernels/surface_point.h"
 
 struct light_sample {
     struct vec3 wi;       /* unit, from the receiver */
@@ -40,14 +40,14 @@ static inline bool material_shines(const struct material *m)
            m->opacity > 0.0f;
 }
 
-/* Emitted radiance of a material at uv, the same to both sides. */
+/* Emitted radiance of a material at a surface point, the same to both sides. */
 static inline struct vec3 emission_at(const struct world *w,
-                                      const struct material *m, struct vec2 uv,
-                                      bool has_uv)
+                                      const struct material *m,
+                                      const struct surface_point *v)
 {
-    if (!HAS(FEATURE_TEXTURES) || m->emission_texture == NO_INDEX || !has_uv)
+    if (!HAS(FEATURE_TEXTURES) || m->emission_texture == NO_INDEX || !v->has_uv)
         return m->emission;
-    return v3_mul(m->emission, texture_at(w, m->emission_texture, uv).color);
+    return v3_mul(m->emission, surface_texel(w, v, m->emission_texture).color);
 }
 
 /* Density per solid angle at the receiver of a point of a light: density by
@@ -115,7 +115,9 @@ static inline struct vec3 light_radiance(const struct world *w, uint32_t light,
     if (HAS(FEATURE_TEXTURES) && texture != NO_INDEX)
         radiance =
             v3_mul(radiance,
-                   texture_at(w, texture, uv_at(w, w->tris[h.tri], h)).color);
+                   texture_at(w, texture,
+                              texture_uv_at(w, texture, w->tris[h.tri], h))
+                       .color);
     if (has_coverage(w))
         radiance = v3_scale(radiance, coverage_at(w, h));
     return radiance;

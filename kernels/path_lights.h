@@ -132,8 +132,7 @@ static inline void path_add_emission(const struct world *w, struct path *p,
         return;
     if (p->pdf > 0.0f)
         light_pdf = light_pdf_at(w, &p->from, tri, v->p);
-    path_add(p, emission_at(w, m, v->uv, v->has_uv),
-             bsdf_mis_weight(w, p->pdf, light_pdf));
+    path_add(p, emission_at(w, m, v), bsdf_mis_weight(w, p->pdf, light_pdf));
 }
 
 static inline uint32_t shadow_key(const struct path *p, uint32_t vertex)

@@ -18,7 +18,7 @@ struct surface_point {
     struct vec3 above; /* origin of rays that leave on the side of ng */
     struct vec3 ng;    /* unit, on the eye's side */
     struct vec3 n;     /* unit shading normal, wo.n > 0 */
-    struct vec2 uv;
+    struct uv_pair uv;
     struct vec3 color; /* of the vertices; if has_vertex_colors() */
     bool has_uv;
     bool is_outside;  /* the eye is on the side of the normal by the winding */
@@ -56,7 +56,7 @@ static inline void surface_turn_frame(const struct world *w, struct vec2 grain,
     struct vec3 along_u, along_v, d;
     float length;
 
-    if (!v->has_uv || !uv_tangents(w, t, &along_u, &along_v)) {
+    if (!v->has_uv || !uv_tangents(w, w->uvs, t, &along_u, &along_v)) {
         along_u = v3(v->n.z, 0.0f, -v->n.x);
         along_v = v3_cross(v->n, along_u);
     }
@@ -107,9 +107,13 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     v->is_lifted = false;
     v->face = h.tri + 1u;
     v->has_uv = t.vt[0] != NO_INDEX;
-    v->uv = v2(0.0f, 0.0f);
+    v->uv.first = v2(0.0f, 0.0f);
     if (v->has_uv)
-        v->uv = uv_at(w, t, h);
+        v->uv.first = uv_at(w, t, h);
+    if (HAS(FEATURE_TEXTURE_OPTIONS))
+        v->uv.second = v->uv.first;
+    if (v->has_uv && has_second_uvs(w))
+        v->uv.second = uv2_at(w, t, h);
     if (has_vertex_colors(w))
         v->color = vertex_color(w, t, h);
     if (HAS(FEATURE_BUMPS) && v->has_uv && has_bumps(m))
@@ -120,14 +124,38 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     return true;
 }
 
+/* Looks up a texture at a surface point, which has texture coordinates. */
+static inline struct rgba surface_texel(const struct world *w,
+                                        const struct surface_point *v,
+                                        uint32_t texture)
+{
+    return texture_at(w, texture, uv_for(w, texture, v->uv));
+}
+
 /* Returns the number of a map at a surface point, 1 if there is none. */
 static inline float map_number_at(const struct world *w,
                                   const struct surface_point *v,
                                   uint32_t texture)
 {
     return HAS(FEATURE_TEXTURES) && v->has_uv && texture != NO_INDEX
-               ? texture_at(w, texture, v->uv).alpha
+               ? surface_texel(w, v, texture).alpha
                : 1.0f;
+}
+
+/* Multiplies members of a mixture by maps that few materials have. */
+static inline void principled_maps_at(const struct world *w,
+                                      const struct material *m,
+                                      const struct surface_point *v,
+                                      struct bsdf *b)
+{
+    float roughness = map_number_at(w, v, m->sheen_alpha_texture);
+    float thickness = map_number_at(w, v, m->film_thickness_texture);
+
+    b->sheen_alpha =
+        f_max(b->sheen_alpha * roughness * roughness, SHEEN_ALPHA_MIN);
+    b->film *= map_number_at(w, v, m->film_texture);
+    b->film_thickness =
+        m->film_thinnest + thickness * (b->film_thickness - m->film_thinnest);
 }
 
 /* Fills the members of a BSDF that mixtures have. */
@@ -146,12 +174,14 @@ static inline void principled_at(const struct world *w,
     b->sheen = m->sheen;
     if (HAS(FEATURE_TEXTURES) && v->has_uv && m->sheen_texture != NO_INDEX)
         b->sheen =
-            v3_mul(b->sheen, texture_at(w, m->sheen_texture, v->uv).color);
+            v3_mul(b->sheen, surface_texel(w, v, m->sheen_texture).color);
     b->sheen_alpha = m->sheen_alpha;
     b->is_thin = m->is_thin;
     b->film = m->film;
     b->film_ior = m->film_ior;
     b->film_thickness = m->film_thickness;
+    if (HAS(FEATURE_TEXTURE_OPTIONS))
+        principled_maps_at(w, m, v, b);
 }
 
 static inline struct bsdf bsdf_at(const struct world *w,
@@ -163,16 +193,19 @@ static inline struct bsdf bsdf_at(const struct world *w,
 
     b.color = m->color;
     if (has_maps && m->color_texture != NO_INDEX)
-        b.color = v3_mul(b.color, texture_at(w, m->color_texture, v->uv).color);
+        b.color = v3_mul(b.color, surface_texel(w, v, m->color_texture).color);
     if (has_vertex_colors(w))
         b.color = v3_mul(b.color, v->color);
     b.specular = m->specular;
     if (has_maps && m->specular_texture != NO_INDEX)
         b.specular =
-            v3_mul(b.specular, texture_at(w, m->specular_texture, v->uv).color);
+            v3_mul(b.specular, surface_texel(w, v, m->specular_texture).color);
+    if (HAS(FEATURE_TEXTURE_OPTIONS))
+        b.specular = v3_scale(b.specular,
+                              map_number_at(w, v, m->specular_weight_texture));
     b.alpha = m->alpha;
     if (has_maps && m->alpha_texture != NO_INDEX) {
-        float roughness = texture_at(w, m->alpha_texture, v->uv).alpha;
+        float roughness = surface_texel(w, v, m->alpha_texture).alpha;
 
         b.alpha *= roughness * roughness;
     }

@@ -22,6 +22,12 @@ struct footprint {
     float fx, fy;
 };
 
+/* True if the texture has one of these flags, in builds that know them. */
+static inline bool texture_has(struct texture t, uint32_t flags)
+{
+    return HAS(FEATURE_TEXTURE_OPTIONS) && (t.flags & flags) != 0;
+}
+
 /* The column at u in a row of n texels that repeats, its right neighbour, and
  * the neighbour's weight. u is taken as 1 if it is infinite or NaN, as
  * coordinates beyond the range of float may be. */
@@ -35,6 +41,48 @@ static inline void wrap_pair(float u, uint32_t n, uint32_t *a, uint32_t *b,
     *fraction = x - whole;
     *a = i < 0 ? n - 1u : (uint32_t)i < n ? (uint32_t)i : n - 1u;
     *b = *a + 1u < n ? *a + 1u : 0u;
+}
+
+/* The texel of column i, from -1 to 2 n, of a row of n texels that is followed
+ * by its mirror image. */
+static inline uint32_t mirrored(int32_t i, uint32_t n)
+{
+    uint32_t k = i < 0 ? 0u : (uint32_t)i;
+
+    k = k < 2u * n ? k : 0u;
+    return k < n ? k : 2u * n - 1u - k;
+}
+
+/* wrap_pair() for rows that may be mirrored or without interpolation. */
+static inline void wrap_pair_by(bool is_mirrored, bool is_nearest, float u,
+                                uint32_t n, uint32_t *a, uint32_t *b,
+                                float *fraction)
+{
+    float middle = is_nearest ? 0.0f : 0.5f;
+    float x, whole;
+
+    if (is_mirrored) {
+        x = f_min(u - 2.0f * floorf(0.5f * u), 2.0f) * (float)n - middle;
+        whole = floorf(x);
+        *a = mirrored((int32_t)whole, n);
+        *b = mirrored((int32_t)whole + 1, n);
+        *fraction = x - whole;
+    } else if (is_nearest) {
+        x = f_min(u - floorf(u), 1.0f) * (float)n;
+        *a = (uint32_t)x < n ? (uint32_t)x : 0u;
+    } else {
+        wrap_pair(u, n, a, b, fraction);
+    }
+    if (is_nearest) {
+        *b = *a;
+        *fraction = 0.0f;
+    }
+}
+
+/* The lowest bit of the channel in a texel that its number is. */
+static inline uint32_t texture_shift(struct texture t)
+{
+    return (8u * t.channel + 24u) & 31u;
 }
 
 static inline struct rgba texel(const struct world *w, struct texture t,
@@ -51,24 +99,60 @@ static inline struct rgba texel(const struct world *w, struct texture t,
         c.color = v3(w->linear_of_srgb[bits & 255u],
                      w->linear_of_srgb[bits >> 8 & 255u],
                      w->linear_of_srgb[bits >> 16 & 255u]);
+    if (HAS(FEATURE_TEXTURE_OPTIONS))
+        bits = bits >> texture_shift(t) << 24;
     c.alpha = (float)(bits >> 24) * (1.0f / 255.0f);
     return c;
 }
 
 /* Transformed texture coordinates, clamped to the centres of the border texels
- * if the texture is. */
+ * if the texture is. Builds without FEATURE_TEXTURE_OPTIONS have textures that
+ * are clamped on both axes or on none. */
 static inline struct vec2 texture_uv(struct texture t, struct vec2 uv)
 {
     float x = 0.5f / (float)t.width;
     float y = 0.5f / (float)t.height;
 
-    uv.x = uv.x * t.scale.x + t.offset.x;
-    uv.y = uv.y * t.scale.y + t.offset.y;
-    if (t.is_clamped != 0) {
+    if (texture_has(t, TEXTURE_ROTATED)) {
+        float u = uv.x * t.scale.x;
+        float v = uv.y * t.scale.y;
+
+        uv.x = u * t.rotation.x - v * t.rotation.y + t.offset.x;
+        uv.y = u * t.rotation.y + v * t.rotation.x + t.offset.y;
+    } else {
+        uv.x = uv.x * t.scale.x + t.offset.x;
+        uv.y = uv.y * t.scale.y + t.offset.y;
+    }
+    if (HAS(FEATURE_TEXTURE_OPTIONS)) {
+        if ((t.flags & TEXTURE_CLAMP_U) != 0)
+            uv.x = f_min(f_max(uv.x, x), 1.0f - x);
+        if ((t.flags & TEXTURE_CLAMP_V) != 0)
+            uv.y = f_min(f_max(uv.y, y), 1.0f - y);
+    } else if ((t.flags & TEXTURE_CLAMP) != 0) {
         uv.x = f_min(f_max(uv.x, x), 1.0f - x);
         uv.y = f_min(f_max(uv.y, y), 1.0f - y);
     }
     return uv;
+}
+
+/* The texels around transformed coordinates. */
+static inline struct footprint texture_footprint(struct texture t,
+                                                 struct vec2 uv)
+{
+    struct footprint f;
+    bool is_nearest = texture_has(t, TEXTURE_NEAREST);
+    bool is_mirrored = texture_has(t, TEXTURE_MIRROR_V);
+    float v = 1.0f - (is_mirrored ? uv.y : uv.y - floorf(uv.y));
+
+    if (texture_has(t, TEXTURE_MIRROR_U | TEXTURE_MIRROR_V | TEXTURE_NEAREST)) {
+        wrap_pair_by(texture_has(t, TEXTURE_MIRROR_U), is_nearest, uv.x,
+                     t.width, &f.x0, &f.x1, &f.fx);
+        wrap_pair_by(is_mirrored, is_nearest, v, t.height, &f.y0, &f.y1, &f.fy);
+    } else {
+        wrap_pair(uv.x, t.width, &f.x0, &f.x1, &f.fx);
+        wrap_pair(v, t.height, &f.y0, &f.y1, &f.fy);
+    }
+    return f;
 }
 
 /* Bilinear look-up. Texels are decoded to linear before they are interpolated.
@@ -77,12 +161,9 @@ static inline struct rgba texture_at(const struct world *w, uint32_t index,
                                      struct vec2 uv)
 {
     struct texture t = w->textures[index];
-    struct footprint f;
+    struct footprint f = texture_footprint(t, texture_uv(t, uv));
     struct rgba a, b, c, d, mix;
 
-    uv = texture_uv(t, uv);
-    wrap_pair(uv.x, t.width, &f.x0, &f.x1, &f.fx);
-    wrap_pair(1.0f - (uv.y - floorf(uv.y)), t.height, &f.y0, &f.y1, &f.fy);
     a = texel(w, t, f.x0, f.y0);
     b = texel(w, t, f.x1, f.y0);
     c = texel(w, t, f.x0, f.y1);
@@ -107,13 +188,46 @@ static inline struct vec2 uv_at(const struct world *w, struct tri t,
               h.b0 * a.y + h.b1 * b.y + h.b2 * c.y);
 }
 
-/* Returns the alpha of a texture, 1 if there is none. */
-static inline float alpha_at(const struct world *w, uint32_t texture,
-                             struct vec2 uv)
+/* The same of the second texture coordinates. */
+static inline struct vec2 uv2_at(const struct world *w, struct tri t,
+                                 struct hit h)
 {
-    return texture != NO_INDEX && w->textures[texture].has_alpha != 0
-               ? texture_at(w, texture, uv).alpha
-               : 1.0f;
+    struct vec2 a = w->uvs2[t.vt[0]];
+    struct vec2 b = w->uvs2[t.vt[1]];
+    struct vec2 c = w->uvs2[t.vt[2]];
+
+    return v2(h.b0 * a.x + h.b1 * b.x + h.b2 * c.x,
+              h.b0 * a.y + h.b1 * b.y + h.b2 * c.y);
+}
+
+static inline bool has_second_uvs(const struct world *w)
+{
+    return HAS(FEATURE_TEXTURE_OPTIONS) && w->settings.uv2_count > 0u;
+}
+
+/* True if a texture is looked up by the second texture coordinates. */
+static inline bool uses_second_uvs(const struct world *w, uint32_t texture)
+{
+    return has_second_uvs(w) &&
+           (w->textures[texture].flags & TEXTURE_SECOND_UVS) != 0;
+}
+
+/* Texture coordinates of a hit, of the set that the texture uses. */
+static inline struct vec2 texture_uv_at(const struct world *w, uint32_t texture,
+                                        struct tri t, struct hit h)
+{
+    return uses_second_uvs(w, texture) ? uv2_at(w, t, h) : uv_at(w, t, h);
+}
+
+/* Returns the alpha of a texture at a hit with uv, 1 if there is none. */
+static inline float alpha_at(const struct world *w, uint32_t texture,
+                             struct tri t, struct hit h, struct vec2 uv)
+{
+    if (texture == NO_INDEX || w->textures[texture].has_alpha == 0)
+        return 1.0f;
+    if (uses_second_uvs(w, texture))
+        uv = uv2_at(w, t, h);
+    return texture_at(w, texture, uv).alpha;
 }
 
 /* True if any surface of the scene has coverage below 1. */
@@ -132,8 +246,8 @@ static inline float opacity_at(const struct world *w, struct material m,
         (m.color_texture != NO_INDEX || m.opacity_texture != NO_INDEX)) {
         struct vec2 uv = uv_at(w, t, h);
 
-        return m.opacity * alpha_at(w, m.color_texture, uv) *
-               alpha_at(w, m.opacity_texture, uv);
+        return m.opacity * alpha_at(w, m.color_texture, t, h, uv) *
+               alpha_at(w, m.opacity_texture, t, h, uv);
     }
     return m.opacity;
 }

@@ -76,18 +76,49 @@ struct material {
     uint32_t bump_texture;   /* heights in alpha */
     float bump_scale;        /* height of an alpha of 1, in texels */
     float normal_strength;   /* 0: the map of normals has no effect; 1: all */
+    float normal_depth;      /* the same for its third component */
     float film; /* weight of a thin film on MATERIAL_PRINCIPLED: thin_film.h */
     float film_ior;
     float film_thickness; /* in nanometres */
     float cutoff; /* above 0: coverage from here on is 1, below it is 0 */
+    /* the rest is of FEATURE_TEXTURE_OPTIONS; NO_INDEX: none */
+    uint32_t specular_weight_texture; /* multiplies specular */
+    uint32_t sheen_alpha_texture;     /* its square multiplies sheen_alpha */
+    uint32_t film_texture;            /* multiplies film */
+    uint32_t film_thickness_texture;  /* 0: film_thinnest; 1: film_thickness */
+    float film_thinnest;              /* in nanometres */
 };
 
 /* Roughness below which a microfacet lobe is a delta lobe. */
 #define ALPHA_SMOOTH 5e-4f
 
+/* How a texture is looked up, or-ed. Those after TEXTURE_CLAMP are of
+ * FEATURE_TEXTURE_OPTIONS, except TEXTURE_OPAQUE, which decides has_alpha. */
+enum texture_flag {
+    TEXTURE_CLAMP_U = 1, /* clamped to the border, not repeated */
+    TEXTURE_CLAMP_V = 2,
+    TEXTURE_CLAMP = 3,
+    TEXTURE_MIRROR_U = 4, /* repeated with every other copy mirrored */
+    TEXTURE_MIRROR_V = 8,
+    TEXTURE_NEAREST = 16,    /* no interpolation */
+    TEXTURE_ROTATED = 32,    /* `rotation` is used */
+    TEXTURE_SECOND_UVS = 64, /* looked up by uvs2 */
+    TEXTURE_OPAQUE = 128     /* alpha is ignored */
+};
+
+/* The channel from which the number of a texel is read. */
+enum texture_channel {
+    CHANNEL_DEFAULT, /* alpha; of data, the mean of red, green and blue unless
+                        the image has alpha */
+    CHANNEL_RED,
+    CHANNEL_GREEN,
+    CHANNEL_BLUE,
+    CHANNEL_ALPHA
+};
+
 /* An image of width * height texels, which begin at texels[first] with the top
  * row. A texel is 8-bit sRGB with linear alpha, red in the lowest byte. It is
- * looked up at uv * scale + offset. */
+ * looked up at uv * scale, rotated, + offset. */
 struct texture {
     uint32_t first;
     uint32_t width;
@@ -95,8 +126,11 @@ struct texture {
     uint32_t has_alpha; /* 1 if any alpha is below 1 */
     struct vec2 scale;
     struct vec2 offset;
-    uint32_t is_clamped; /* 1: clamped to the border; 0: repeated */
-    uint32_t is_data;    /* 1: linear channels, and alpha is their mean */
+    uint32_t flags;       /* enum texture_flag, or-ed */
+    uint32_t is_data;     /* 1: linear channels */
+    struct vec2 rotation; /* cosine and sine, counter-clockwise */
+    uint32_t channel;     /* enum texture_channel */
+    uint32_t pad;
 };
 
 /* Constant radiance (width 0) or a lat-long image times `color`. */
@@ -325,6 +359,7 @@ struct settings {
     uint32_t position_count;
     uint32_t normal_count;
     uint32_t uv_count;
+    uint32_t uv2_count;   /* uv_count, or 0 */
     uint32_t color_count; /* of vertices */
     uint32_t material_count;
     uint32_t texture_count;
@@ -349,6 +384,7 @@ struct world {
     GLOBAL const struct vec3 *positions;
     GLOBAL const struct vec3 *normals;
     GLOBAL const struct vec2 *uvs;
+    GLOBAL const struct vec2 *uvs2;   /* second uvs; NULL: none */
     GLOBAL const struct vec3 *colors; /* of vertices; NULL: none */
     GLOBAL const struct tri *tris;
     GLOBAL const struct material *materials;

@@ -16,6 +16,7 @@
 #include "formats/mtl_dialect.h"
 #include "formats/mtl_map.h"
 #include "formats/scene_lists.h"
+#include "formats/texture_table.h"
 
 struct parser {
     struct scene *scene;
@@ -24,9 +25,8 @@ struct parser {
     struct error *err;
     struct lexer lex;
     struct name_table materials; /* with the numbers they have in the scene */
-    struct name_table textures;
+    struct texture_table textures;
     size_t material_capacity;
-    size_t texture_capacity;
     char *name; /* of the material that is being read; NULL before the first */
     uint64_t name_line;
     uint32_t file;          /* number of this file in scene->mtl_paths */
@@ -60,41 +60,6 @@ uint32_t mtl_find(const struct scene *scene, const char *name)
             return i;
     }
     return NO_INDEX;
-}
-
-/* Returns a text that identifies a texture by its path and its options, for
- * free(); NULL when memory is out. */
-static char *texture_key(const char *path, const struct texture *t)
-{
-    return format_text("%a %a %a %a %u %u %s", (double)t->scale.x,
-                       (double)t->scale.y, (double)t->offset.x,
-                       (double)t->offset.y, t->is_clamped, t->is_data, path);
-}
-
-static uint32_t name_texture(struct name_table *names, const char *path,
-                             const struct texture *texture)
-{
-    char *key = texture_key(path, texture);
-    uint32_t index = key == NULL ? NO_NAME : name_table_add(names, key);
-
-    free(key);
-    return index;
-}
-
-/* Returns the number of the texture; adds one without texels if it is new.
- * NO_NAME when memory is out. */
-static uint32_t add_texture(struct parser *p, const char *path,
-                            const struct texture *texture, uint64_t line)
-{
-    struct texture_origin origin = {p->file, line};
-    uint32_t index = name_texture(&p->textures, path, texture);
-
-    if (index == NO_NAME || index < p->scene->texture_count)
-        return index;
-    return scene_add_texture(p->scene, &p->texture_capacity, path, texture,
-                             &origin)
-               ? index
-               : NO_NAME;
 }
 
 /* Adds the material that was read last to the scene. */
@@ -245,12 +210,12 @@ static char *map_path(const struct parser *p, const char *name)
     return found != NULL ? found : path_beside(p->path, name);
 }
 
-/* Reads a map statement. *bump_scale is set by -bm; it is NULL for maps that
- * are not heights. */
+/* Reads a map statement. *scale is set by -bm; it is NULL for maps of neither
+ * heights nor normals. */
 static bool read_map(struct parser *p, struct word key, bool is_data,
-                     uint32_t *texture, double *bump_scale)
+                     uint32_t *texture, double *scale)
 {
-    uint64_t line = p->lex.line;
+    struct texture_origin origin = {p->file, p->lex.line, 0};
     struct mtl_map_options o;
     char *name = mtl_map_read(&p->lex, &o);
     char *path;
@@ -258,25 +223,30 @@ static bool read_map(struct parser *p, struct word key, bool is_data,
     if (name == NULL)
         return out_of_memory(p);
     o.texture.is_data = is_data;
+    if (!is_data)
+        o.texture.channel = CHANNEL_DEFAULT;
+    origin.rotation_deg = o.rotation_deg;
     if (o.unknown_count > 0)
         warnings_add(p->report, "maps with unknown options",
                      "%s:%" PRIu64 ": found an unknown option of %.*s, "
-                     "expected -o, -s, -bm or -clamp: ignored",
-                     p->path, line, (int)key.length, key.start);
+                     "expected one that the manual lists: ignored",
+                     p->path, origin.line, (int)key.length, key.start);
     if (*name == '\0') {
         warnings_add(p->report, "maps without a file",
                      "%s:%" PRIu64 ": found %.*s without a file name: ignored",
-                     p->path, line, (int)key.length, key.start);
+                     p->path, origin.line, (int)key.length, key.start);
         free(name);
         return true;
     }
     path = map_path(p, name);
-    if (bump_scale != NULL)
-        *bump_scale = o.bump_scale;
-    *texture = path == NULL ? NO_NAME : add_texture(p, path, &o.texture, line);
+    if (scale != NULL)
+        *scale = o.bump_scale;
+    *texture = path == NULL
+                   ? NO_INDEX
+                   : texture_table_add(&p->textures, path, &o.texture, &origin);
     free(path);
     free(name);
-    return *texture != NO_NAME || out_of_memory(p);
+    return *texture != NO_INDEX || out_of_memory(p);
 }
 
 static void skip_statement(struct parser *p, struct word key)
@@ -325,6 +295,11 @@ static bool read_property(struct parser *p, struct word key)
         {"map_Pc", MTL_MAP_PC, true, false},
         {"map_Pcr", MTL_MAP_PCR, true, false},
         {"map_Ps", MTL_MAP_PS, true, false},
+        {"map_Ps_color", MTL_MAP_PS_COLOR, false, false},
+        {"map_Ps_roughness", MTL_MAP_PS_ROUGHNESS, true, false},
+        {"map_Ks_weight", MTL_MAP_KS_WEIGHT, true, false},
+        {"map_Pf", MTL_MAP_PF, true, false},
+        {"map_Pf_thickness", MTL_MAP_PF_THICKNESS, true, false},
         {"norm", MTL_MAP_NORM, true, false},
         {"map_Kn", MTL_MAP_NORM, true, false},
         {"bump", MTL_MAP_BUMP, true, false},
@@ -347,8 +322,7 @@ static bool read_property(struct parser *p, struct word key)
         if (word_is(key, maps[i].key) &&
             (p->dialect != MTL_CLASSIC || !maps[i].is_of_blender))
             return read_map(p, key, maps[i].is_data, &s->maps[maps[i].map],
-                            maps[i].map == MTL_MAP_BUMP ? &s->bump_scale
-                                                        : NULL);
+                            mtl_source_map_scale(s, maps[i].map));
     }
     skip_statement(p, key);
     return true;
@@ -386,12 +360,7 @@ static bool register_existing(struct parser *p)
         if (name_table_add(&p->materials, scene->material_names[i]) == NO_NAME)
             return false;
     }
-    for (uint32_t i = 0; i < scene->texture_count; i++) {
-        if (name_texture(&p->textures, scene->texture_paths[i],
-                         &scene->textures[i]) == NO_NAME)
-            return false;
-    }
-    return true;
+    return texture_table_init(&p->textures, p->scene);
 }
 
 /* Adds this file to the scene's list of MTL files, unless it is the first of
@@ -446,7 +415,6 @@ bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
     if (ok) {
         lexer_init(&p.lex, text, size_bytes);
         p.material_capacity = scene->material_count;
-        p.texture_capacity = scene->texture_count;
         p.earlier_count = scene->material_count;
         ok = add_file(&p) && register_existing(&p);
         if (ok)
@@ -455,6 +423,6 @@ bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
     }
     free(p.name);
     name_table_free(&p.materials);
-    name_table_free(&p.textures);
+    texture_table_free(&p.textures);
     return ok;
 }

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "formats/texture_table.h"
+
 /* Limit for the scale of bump maps; steeper heights have no use. */
 #define BUMP_MAX 1e6
 
@@ -13,23 +15,31 @@ enum map_option {
     OPTION_SCALE,
     OPTION_CLAMP,
     OPTION_BUMP,
+    OPTION_CHANNEL,
+    OPTION_MIRROR,
+    OPTION_NEAREST,
+    OPTION_ROTATE,
+    OPTION_UV,
+    OPTION_ALPHA,
     OPTION_OTHER
 };
 
 /* Map options and the number of words after each. -o, -s and -t take 1 to 3
- * numbers. */
+ * numbers. -alpha, -mirror, -nearest, -rotate and -uv are glim's own. */
 static const struct {
     const char *name;
     enum map_option option;
     int least, most;
 } options[] = {
-    {"-blendu", OPTION_OTHER, 1, 1},  {"-blendv", OPTION_OTHER, 1, 1},
-    {"-bm", OPTION_BUMP, 1, 1},       {"-boost", OPTION_OTHER, 1, 1},
-    {"-cc", OPTION_OTHER, 1, 1},      {"-clamp", OPTION_CLAMP, 1, 1},
-    {"-imfchan", OPTION_OTHER, 1, 1}, {"-mm", OPTION_OTHER, 2, 2},
-    {"-o", OPTION_OFFSET, 1, 3},      {"-s", OPTION_SCALE, 1, 3},
-    {"-t", OPTION_OTHER, 1, 3},       {"-texres", OPTION_OTHER, 1, 1},
-    {"-type", OPTION_OTHER, 1, 1},
+    {"-alpha", OPTION_ALPHA, 1, 1},     {"-blendu", OPTION_OTHER, 1, 1},
+    {"-blendv", OPTION_OTHER, 1, 1},    {"-bm", OPTION_BUMP, 1, 1},
+    {"-boost", OPTION_OTHER, 1, 1},     {"-cc", OPTION_OTHER, 1, 1},
+    {"-clamp", OPTION_CLAMP, 1, 1},     {"-imfchan", OPTION_CHANNEL, 1, 1},
+    {"-mirror", OPTION_MIRROR, 1, 1},   {"-mm", OPTION_OTHER, 2, 2},
+    {"-nearest", OPTION_NEAREST, 1, 1}, {"-o", OPTION_OFFSET, 1, 3},
+    {"-rotate", OPTION_ROTATE, 1, 1},   {"-s", OPTION_SCALE, 1, 3},
+    {"-t", OPTION_OTHER, 1, 3},         {"-texres", OPTION_OTHER, 1, 1},
+    {"-type", OPTION_OTHER, 1, 1},      {"-uv", OPTION_UV, 1, 1},
 };
 
 #define OPTION_COUNT (sizeof options / sizeof options[0])
@@ -53,6 +63,54 @@ static size_t find_option(struct word word)
     return i;
 }
 
+/* Sets or clears flags by a value that is on, off, or the axis u or v. */
+static void set_flags(struct texture *t, uint32_t u, uint32_t v,
+                      struct word word)
+{
+    bool is_on = word_is(word, "on");
+
+    t->flags &= ~(u | v);
+    if (is_on || word_is(word, "u"))
+        t->flags |= u;
+    if (is_on || word_is(word, "v"))
+        t->flags |= v;
+}
+
+/* Sets the channel. Returns false for one that glim does not know. l is
+ * luminance, as is the default. */
+static bool set_channel(struct texture *t, struct word word)
+{
+    static const char names[] = "lrgbm";
+    const char *at = word.length == 1 ? strchr(names, *word.start) : NULL;
+
+    if (at == NULL)
+        return false;
+    t->channel = (uint32_t)(at - names);
+    return true;
+}
+
+static void set_word(struct mtl_map_options *o, enum map_option option,
+                     struct word word)
+{
+    struct texture *t = &o->texture;
+
+    if (option == OPTION_CLAMP)
+        set_flags(t, TEXTURE_CLAMP_U, TEXTURE_CLAMP_V, word);
+    else if (option == OPTION_MIRROR)
+        set_flags(t, TEXTURE_MIRROR_U, TEXTURE_MIRROR_V, word);
+    else if (option == OPTION_NEAREST)
+        set_flags(t, TEXTURE_NEAREST, TEXTURE_NEAREST, word);
+    else if (option == OPTION_ALPHA)
+        t->flags = word_is(word, "off") ? t->flags | TEXTURE_OPAQUE
+                                        : t->flags & ~(uint32_t)TEXTURE_OPAQUE;
+    else if (option == OPTION_UV)
+        t->flags = word_is(word, "1")
+                       ? t->flags | TEXTURE_SECOND_UVS
+                       : t->flags & ~(uint32_t)TEXTURE_SECOND_UVS;
+    else if (option != OPTION_CHANNEL || !set_channel(t, word))
+        o->unknown_count++;
+}
+
 static void set_option(struct mtl_map_options *o, enum map_option option,
                        const double values[3], struct word word)
 {
@@ -62,10 +120,15 @@ static void set_option(struct mtl_map_options *o, enum map_option option,
         o->texture.scale = finite_pair(values, o->texture.scale);
     else if (option == OPTION_BUMP)
         o->bump_scale = fabs(values[0]) <= BUMP_MAX ? values[0] : 1;
-    else if (option == OPTION_CLAMP)
-        o->texture.is_clamped = word_is(word, "on");
+    else if (option == OPTION_ROTATE)
+        o->rotation_deg = isfinite(values[0]) ? values[0] : 0;
     else
-        o->unknown_count++;
+        set_word(o, option, word);
+}
+
+static bool has_number(enum map_option option)
+{
+    return option == OPTION_BUMP || option == OPTION_ROTATE;
 }
 
 /* Returns true for a word that looks like an option: a minus and a word without
@@ -109,7 +172,7 @@ static bool read_option(struct lexer *lex, struct mtl_map_options *o)
     }
     if (options[i].option == OPTION_SCALE || options[i].option == OPTION_BUMP)
         values[0] = values[1] = 1;
-    has_numbers = options[i].most == 3 || options[i].option == OPTION_BUMP;
+    has_numbers = options[i].most == 3 || has_number(options[i].option);
     for (int n = 0; n < options[i].most; n++) {
         if (has_numbers && lexer_number(lex, &values[n]))
             continue;
@@ -148,11 +211,12 @@ char *mtl_map_read(struct lexer *lex, struct mtl_map_options *o)
     char *name;
 
     *o =
-        (struct mtl_map_options){.texture = {.scale = {1, 1}}, .bump_scale = 1};
+        (struct mtl_map_options){.texture = texture_default(), .bump_scale = 1};
     while (read_option(lex, o) || read_unknown(lex, o))
         continue;
     name = lexer_rest(lex);
     if (name != NULL)
         cut_options(name, o);
+    texture_rotate(&o->texture, o->rotation_deg);
     return name;
 }

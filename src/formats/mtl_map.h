@@ -13,7 +13,8 @@
 #include "kernels/types.h"
 
 struct mtl_map_options {
-    struct texture texture; /* from -s, -o, -clamp */
+    struct texture texture; /* from all but -bm */
+    double rotation_deg;    /* from -rotate */
     double bump_scale;      /* from -bm */
     int unknown_count;      /* options that glim does not use */
 };

@@ -15,10 +15,23 @@
 static mtl_aliases light_keys = {"Ke", "Ke_blackbody"};
 static mtl_aliases blackbody_keys = {"Ke_blackbody", "Ke"};
 static mtl_aliases classic_map_keys[MTL_MAPS] = {
-    {"map_Kd"}, {"map_Ks"},         {"map_Ke"},
-    {"map_Pr"}, {"map_Pm"},         {"map_d"},
-    {"map_Tf"}, {"map_Pc"},         {"map_Pcr"},
-    {"map_Ps"}, {"norm", "map_Kn"}, {"map_Bump", "map_bump", "bump"},
+    {"map_Kd"},
+    {"map_Ks"},
+    {"map_Ke"},
+    {"map_Pr"},
+    {"map_Pm"},
+    {"map_d"},
+    {"map_Tf"},
+    {"map_Pc"},
+    {"map_Pcr"},
+    {"map_Ps"},
+    {"map_Ps_color"},
+    {"map_Ps_roughness"},
+    {"map_Ks_weight"},
+    {"map_Pf"},
+    {"map_Pf_thickness"},
+    {"norm", "map_Kn"},
+    {"map_Bump", "map_bump", "bump"},
 };
 static mtl_aliases roughness_of_blender = {"map_Pr", "map_Ns"};
 static mtl_aliases metal_of_blender = {"map_Pm", "map_refl"};
@@ -150,14 +163,48 @@ static void print_pair(FILE *to, const char *option, struct vec2 v, int third)
     fprintf(to, "%s %s %s %d ", option, x, y, third);
 }
 
+/* Writes an option with one number, unless that is the default. */
+static void print_number(FILE *to, const char *option, double value,
+                         double missing)
+{
+    char text[DECIMAL_TEXT_BYTES];
+
+    decimal_format(text, value);
+    if (value != missing)
+        fprintf(to, "%s %s ", option, text);
+}
+
+/* Writes an option that may be on for both axes or for one. */
+static void print_axes(FILE *to, const char *option, bool has_u, bool has_v)
+{
+    if (has_u || has_v)
+        fprintf(to, "%s %s ", option, !has_v ? "u" : !has_u ? "v" : "on");
+}
+
+static void print_flags(FILE *to, uint32_t flags)
+{
+    print_axes(to, "-clamp", (flags & TEXTURE_CLAMP_U) != 0,
+               (flags & TEXTURE_CLAMP_V) != 0);
+    print_axes(to, "-mirror", (flags & TEXTURE_MIRROR_U) != 0,
+               (flags & TEXTURE_MIRROR_V) != 0);
+    if ((flags & TEXTURE_NEAREST) != 0)
+        fputs("-nearest on ", to);
+    if ((flags & TEXTURE_SECOND_UVS) != 0)
+        fputs("-uv 1 ", to);
+    if ((flags & TEXTURE_OPAQUE) != 0)
+        fputs("-alpha off ", to);
+}
+
 /* Returns the options and the file name of a map statement, for free(). NULL
  * when memory is out. */
 static char *map_value(const struct writer *w, const struct mtl_source *s,
                        enum mtl_map map)
 {
     const struct texture *t = &w->scene->textures[s->maps[map]];
+    double angle = w->scene->texture_origins[s->maps[map]].rotation_deg;
+    struct mtl_source copy = *s;
+    const double *scale = mtl_source_map_scale(&copy, map);
     char *name = path_seen_from(w->path, w->scene->texture_paths[s->maps[map]]);
-    char bump[DECIMAL_TEXT_BYTES];
     char *text = NULL;
     size_t size_bytes;
     FILE *to = name == NULL ? NULL : open_memstream(&text, &size_bytes);
@@ -165,13 +212,14 @@ static char *map_value(const struct writer *w, const struct mtl_source *s,
     if (to != NULL) {
         if (t->scale.x != 1 || t->scale.y != 1)
             print_pair(to, "-s", t->scale, 1);
+        print_number(to, "-rotate", angle, 0);
         if (t->offset.x != 0 || t->offset.y != 0)
             print_pair(to, "-o", t->offset, 0);
-        if (t->is_clamped != 0)
-            fputs("-clamp on ", to);
-        decimal_format(bump, s->bump_scale);
-        if (map == MTL_MAP_BUMP && s->bump_scale != 1)
-            fprintf(to, "-bm %s ", bump);
+        print_flags(to, t->flags);
+        if (t->channel != CHANNEL_DEFAULT)
+            fprintf(to, "-imfchan %c ", "lrgbm"[t->channel]);
+        if (scale != NULL)
+            print_number(to, "-bm", *scale, 1);
         fputs(name, to);
         if (fclose(to) != 0) {
             free(text);

@@ -34,6 +34,11 @@
 #define FLAT_COSINE 0.999999f
 #define PAIR_RATIO  1.5
 
+/* Textures of which a triangle may show other texels than those between its
+ * coordinates in uvs. */
+#define NOT_REPEATED \
+    (TEXTURE_CLAMP | TEXTURE_MIRROR_U | TEXTURE_MIRROR_V | TEXTURE_SECOND_UVS)
+
 bool lights_differ(const struct material *a, const struct material *b)
 {
     if (!material_shines(a) && !material_shines(b))
@@ -58,8 +63,8 @@ static double mean_radiance(const struct world *w, const struct tri *t,
             uv[i] = texture_uv(texture, w->uvs[t->vt[i]]);
         /* a triangle outside a clamped image shows the border, of unknown
          * extent */
-        mean = texture.is_clamped != 0 ? texture_power_whole(f)
-                                       : texture_power_mean(f, uv);
+        mean = (texture.flags & NOT_REPEATED) != 0 ? texture_power_whole(f)
+                                                   : texture_power_mean(f, uv);
     }
     return mean * (double)m->opacity;
 }

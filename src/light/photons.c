@@ -305,7 +305,7 @@ static void photon_follow(const struct search *s, struct photon p, uint32_t i)
 
     for (uint32_t vertex = 1; vertex <= PHOTON_VERTICES; vertex++) {
         struct material m;
-        struct surface_point v;
+        struct surface_point v = {0}; /* gcc 12 warns without */
         struct vec3 from = p.ray.o;
         uint32_t material;
         struct bsdf b;

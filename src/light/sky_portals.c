@@ -430,7 +430,9 @@ static double color_at(const struct world *w, struct hit h)
     struct vec3 c = m->color;
 
     if (m->color_texture != NO_INDEX && t.vt[0] != NO_INDEX)
-        c = v3_mul(c, texture_at(w, m->color_texture, uv_at(w, t, h)).color);
+        c = v3_mul(c, texture_at(w, m->color_texture,
+                                 texture_uv_at(w, m->color_texture, t, h))
+                          .color);
     return color_mean(c);
 }
 

@@ -41,6 +41,11 @@ struct material material_default(void)
         .bump_texture = NO_INDEX,
         .bump_scale = 1,
         .normal_strength = 1,
+        .normal_depth = 1,
+        .specular_weight_texture = NO_INDEX,
+        .sheen_alpha_texture = NO_INDEX,
+        .film_texture = NO_INDEX,
+        .film_thickness_texture = NO_INDEX,
         .opacity = 1,
         .grain = {1, 0},
     };
@@ -51,10 +56,23 @@ struct material material_default(void)
 void material_maps(const struct material *m, uint32_t maps[MATERIAL_MAPS])
 {
     const uint32_t all[MATERIAL_MAPS] = {
-        m->color_texture,  m->emission_texture,   m->specular_texture,
-        m->alpha_texture,  m->metal_texture,      m->opacity_texture,
-        m->normal_texture, m->bump_texture,       m->transmission_texture,
-        m->coat_texture,   m->coat_alpha_texture, m->sheen_texture};
+        m->color_texture,
+        m->emission_texture,
+        m->specular_texture,
+        m->alpha_texture,
+        m->metal_texture,
+        m->opacity_texture,
+        m->normal_texture,
+        m->bump_texture,
+        m->transmission_texture,
+        m->coat_texture,
+        m->coat_alpha_texture,
+        m->sheen_texture,
+        m->specular_weight_texture,
+        m->sheen_alpha_texture,
+        m->film_texture,
+        m->film_thickness_texture,
+    };
 
     memcpy(maps, all, sizeof all);
 }
@@ -143,8 +161,9 @@ static bool has_roughness(const struct mtl_source *s)
     return s->pr.line != 0 || mtl_source_map(s, MTL_MAP_PR) != NO_INDEX;
 }
 
-/* Sets the absorption of a solid with the colour tf after Tf_distance. Returns
- * false if the statement is absent or 0. */
+/* Sets the absorption of a solid with the colour tf, or Tf_attenuation if that
+ * is present, after Tf_distance. Returns false if the distance is absent or
+ * 0. */
 static bool attenuate(struct material *m, struct vec3 tf,
                       const struct mtl_source *s,
                       const struct statement_place *at)
@@ -154,6 +173,8 @@ static bool attenuate(struct material *m, struct vec3 tf,
 
     if (d == 0)
         return false;
+    if (s->tf_attenuation.line != 0)
+        tf = statement_reflectance(&s->tf_attenuation, "Tf_attenuation", 1, at);
     m->attenuation = (struct vec3){absorption(tf.x, d), absorption(tf.y, d),
                                    absorption(tf.z, d)};
     return true;
@@ -166,7 +187,8 @@ static void make_glass(struct material *m, uint32_t kind,
     m->kind = kind;
     m->color = statement_reflectance(&s->tf, "Tf", 1, at);
     m->color_texture = mtl_source_map(s, MTL_MAP_KD);
-    if (kind == MATERIAL_GLASS && attenuate(m, m->color, s, at))
+    if (kind == MATERIAL_GLASS && attenuate(m, m->color, s, at) &&
+        s->tf_attenuation.line == 0)
         m->color = (struct vec3){1, 1, 1};
     if (kind == MATERIAL_GLASS || has_roughness(s))
         roughen(m, s, at);
@@ -226,6 +248,8 @@ static float full_specular(const struct mtl_source *s,
     float ni = index_of(s, at);
     float r = (ni - 1) / (ni + 1);
 
+    if (s->ks_full.line != 0)
+        return (float)statement_unit(&s->ks_full, "Ks_full", at);
     return s->dialect == MTL_BLENDER_4 ? 2 * r * r : MATERIAL_SPECULAR;
 }
 
@@ -242,6 +266,7 @@ static void make_plastic(struct material *m, const struct vec3 *ks,
         (struct vec3){fminf(level.x * full, 1), fminf(level.y * full, 1),
                       fminf(level.z * full, 1)};
     m->specular_texture = mtl_source_map(s, MTL_MAP_KS);
+    m->specular_weight_texture = mtl_source_map(s, MTL_MAP_KS_WEIGHT);
     roughen(m, s, at);
 }
 
@@ -274,7 +299,8 @@ static double transmission(struct material *m, const struct mtl_source *s,
     top = v3_max_component(tf);
     m->is_thin = top > 0 && is_thin(s, at);
     if (top > 0 && m->is_thin == 0 &&
-        attenuate(m, v3_scale(tf, 1 / top), s, at))
+        attenuate(m, v3_scale(tf, 1 / top), s, at) &&
+        s->tf_attenuation.line == 0)
         return (double)top;
     return (double)(tf.x + tf.y + tf.z) / 3;
 }
@@ -301,7 +327,7 @@ static void set_film(struct material *m, bool has_facets,
                      const struct mtl_source *s,
                      const struct statement_place *at)
 {
-    double weight = statement_unit(&s->pf, "Pf", at);
+    double weight = statement_weight(s, &s->pf, "Pf", MTL_MAP_PF, at);
     double ior = statement_within(&s->pf_ior, "Pf_ior", 1,
                                   MATERIAL_FILM_IOR_MAX, MATERIAL_FILM_IOR, at);
     double thickness = statement_within(&s->pf_thickness, "Pf_thickness", 0,
@@ -313,20 +339,40 @@ static void set_film(struct material *m, bool has_facets,
     m->film = (float)weight;
     m->film_ior = (float)ior;
     m->film_thickness = (float)thickness;
+    m->film_texture = mtl_source_map(s, MTL_MAP_PF);
+    m->film_thickness_texture = mtl_source_map(s, MTL_MAP_PF_THICKNESS);
+    if (m->film_thickness_texture != NO_INDEX)
+        m->film_thinnest =
+            (float)statement_within(&s->pf_thinnest, "Pf_thinnest", 0,
+                                    MATERIAL_FILM_THICKNESS_MAX, 0, at);
+}
+
+/* Returns the map of sheen. Colours come before weights. */
+static uint32_t sheen_map(const struct mtl_source *s)
+{
+    uint32_t colors = mtl_source_map(s, MTL_MAP_PS_COLOR);
+
+    return colors != NO_INDEX ? colors : mtl_source_map(s, MTL_MAP_PS);
 }
 
 static void set_sheen_and_grain(struct material *m, const struct mtl_source *s,
                                 const struct statement_place *at)
 {
-    float ps = (float)statement_weight(s, &s->ps, "Ps", MTL_MAP_PS, at);
+    uint32_t map = sheen_map(s);
+    float ps = s->ps.line == 0 && map != NO_INDEX
+                   ? 1
+                   : (float)statement_unit(&s->ps, "Ps", at);
+    struct vec3 color = statement_reflectance(&s->ps_color, "Ps_color", 1, at);
     double roughness =
         s->ps_roughness.line != 0
             ? statement_unit(&s->ps_roughness, "Ps_roughness", at)
             : MATERIAL_SHEEN_ROUGHNESS;
     double turn = s->anisor.line != 0 ? s->anisor.value : 0;
 
-    m->sheen = (struct vec3){ps, ps, ps};
-    m->sheen_texture = mtl_source_map(s, MTL_MAP_PS);
+    m->sheen = (struct vec3){ps * color.x, ps * color.y, ps * color.z};
+    m->sheen_texture = map;
+    if (ps > 0)
+        m->sheen_alpha_texture = mtl_source_map(s, MTL_MAP_PS_ROUGHNESS);
     if (ps > 0)
         m->sheen_alpha = fmaxf((float)(roughness * roughness), SHEEN_ALPHA_MIN);
     m->anisotropy = (float)statement_unit(&s->aniso, "aniso", at);
@@ -358,7 +404,7 @@ static bool make_principled(struct material *m, int illum, bool has_ks,
     if (m->metalness == 0 && !has_ks)
         m->anisotropy = 0;
     set_film(m, m->metalness > 0 || has_ks || m->transmission > 0, s, at);
-    return m->sheen.x > 0 || m->anisotropy > 0 || m->film > 0 ||
+    return !is_black(&m->sheen) || m->anisotropy > 0 || m->film > 0 ||
            m->metal_texture != NO_INDEX || m->transmission > 0 || m->coat > 0 ||
            (m->metalness > 0 && m->metalness < 1);
 }
@@ -413,12 +459,13 @@ static void check_map(const struct mtl_source *s, enum mtl_map which,
                       const struct statement_place *at)
 {
     uint32_t map = mtl_source_map(s, which);
+    uint32_t used[MATERIAL_MAPS];
 
-    if (map != NO_INDEX && map != m->color_texture &&
-        map != m->specular_texture && map != m->alpha_texture &&
-        map != m->metal_texture && map != m->opacity_texture &&
-        map != m->transmission_texture && map != m->coat_texture &&
-        map != m->coat_alpha_texture && map != m->sheen_texture)
+    material_maps(m, used);
+    for (int i = 0; i < MATERIAL_MAPS; i++)
+        if (map == used[i])
+            return;
+    if (map != NO_INDEX)
         warnings_add(at->report, "maps that their material does not use",
                      "%s: found %s, which this material does not use: ignored",
                      at->path, mtl_map_keys[which]);
@@ -427,11 +474,20 @@ static void check_map(const struct mtl_source *s, enum mtl_map which,
 struct material material_from_source(const struct mtl_source *s,
                                      const char *path, struct warnings *report)
 {
-    static const enum mtl_map kind_maps[] = {MTL_MAP_KD, MTL_MAP_KS,
-                                             MTL_MAP_PR, MTL_MAP_PM,
-                                             MTL_MAP_D,  MTL_MAP_TF,
-                                             MTL_MAP_PC, MTL_MAP_PCR,
-                                             MTL_MAP_PS};
+    static const enum mtl_map kind_maps[] = {MTL_MAP_KD,
+                                             MTL_MAP_KS,
+                                             MTL_MAP_PR,
+                                             MTL_MAP_PM,
+                                             MTL_MAP_D,
+                                             MTL_MAP_TF,
+                                             MTL_MAP_PC,
+                                             MTL_MAP_PCR,
+                                             MTL_MAP_PS,
+                                             MTL_MAP_PS_COLOR,
+                                             MTL_MAP_PS_ROUGHNESS,
+                                             MTL_MAP_KS_WEIGHT,
+                                             MTL_MAP_PF,
+                                             MTL_MAP_PF_THICKNESS};
     struct statement_place at = {path, report};
     struct material m = material_default();
     struct mtl_color light = mtl_source_light(s);
@@ -458,6 +514,7 @@ struct material material_from_source(const struct mtl_source *s,
                      "uses: ignored",
                      path, s->tf_distance.line);
     m.normal_texture = mtl_source_map(s, MTL_MAP_NORM);
+    m.normal_strength = (float)s->normal_scale;
     m.bump_texture = mtl_source_map(s, MTL_MAP_BUMP);
     m.bump_scale = (float)s->bump_scale;
     m.emission = statement_radiance(&light, &at);

@@ -28,7 +28,11 @@
  * after this distance. Thin glass is rough with Pr or map_Pr only. In a
  * mixture, Tf_thin above 0 makes its glass a thin sheet; else, with
  * Tf_distance, the weight of glass is the largest channel of Tf, and absorption
- * has the hue of Tf.
+ * has the hue of Tf. Tf_attenuation, if present, is what is left of light after
+ * Tf_distance, in place of Tf. Ks_full is used in place of MATERIAL_SPECULAR.
+ * Ps_color, or map_Ps_color, colours sheen. map_Ks_weight, map_Ps_roughness and
+ * map_Pf multiply Ks, Ps_roughness and Pf; map_Pf_thickness goes from
+ * Pf_thinnest to Pf_thickness.
  *
  * In files of Blender (enum mtl_dialect), Ks never is a colour of metal; Pm is
  * Ka with illum 3 and 6 if there is no Pm; roughness is 1 - sqrt(Ns / 1000);
@@ -64,7 +68,7 @@
 #define MATERIAL_FILM_THICKNESS_MAX 2000
 
 /* Maps of a material. */
-#define MATERIAL_MAPS 12
+#define MATERIAL_MAPS 16
 
 struct material material_default(void);
 

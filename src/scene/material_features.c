@@ -17,6 +17,34 @@ static bool has_texture(const struct material *m)
     return false;
 }
 
+/* Flags that no kernel reads, or every one. */
+#define PLAIN_FLAGS (TEXTURE_CLAMP | TEXTURE_OPAQUE)
+
+/* Returns true if a build without FEATURE_TEXTURE_OPTIONS would look the
+ * texture up wrongly. */
+static bool has_options(const struct texture *t)
+{
+    uint32_t clamp = t->flags & TEXTURE_CLAMP;
+
+    return (t->flags & ~(uint32_t)PLAIN_FLAGS) != 0 ||
+           (clamp != 0 && clamp != TEXTURE_CLAMP) ||
+           (t->channel != CHANNEL_DEFAULT && t->channel != CHANNEL_ALPHA);
+}
+
+static bool needs_options(const struct material *m,
+                          const struct texture *textures)
+{
+    uint32_t maps[MATERIAL_MAPS];
+
+    material_maps(m, maps);
+    for (int i = 0; i < MATERIAL_MAPS; i++)
+        if (maps[i] != NO_INDEX && has_options(&textures[maps[i]]))
+            return true;
+    return m->specular_weight_texture != NO_INDEX ||
+           m->sheen_alpha_texture != NO_INDEX || m->film_texture != NO_INDEX ||
+           m->film_thickness_texture != NO_INDEX;
+}
+
 static bool is_translucent(const struct texture *textures, uint32_t texture)
 {
     return texture != NO_INDEX && textures[texture].has_alpha != 0;
@@ -31,6 +59,8 @@ uint32_t material_features(const struct material *m,
         features |= FEATURE_EMITTERS;
     if (has_texture(m))
         features |= FEATURE_TEXTURES;
+    if (needs_options(m, textures))
+        features |= FEATURE_TEXTURE_OPTIONS;
     if (m->bump_texture != NO_INDEX || m->normal_texture != NO_INDEX)
         features |= FEATURE_BUMPS;
     if (m->opacity < 1 || is_translucent(textures, m->color_texture) ||

@@ -13,6 +13,8 @@ const struct mtl_property mtl_properties[MTL_PROPERTIES] = {
     {"Ks", MEMBER(ks), true},
     {"Tf", MEMBER(tf), true},
     {"Ka", MEMBER(ka), true},
+    {"Tf_attenuation", MEMBER(tf_attenuation), true},
+    {"Ps_color", MEMBER(ps_color), true},
     {"illum", MEMBER(illum), false},
     {"Ns", MEMBER(ns), false},
     {"Ni", MEMBER(ni), false},
@@ -32,21 +34,34 @@ const struct mtl_property mtl_properties[MTL_PROPERTIES] = {
     {"Pf", MEMBER(pf), false},
     {"Pf_ior", MEMBER(pf_ior), false},
     {"Pf_thickness", MEMBER(pf_thickness), false},
+    {"Pf_thinnest", MEMBER(pf_thinnest), false},
     {"d_cutoff", MEMBER(d_cutoff), false},
+    {"Ks_full", MEMBER(ks_full), false},
 };
 
 const char *const mtl_map_keys[MTL_MAPS] = {
-    [MTL_MAP_KD] = "map_Kd",   [MTL_MAP_KS] = "map_Ks",
-    [MTL_MAP_KE] = "map_Ke",   [MTL_MAP_PR] = "map_Pr",
-    [MTL_MAP_PM] = "map_Pm",   [MTL_MAP_D] = "map_d",
-    [MTL_MAP_TF] = "map_Tf",   [MTL_MAP_PC] = "map_Pc",
-    [MTL_MAP_PCR] = "map_Pcr", [MTL_MAP_PS] = "map_Ps",
-    [MTL_MAP_NORM] = "norm",   [MTL_MAP_BUMP] = "map_Bump",
+    [MTL_MAP_KD] = "map_Kd",
+    [MTL_MAP_KS] = "map_Ks",
+    [MTL_MAP_KE] = "map_Ke",
+    [MTL_MAP_PR] = "map_Pr",
+    [MTL_MAP_PM] = "map_Pm",
+    [MTL_MAP_D] = "map_d",
+    [MTL_MAP_TF] = "map_Tf",
+    [MTL_MAP_PC] = "map_Pc",
+    [MTL_MAP_PCR] = "map_Pcr",
+    [MTL_MAP_PS] = "map_Ps",
+    [MTL_MAP_PS_COLOR] = "map_Ps_color",
+    [MTL_MAP_PS_ROUGHNESS] = "map_Ps_roughness",
+    [MTL_MAP_KS_WEIGHT] = "map_Ks_weight",
+    [MTL_MAP_PF] = "map_Pf",
+    [MTL_MAP_PF_THICKNESS] = "map_Pf_thickness",
+    [MTL_MAP_NORM] = "norm",
+    [MTL_MAP_BUMP] = "map_Bump",
 };
 
 struct mtl_source mtl_source_empty(void)
 {
-    struct mtl_source s = {.bump_scale = 1};
+    struct mtl_source s = {.bump_scale = 1, .normal_scale = 1};
 
     for (int i = 0; i < MTL_MAPS; i++)
         s.maps[i] = NO_INDEX;
@@ -93,7 +108,9 @@ bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b)
         if (!property_equal(&mtl_properties[i], a, b))
             return false;
     return a->dialect == b->dialect && a->maps_off == b->maps_off &&
-           a->bump_scale == b->bump_scale && mtl_color_equal(&a->ke, &b->ke) &&
+           a->bump_scale == b->bump_scale &&
+           a->normal_scale == b->normal_scale &&
+           mtl_color_equal(&a->ke, &b->ke) &&
            mtl_number_equal(&a->kelvin, &b->kelvin) &&
            mtl_number_equal(&a->luminance, &b->luminance);
 }
@@ -116,6 +133,13 @@ struct mtl_color mtl_source_light(const struct mtl_source *s)
     for (int i = 0; i < 3; i++)
         light.rgb[i] *= s->luminance.value;
     return light;
+}
+
+double *mtl_source_map_scale(struct mtl_source *s, enum mtl_map map)
+{
+    if (map == MTL_MAP_BUMP)
+        return &s->bump_scale;
+    return map == MTL_MAP_NORM ? &s->normal_scale : NULL;
 }
 
 double mtl_source_full_coat(const struct mtl_source *s)

@@ -36,6 +36,11 @@ enum mtl_map {
     MTL_MAP_PC,
     MTL_MAP_PCR,
     MTL_MAP_PS,
+    MTL_MAP_PS_COLOR, /* in place of MTL_MAP_PS */
+    MTL_MAP_PS_ROUGHNESS,
+    MTL_MAP_KS_WEIGHT,
+    MTL_MAP_PF,
+    MTL_MAP_PF_THICKNESS,
     MTL_MAP_NORM,
     MTL_MAP_BUMP,
     MTL_MAPS
@@ -53,16 +58,18 @@ enum mtl_dialect {
 
 struct mtl_source {
     uint32_t dialect; /* enum mtl_dialect, that of the whole file */
-    struct mtl_color kd, ks, ke, tf;
+    struct mtl_color kd, ks, ke, tf, tf_attenuation, ps_color;
     struct mtl_color ka; /* read in files of Blender only */
     /* the two numbers of Ke_blackbody, which replaces Ke */
     struct mtl_number kelvin, luminance;
     struct mtl_number illum, ns, ni, d, tr, pr, pm, pc, pcr, kd_roughness;
     struct mtl_number ps, ps_roughness, aniso, anisor, tf_distance, tf_thin;
-    struct mtl_number pf, pf_ior, pf_thickness, d_cutoff;
+    struct mtl_number pf, pf_ior, pf_thickness, pf_thinnest, d_cutoff;
+    struct mtl_number ks_full;
     uint32_t maps[MTL_MAPS]; /* numbers of textures, or NO_INDEX */
-    uint32_t maps_off; /* bit set of 1 << enum mtl_map: maps to be ignored */
-    double bump_scale; /* factor for the heights of MTL_MAP_BUMP */
+    uint32_t maps_off;   /* bit set of 1 << enum mtl_map: maps to be ignored */
+    double bump_scale;   /* factor for the heights of MTL_MAP_BUMP */
+    double normal_scale; /* factor for x and y of MTL_MAP_NORM */
 };
 
 /* A statement of one colour or one number. Statements of this table are read,
@@ -74,7 +81,7 @@ struct mtl_property {
     bool is_color;
 };
 
-#define MTL_PROPERTIES 24
+#define MTL_PROPERTIES 28
 
 /* All statements of one colour or number, colours first. */
 extern const struct mtl_property mtl_properties[MTL_PROPERTIES];
@@ -89,6 +96,9 @@ bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b);
 
 /* Returns the texture of a map, or NO_INDEX if it is absent or switched off. */
 uint32_t mtl_source_map(const struct mtl_source *source, enum mtl_map map);
+
+/* Returns the factor of a map that -bm sets, or NULL for maps without one. */
+double *mtl_source_map_scale(struct mtl_source *source, enum mtl_map map);
 
 /* Returns the Pc of a coat of weight 1. Blender writes its clearcoat, of which
  * Cycles uses a quarter, and from 4.0 on four times the coat's weight. */

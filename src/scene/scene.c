@@ -258,6 +258,7 @@ uint64_t scene_geometry_bytes(const struct scene *s)
     return s->position_count * (uint64_t)sizeof *s->positions +
            s->normal_count * (uint64_t)sizeof *s->normals +
            s->uv_count * (uint64_t)sizeof *s->uvs +
+           (s->uvs2 != NULL ? s->uv_count : 0) * (uint64_t)sizeof *s->uvs2 +
            s->color_count * (uint64_t)sizeof *s->colors +
            s->tri_count * (uint64_t)(sizeof *s->tris + sizeof *s->tri_faces +
                                      sizeof *s->tri_objects);
@@ -329,6 +330,7 @@ void scene_free(struct scene *scene)
     free(scene->positions);
     free(scene->normals);
     free(scene->uvs);
+    free(scene->uvs2);
     free(scene->colors);
     free(scene->tris);
     free(scene->tri_faces);

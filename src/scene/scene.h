@@ -26,6 +26,7 @@
 struct texture_origin {
     uint32_t file; /* index into mtl_paths */
     uint64_t line;
+    double rotation_deg; /* as the statement has it */
 };
 
 /* Statements that a material was made from. */
@@ -56,6 +57,7 @@ struct scene {
     uint32_t normal_count;
     struct vec2 *uvs;
     uint32_t uv_count;
+    struct vec2 *uvs2;   /* second set, parallel to uvs; NULL: there is none */
     struct vec3 *colors; /* linear, of each vertex; NULL: the file has none */
     uint32_t color_count;
 

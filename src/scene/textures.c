@@ -10,6 +10,7 @@
 #include "base/thread_pool.h"
 #include "picture/image_read.h"
 #include "scene/material.h"
+#include "kernels/texture.h"
 
 /* Limit of all texels together, since texture.first has 32 bits. */
 #define TEXELS_MAX UINT64_C(0xffffffff)
@@ -25,9 +26,16 @@ static bool has_alpha(const struct image *image)
     return false;
 }
 
-/* Returns the number of a texel of data (roughness, opacity, height), linear:
- * alpha or the mean of the channels. Opacity is often stored in the alpha
- * channel of a white or coloured picture. */
+/* True if texels have numbers of data (roughness, opacity, height) in place of
+ * alpha, because no channel was chosen. */
+static bool has_numbers(const struct texture *t)
+{
+    return t->is_data != 0 && t->channel == CHANNEL_DEFAULT;
+}
+
+/* Returns the number of a texel of data: alpha or the mean of the channels.
+ * Opacity is often stored in the alpha channel of a white or coloured
+ * picture. */
 static uint32_t number_of(const uint8_t *texel, bool by_alpha)
 {
     if (by_alpha)
@@ -35,12 +43,25 @@ static uint32_t number_of(const uint8_t *texel, bool by_alpha)
     return ((uint32_t)texel[0] + texel[1] + texel[2] + 1) / 3;
 }
 
+/* Finds out whether numbers of the texels in the world are below 1. */
+static void find_alpha(const struct host_world *host, struct texture *t)
+{
+    const uint32_t *texels = host->texels + t->first;
+    size_t count = (size_t)t->width * t->height;
+    uint32_t mask = UINT32_C(255) << texture_shift(*t);
+    uint32_t least = mask;
+
+    for (size_t i = 0; i < count; i++)
+        least &= texels[i];
+    t->has_alpha = (t->flags & TEXTURE_OPAQUE) == 0 && least != mask;
+}
+
 static bool append(struct host_world *host, const struct image *image,
                    struct texture *texture, const char *path, struct error *err)
 {
     size_t count = (size_t)image->width * (size_t)image->height;
     size_t total = host->texel_count + count;
-    bool by_alpha = !texture->is_data || has_alpha(image);
+    bool by_alpha = !has_numbers(texture) || has_alpha(image);
     uint32_t *texels;
 
     texels = total > SIZE_MAX / sizeof *texels
@@ -60,9 +81,9 @@ static bool append(struct host_world *host, const struct image *image,
 
         texels[i] = (uint32_t)p[0] | (uint32_t)p[1] << 8 |
                     (uint32_t)p[2] << 16 | alpha << 24;
-        texture->has_alpha |= alpha < 255;
     }
     host->texel_count = total;
+    find_alpha(host, texture);
     world_renew(host, WORLD_TEXELS);
     return true;
 }
@@ -77,13 +98,13 @@ static bool shares_texels(struct host_world *host, const struct scene *scene,
     for (uint32_t i = 0; i < scene->texture_count; i++) {
         const struct texture *other = &host->textures[i];
 
-        if (other->width == 0 || other->is_data != t->is_data ||
+        if (other->width == 0 || has_numbers(other) != has_numbers(t) ||
             strcmp(scene->texture_paths[i], scene->texture_paths[index]) != 0)
             continue;
         t->first = other->first;
         t->width = other->width;
         t->height = other->height;
-        t->has_alpha = other->has_alpha;
+        find_alpha(host, t);
         return true;
     }
     return false;
@@ -179,7 +200,8 @@ static const struct reading *find_original(const struct scene *scene,
     const struct reading *r = &readings[index];
 
     for (uint32_t i = 0; i < index; i++)
-        if (t[readings[i].texture].is_data == t[r->texture].is_data &&
+        if (has_numbers(&t[readings[i].texture]) ==
+                has_numbers(&t[r->texture]) &&
             strcmp(readings[i].path, r->path) == 0)
             return &readings[i];
     return NULL;
@@ -325,7 +347,7 @@ static void resolve_bump_map(const struct host_world *host,
     m->bump_texture = NO_INDEX;
     if (m->normal_texture == NO_INDEX) {
         m->normal_texture = map;
-        m->normal_strength = m->bump_scale;
+        m->normal_strength = m->normal_depth = m->bump_scale;
     }
     warnings_add(report, "normal maps in map_Bump",
                  "%s:%" PRIu64 ": found a map of normals, expected heights: "
@@ -381,6 +403,10 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
     resolve_data_map(host, &m->coat_alpha_texture);
     if (resolve_data_map(host, &m->sheen_texture))
         m->sheen = (struct vec3){0, 0, 0};
+    resolve_data_map(host, &m->sheen_alpha_texture);
+    resolve_data_map(host, &m->specular_weight_texture);
+    resolve_data_map(host, &m->film_texture);
+    resolve_data_map(host, &m->film_thickness_texture);
     resolve_data_map(host, &m->opacity_texture);
     resolve_data_map(host, &m->normal_texture);
     resolve_bump_map(host, scene, m, report);

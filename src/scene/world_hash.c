@@ -10,6 +10,7 @@ static const enum film_part film_parts[WORLD_LIST_COUNT] = {
     [WORLD_LIST_positions] = FILM_GEOMETRY,
     [WORLD_LIST_normals] = FILM_GEOMETRY,
     [WORLD_LIST_uvs] = FILM_GEOMETRY,
+    [WORLD_LIST_uvs2] = FILM_GEOMETRY,
     [WORLD_LIST_colors] = FILM_GEOMETRY,
     [WORLD_LIST_tris] = FILM_GEOMETRY,
     [WORLD_LIST_materials] = FILM_MATERIALS,

@@ -20,6 +20,7 @@
     X(positions, s->position_count, WORLD_FIXED)                        \
     X(normals, s->normal_count, WORLD_FIXED)                            \
     X(uvs, s->uv_count, WORLD_FIXED)                                    \
+    X(uvs2, s->uv2_count, WORLD_FIXED)                                  \
     X(colors, s->color_count, WORLD_FIXED)                              \
     X(tris, s->tri_count, WORLD_TRIS)                                   \
     X(materials, s->material_count, WORLD_MATERIALS)                    \

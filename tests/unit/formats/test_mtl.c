@@ -317,7 +317,7 @@ static void map_options_are_not_part_of_the_name(void **state)
         const char *text, *path;
         bool has_unknown;
         float scale[2], offset[2];
-        uint32_t is_clamped;
+        bool is_clamped;
     } cases[] = {
         {"map_Kd a.png", "a.png", false, {1, 1}, {0, 0}, 0},
         {"map_Kd  a b  c.png ", "a b  c.png", false, {1, 1}, {0, 0}, 0},
@@ -376,7 +376,7 @@ static void map_options_are_not_part_of_the_name(void **state)
         check_close((double)t->scale.y, (double)cases[i].scale[1], 0);
         check_close((double)t->offset.x, (double)cases[i].offset[0], 0);
         check_close((double)t->offset.y, (double)cases[i].offset[1], 0);
-        assert_int_equal(t->is_clamped, cases[i].is_clamped);
+        assert_int_equal(t->flags, cases[i].is_clamped ? TEXTURE_CLAMP : 0);
         assert_int_equal(t->is_data, 0);
         unload(&l);
     }

@@ -32,6 +32,9 @@
       M(material, opacity_texture) M(material, metalness)                     \
       M(material, normal_texture) M(material, bump_texture)                   \
       M(material, bump_scale) M(material, normal_strength)                    \
+      M(material, normal_depth) M(material, specular_weight_texture)          \
+      M(material, sheen_alpha_texture) M(material, film_texture)              \
+      M(material, film_thickness_texture) M(material, film_thinnest)          \
       M(material, transmission) M(material, coat)                             \
       M(material, coat_alpha) M(material, sheen) M(material, sheen_alpha)     \
       M(material, anisotropy) M(material, grain)                              \
@@ -42,7 +45,8 @@
       M(material, cutoff)                                                     \
     S(texture) M(texture, first) M(texture, width) M(texture, height)         \
       M(texture, has_alpha) M(texture, scale) M(texture, offset)              \
-      M(texture, is_clamped) M(texture, is_data)                              \
+      M(texture, flags) M(texture, is_data) M(texture, rotation)              \
+      M(texture, channel) M(texture, pad)                                     \
     S(sky) M(sky, color) M(sky, width) M(sky, height) M(sky, rotation_sin)    \
       M(sky, rotation_cos) M(sky, pad)                                        \
     S(camera) M(camera, eye) M(camera, width) M(camera, forward)              \
@@ -79,7 +83,7 @@
       M(settings, profile_value_count)                                        \
       M(settings, tri_count) M(settings, position_count)                      \
       M(settings, normal_count) M(settings, uv_count)                         \
-      M(settings, color_count)                                                \
+      M(settings, uv2_count) M(settings, color_count)                         \
       M(settings, material_count) M(settings, texture_count)                  \
       M(settings, texel_count) M(settings, light_count)                       \
       M(settings, light_node_count) M(settings, sky_cdf_count)                \

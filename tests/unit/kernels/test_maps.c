@@ -83,7 +83,7 @@ static void unload(struct loaded *l)
 
 static struct bsdf surface(const struct loaded *l, float u, float v)
 {
-    struct surface_point at = {.uv = {u, v},
+    struct surface_point at = {.uv = {{u, v}, {0, 0}},
                                .has_uv = true,
                                .is_outside = true};
 
@@ -367,8 +367,10 @@ static const struct vec3 up = {0, 0, 1};
 static struct vec3 bumped(const struct loaded *l, float u, float v,
                           struct vec3 wo)
 {
-    return bumped_normal(&l->world, &l->material, l->scene.tris[0], v2(u, v),
-                         up, up, wo);
+    struct uv_pair uv = {{u, v}, {u, v}};
+
+    return bumped_normal(&l->world, &l->material, l->scene.tris[0], uv, up, up,
+                         wo);
 }
 
 static void check_direction(struct vec3 n, double x, double y, double z)
@@ -392,10 +394,10 @@ static void normal_maps_turn_the_normal(void **state)
     check_direction(bumped(&l, 0.5f, 0.5f, up), 85. / 255, -51. / 255,
                     187. / 255);
     /* Half of its strength is half way to the normal of the face. */
-    l.material.normal_strength = 0.5f;
+    l.material.normal_strength = l.material.normal_depth = 0.5f;
     check_direction(bumped(&l, 0.5f, 0.5f, up), 85. / 255, -51. / 255,
                     187. / 255 + 1);
-    l.material.normal_strength = 1;
+    l.material.normal_strength = l.material.normal_depth = 1;
     /* If u increases to the left, x is reversed. */
     l.scene.uvs[1].x = -1;
     check_direction(bumped(&l, 0.5f, 0.5f, up), -85. / 255, -51. / 255,

@@ -144,7 +144,7 @@ static void cut_outs_hide_and_shine_by_half(void **state)
                                  .height = 1,
                                  .has_alpha = 1,
                                  .scale = {1, 1},
-                                 .is_clamped = 1};
+                                 .flags = TEXTURE_CLAMP};
     const struct receiver r = {{0.1f, 0, 0}, {0, 1, 0}, false};
 
     (void)state;
