@@ -514,7 +514,8 @@ struct material material_from_source(const struct mtl_source *s,
                      "uses: ignored",
                      path, s->tf_distance.line);
     m.normal_texture = mtl_source_map(s, MTL_MAP_NORM);
-    m.normal_strength = (float)s->normal_scale;
+    if (m.normal_texture != NO_INDEX)
+        m.normal_strength = (float)s->normal_scale;
     m.bump_texture = mtl_source_map(s, MTL_MAP_BUMP);
     m.bump_scale = (float)s->bump_scale;
     m.emission = statement_radiance(&light, &at);

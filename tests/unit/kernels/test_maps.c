@@ -135,6 +135,145 @@ static void texels_are_met_in_their_centres(void **state)
     unload(&l);
 }
 
+/* The texel of column i of a row of three that is mirrored: 0 1 2 2 1 0. */
+static int mirrored_column(int i)
+{
+    int k = ((i % 6) + 6) % 6;
+
+    return k < 3 ? k : 5 - k;
+}
+
+/* In the centres of texels -6 to 5 of the row below the image's middle. */
+static void rows_are_mirrored_and_clamped_on_one_axis(void **state)
+{
+    struct loaded mirror, clamp, nearest;
+
+    (void)state;
+    write_image("six.tga", 3, 2, 3, six);
+    load(&mirror, "Kd 1\nmap_Kd -mirror u six.tga");
+    load(&clamp, "Kd 1\nmap_Kd -clamp u six.tga");
+    load(&nearest, "Kd 1\nmap_Kd -nearest on -mirror on six.tga");
+    for (int i = -6; i < 6; i++) {
+        float u = (float)((i + 0.5) / 3);
+        int column = i < 0 ? 0 : i > 2 ? 2 : i;
+        double red = linear(six[3 * (3 + mirrored_column(i))]);
+
+        for (int turn = -1; turn <= 1; turn++) {
+            float v = 0.25f + (float)turn; /* v repeats */
+
+            check_close((double)surface(&mirror, u, v).color.x, red, 2e-6);
+            check_close((double)surface(&clamp, u, v).color.x,
+                        linear(six[3 * (3 + column)]), 2e-6);
+        }
+        /* anywhere in the texel; v 1.8 is 0.2 in the mirror */
+        check_close((double)surface(&nearest, u + 0.14f, 1.8f).color.x, red,
+                    1e-8);
+        check_close((double)surface(&nearest, u - 0.14f, -0.2f).color.x, red,
+                    1e-8);
+    }
+    unload(&mirror);
+    unload(&clamp);
+    unload(&nearest);
+}
+
+/* The coordinates are scaled, turned to the left about (0, 0), and moved. */
+static void options_rotate(void **state)
+{
+    struct loaded plain, turned;
+
+    (void)state;
+    write_image("six.tga", 3, 2, 3, six);
+    load(&plain, "Kd 1\nmap_Kd six.tga");
+    load(&turned, "Kd 1\nmap_Kd -s 2 3 -rotate 30 -o .1 .2 six.tga");
+    for (int i = 0; i < 100; i++) {
+        double u = i % 10 / 8. - 0.3, v = i / 10 / 8. - 0.2;
+        double c = sqrt(0.75), s = 0.5;
+        struct vec3 a = surface(&plain, (float)(2 * u * c - 3 * v * s + 0.1),
+                                (float)(2 * u * s + 3 * v * c + 0.2))
+                            .color;
+        struct vec3 b = surface(&turned, (float)u, (float)v).color;
+
+        check_close((double)a.x, (double)b.x, 1e-5);
+        check_close((double)a.y, (double)b.y, 1e-5);
+        check_close((double)a.z, (double)b.z, 1e-5);
+    }
+    unload(&plain);
+    unload(&turned);
+}
+
+/* One image gives several numbers, and its texels are in memory once. */
+static void numbers_come_from_their_channels(void **state)
+{
+    const uint8_t pixel[4] = {51, 102, 153, 204};
+    struct loaded l;
+    struct bsdf b;
+
+    (void)state;
+    write_image("two.tga", 1, 1, 4, pixel);
+    load(&l, "Kd 1\nmap_Kd -alpha off two.tga\nPr 1\nPm 1\n"
+             "map_Pr -imfchan g two.tga\nmap_Pm -imfchan b two.tga\nPc 1\n"
+             "map_Pc -imfchan r two.tga\nPcr 1\nmap_Pcr -imfchan m two.tga");
+    assert_int_equal(l.world.settings.texel_count, 1);
+    b = surface(&l, 0.3f, 0.3f);
+    check_close((double)b.alpha, 0.4 * 0.4, 1e-6);
+    check_close((double)b.metalness, 0.6, 1e-6);
+    check_close((double)b.coat, 0.2, 1e-6);
+    check_close((double)b.coat_alpha, 0.8 * 0.8, 1e-6);
+    assert_int_equal(l.world.settings.features & FEATURE_COVERAGE, 0);
+    check_close(stopped(&l, 0.3f, 0.3f), 1, 0);
+    unload(&l);
+    load(&l, "Kd 1\nmap_d -imfchan r two.tga");
+    check_close(stopped(&l, 0.3f, 0.3f), 0.2, 0.02);
+    unload(&l);
+}
+
+/* Rare maps multiply what they name. */
+static void rare_maps_multiply(void **state)
+{
+    const uint8_t pixel[4] = {51, 102, 153, 204};
+    struct loaded l;
+    struct bsdf b;
+
+    (void)state;
+    write_image("two.tga", 1, 1, 4, pixel);
+    load(&l, "Ks 1\nKs_full 0.04\nmap_Ks_weight -imfchan m two.tga\nPs 1\n"
+             "Ps_color 1 .5 .25\nmap_Ps_color two.tga\nPs_roughness .9\n"
+             "map_Ps_roughness -imfchan m two.tga\nPf 1\nPf_thickness 400\n"
+             "Pf_thinnest 100\nmap_Pf -imfchan r two.tga\n"
+             "map_Pf_thickness -imfchan g two.tga");
+    b = surface(&l, 0.3f, 0.3f);
+    check_close((double)b.specular.x, 0.04 * 0.8, 1e-7);
+    check_close((double)b.sheen.y, 0.5 * linear(102), 1e-6);
+    check_close((double)b.sheen_alpha, 0.72 * 0.72, 1e-6);
+    check_close((double)b.film, 0.2, 1e-6);
+    check_close((double)b.film_thickness, 100 + 0.4 * 300, 1e-3);
+    unload(&l);
+}
+
+/* Each texture is looked up by the texture coordinates that it names. */
+static void second_coordinates_are_used(void **state)
+{
+    struct loaded l;
+    struct vec2 uvs[3] = {{0.5f, 0.25f}, {0.5f, 0.25f}, {0.5f, 0.25f}};
+    struct hit h = {.t = 1, .b0 = 0.4f, .b1 = 0.3f, .b2 = 0.3f, .tri = 0};
+    struct ray r = {.o = {0.3f, 0.3f, 1}, .d = {0, 0, -1}};
+    struct surface_point v;
+
+    (void)state;
+    write_image("six.tga", 3, 2, 3, six);
+    load(&l, "Kd 1\nmap_Kd -uv 1 six.tga\nKs 1\nmap_Ks six.tga");
+    l.world.uvs2 = uvs;
+    l.world.settings.uv2_count = 3;
+    assert_true(surface_at(&l.world, &l.material, r, h, &v));
+    check_close((double)bsdf_at(&l.world, &l.material, &v).color.x,
+                linear(six[12]), 2e-6);
+    l.world.settings.uv2_count = 0;
+    assert_true(surface_at(&l.world, &l.material, r, h, &v));
+    check_close((double)bsdf_at(&l.world, &l.material, &v).color.x,
+                (double)surface(&l, 0.3f, 0.3f).color.x, 2e-6);
+    unload(&l);
+}
+
 static void options_move_and_scale(void **state)
 {
     struct loaded plain, moved;
@@ -499,6 +638,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(texels_are_met_in_their_centres),
+        cmocka_unit_test(rows_are_mirrored_and_clamped_on_one_axis),
+        cmocka_unit_test(options_rotate),
+        cmocka_unit_test(numbers_come_from_their_channels),
+        cmocka_unit_test(rare_maps_multiply),
+        cmocka_unit_test(second_coordinates_are_used),
         cmocka_unit_test(options_move_and_scale),
         cmocka_unit_test(extreme_coordinates_have_colors),
         cmocka_unit_test(clamped_borders_go_on),
