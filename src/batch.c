@@ -16,6 +16,7 @@
 #include "terminal/ansi_text.h"
 #include "terminal/tty.h"
 #include "terminal/xmalloc.h"
+#include "session/frame_series.h"
 #include "session/session_film.h"
 #include "session/stats_json.h"
 #include "inspect/error_map.h"
@@ -82,9 +83,22 @@ static void say_failure(struct session_film *f, bool *is_said)
                err.text);
 }
 
+/* Returns the progress of all pictures, and tells the bar which one it is. */
+static struct glim_progress progress_of_all(const struct frame_series *series,
+                                            struct batch_bar *bar,
+                                            const struct glim_progress *p)
+{
+    snprintf(bar->of, sizeof bar->of,
+             "%d of %d: ", frame_series_done(series) + 1,
+             frame_series_count(series));
+    bar->before_s = seconds_between(series->begin_ns, series->frame_begin_ns);
+    return frame_series_progress(series, p, clock_ns());
+}
+
 /* Waits until all samples are done or a signal arrives, which halts the
  * render. */
-static void wait_for_end(struct session *s, struct session_film *f, int wake_fd)
+static void wait_for_end(struct session *s, struct session_film *f,
+                         const struct frame_series *series, int wake_fd)
 {
     struct batch_bar bar = batch_bar_begin();
     bool looks =
@@ -100,6 +114,8 @@ static void wait_for_end(struct session *s, struct session_film *f, int wake_fd)
 
         if (p.state != RENDER_RUNNING || batch_stop_signal() != 0)
             break;
+        if (series != NULL)
+            shown = progress_of_all(series, &bar, &shown);
         batch_bar_draw(&bar, &shown);
         say_failure(f, &is_said);
         poll(fds, 2, looks ? BATCH_DRAW_MS : -1);
@@ -320,7 +336,8 @@ static bool use_device(struct session *s, struct error *err)
 }
 
 /* Renders. If a device fails, the CPU renders from the start. */
-static bool render_all(struct session *s, struct session_film *f, int wake_fd,
+static bool render_all(struct session *s, struct session_film *f,
+                       const struct frame_series *series, int wake_fd,
                        struct error *err)
 {
     struct render_progress p;
@@ -329,7 +346,7 @@ static bool render_all(struct session *s, struct session_film *f, int wake_fd,
         !session_restart(s, session_film_limits(s->options), err) ||
         !session_film_watch(f, err))
         return false;
-    wait_for_end(s, f, wake_fd);
+    wait_for_end(s, f, series, wake_fd);
     p = render_progress(s->render);
     if (p.state != RENDER_FAILED)
         return true;
@@ -338,7 +355,7 @@ static bool render_all(struct session *s, struct session_film *f, int wake_fd,
         return false;
     batch_warn_of_device(err->text);
     render_set_backend(s->render, s->backends.cpu);
-    return render_all(s, f, wake_fd, err);
+    return render_all(s, f, series, wake_fd, err);
 }
 
 /* Makes the picture of --show with one ray for each pixel. */
@@ -374,20 +391,74 @@ static bool save_film_and_all(struct view_mode *show, struct session_film *f,
     return has_film;
 }
 
-static bool run_light(struct view_mode *show, struct session_film *f,
-                      int *status, struct error *err)
+/* Returns true if a signal has stopped the render before its end. */
+static bool is_incomplete(const struct session *s)
+{
+    return batch_stop_signal() != 0 &&
+           render_progress(s->render).state != RENDER_DONE;
+}
+
+/* Renders one frame. *is_written is false if a signal came before its end. */
+static bool run_frame(struct view_mode *show, struct session_film *f,
+                      const struct frame_series *series, int wake_fd,
+                      bool *is_written, struct error *err)
 {
     struct session *s = show->session;
+
+    *is_written = false;
+    if (!check_outputs(s, err))
+        return false;
+    if (s->options->show != SHOW_LIGHT)
+        return (*is_written = run_show(show, err));
+    if (!render_all(s, f, series, wake_fd, err))
+        return false;
+    return is_incomplete(s) || (*is_written = save_all(show, err));
+}
+
+/* Renders the frames of a series, each as a picture of its own. */
+static bool run_frames(struct view_mode *show, struct session_film *f,
+                       int wake_fd, struct error *err)
+{
+    struct frame_series series;
+    bool ok = frame_series_begin(&series, show->session, err), is_written;
+    int done = 0;
+
+    while (ok && batch_stop_signal() == 0 && frame_series_next(&series)) {
+        ok = run_frame(show, f, &series, wake_fd, &is_written, err);
+        done += is_written;
+    }
+    if (ok)
+        batch_say_frames(done, frame_series_count(&series), series.begin_ns);
+    frame_series_end(&series);
+    return ok;
+}
+
+static bool run_picture(struct view_mode *show, struct session_film *f,
+                        int wake_fd, struct error *err)
+{
+    return render_all(show->session, f, NULL, wake_fd, err) &&
+           save_film_and_all(show, f, err);
+}
+
+/* Renders one picture or several. */
+static bool run_render(struct view_mode *show, struct session_film *f,
+                       int *status, struct error *err)
+{
+    struct session *s = show->session;
+    bool uses_device =
+        s->options->backend != BACKEND_CPU && s->options->show == SHOW_LIGHT;
     int wake_fd;
 
     if (!session_film_begin(f, s, err))
         return false;
 
     /* before the signal handlers are set, since drivers replace them */
-    if (s->options->backend != BACKEND_CPU && !use_device(s, err))
+    if ((uses_device && !use_device(s, err)) ||
+        !batch_catch_signals(NULL, &wake_fd, err))
         return false;
-    if (!batch_catch_signals(NULL, &wake_fd, err) ||
-        !render_all(s, f, wake_fd, err) || !save_film_and_all(show, f, err))
+    if (!(frame_series_is_wanted(s->options)
+              ? run_frames(show, f, wake_fd, err)
+              : run_picture(show, f, wake_fd, err)))
         return false;
     *status = batch_stop_signal() != 0 ? 128 + batch_stop_signal() : 0;
     return true;
@@ -395,16 +466,19 @@ static bool run_light(struct view_mode *show, struct session_film *f,
 
 bool batch_run(struct session *s, int *status, struct error *err)
 {
+    bool is_series = frame_series_is_wanted(s->options);
     struct session_film film = {.session = NULL};
     struct view_mode show;
     bool ok;
 
-    if (!check_outputs(s, err))
+    /* each frame has its own names */
+    if (!is_series && !check_outputs(s, err))
         return false;
     view_mode_init(&show, s);
     *status = 0;
-    ok = s->options->show == SHOW_LIGHT ? run_light(&show, &film, status, err)
-                                        : run_show(&show, err);
+    ok = is_series || s->options->show == SHOW_LIGHT
+             ? run_render(&show, &film, status, err)
+             : run_show(&show, err);
     session_film_end(&film);
     view_mode_free(&show);
     return ok;

@@ -11,16 +11,17 @@
 #include "base/file.h"
 #include "base/print.h"
 #include "terminal/xmalloc.h"
+#include "session/frame_series.h"
 #include "batch_filter.h"
 #include "batch_handle.h"
 #include "batch_progress.h"
 
 bool batch_picture_is_wanted(const struct options *o)
 {
-    return o->batch && o->show == SHOW_LIGHT && o->text_cols == 0 &&
-           !o->stats_path && !o->error_map_path && !o->paths &&
-           !o->kernels_path && !o->film_path && !o->checkpoint_path &&
-           !o->resume_path;
+    return o->batch && !frame_series_is_wanted(o) && o->show == SHOW_LIGHT &&
+           o->text_cols == 0 && !o->stats_path && !o->error_map_path &&
+           !o->paths && !o->kernels_path && !o->film_path &&
+           !o->checkpoint_path && !o->resume_path;
 }
 
 static bool on_progress(void *bar, const struct glim_progress *p)

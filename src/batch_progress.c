@@ -136,6 +136,7 @@ static void format_spp(char text[48], const struct glim_progress *p)
  * noise if there is no room. Samples per second are those of the tracing alone,
  * from which the time left follows. */
 static void format_bar(char *text, size_t size_bytes, int cols,
+                       const struct batch_bar *bar,
                        const struct glim_progress *p)
 {
     static const char full[] = "####################";
@@ -147,7 +148,7 @@ static void format_bar(char *text, size_t size_bytes, int cols,
     char elapsed[16], left[16] = "-", spp[48], noise[ERROR_TEXT_BYTES];
     char speed[48];
 
-    format_time(elapsed, p->seconds);
+    format_time(elapsed, bar->before_s + p->seconds);
     if (p->seconds_left >= 0)
         format_time(left, ceil(p->seconds_left)); /* 0:00 means done */
     format_spp(spp, p);
@@ -156,10 +157,10 @@ static void format_bar(char *text, size_t size_bytes, int cols,
     for (int left_out = 0; left_out < 3; left_out++) {
         int length =
             snprintf(text, size_bytes,
-                     "%3d %% [%.*s%.*s] %s%s, %s, left %s%s%s",
+                     "%3d %% [%.*s%.*s] %s%s%s, %s, left %s%s%s",
                      (int)(p->part_done * 100.0), filled, full, 20 - filled,
-                     empty, spp, left_out < 1 ? speed : "", elapsed, left,
-                     left_out < 2 ? ", " : "", left_out < 2 ? noise : "");
+                     empty, bar->of, spp, left_out < 1 ? speed : "", elapsed,
+                     left, left_out < 2 ? ", " : "", left_out < 2 ? noise : "");
 
         if (length <= cols)
             break;
@@ -194,7 +195,7 @@ void batch_bar_draw(struct batch_bar *bar, const struct glim_progress *p)
 
     if (!bar->is_wanted)
         return;
-    format_bar(text, sizeof text, terminal_cols() - 1, p);
+    format_bar(text, sizeof text, terminal_cols() - 1, bar, p);
     bar_show(bar, text);
 }
 
@@ -262,6 +263,16 @@ void batch_say_result(const char *name, int width, int height,
                    "glim: warning: %" PRIu64
                    " samples were not finite and count as black",
                    p->non_finite);
+}
+
+void batch_say_frames(int done, int count, uint64_t begin_ns)
+{
+    if (done < count)
+        print_line(stderr, "stopped by %s after %d of %d pictures",
+                   signal_name(stop_signal), done, count);
+    else
+        print_line(stderr, "%d pictures, %.1f s", done,
+                   seconds_between(begin_ns, clock_ns()));
 }
 
 void batch_warn_of_device(const char *text)

@@ -34,6 +34,8 @@ int batch_stop_signal(void);
 struct batch_bar {
     bool is_wanted; /* standard error is a terminal */
     int shown_cols;
+    char of[32];     /* which picture of several it is, or "" */
+    double before_s; /* time of the pictures before */
 };
 
 struct batch_bar batch_bar_begin(void);
@@ -49,6 +51,10 @@ bool batch_say_empty(struct error *err);
 void batch_say_result(const char *name, int width, int height,
                       const struct glim_progress *p, const struct options *o,
                       uint64_t start_ns);
+
+/* Says how many pictures of a series were written since begin_ns, and which
+ * signal stopped it. */
+void batch_say_frames(int done, int count, uint64_t begin_ns);
 
 /* Says that the CPU renders because of the error. */
 void batch_warn_of_device(const char *text);

@@ -289,6 +289,33 @@ static bool check_films(const struct options *o, struct error *err)
                      "together");
 }
 
+/* Refuses frames on the screen, frames that do not exist, and one film for all
+ * of them. */
+static bool check_frames(const struct options *o, struct error *err)
+{
+    const char *name = o->fly_count > 0 ? "--fly" : "--turntable";
+    int count = o->fly_count > 0 ? o->fly_count : o->turntable_count;
+
+    if (count == 0)
+        return !o->has_frames ||
+               fail(err, "--frames: found no --turntable or --fly");
+    if (!o->batch)
+        return fail(err, "%s: found no -b, expected batch mode", name);
+    if (o->turntable_count > 0 && o->fly_count > 0)
+        return fail(err, "--fly: found --turntable, expected one of the two");
+    if (o->has_frames && o->last_frame >= count)
+        return fail(err, "--frames: found %d:%d, expected frames from 0 to %d",
+                    o->first_frame, o->last_frame, count - 1);
+    if (o->film_path || o->checkpoint_path || o->resume_path)
+        return fail(err, "%s: found %s, expected pictures without films", name,
+                    o->film_path         ? "--film"
+                    : o->checkpoint_path ? "--checkpoint"
+                                         : "--resume");
+    if (is_standard_output(o->output_path) || is_standard_output(o->stats_path))
+        return fail(err, "%s: found -, expected the name of a file", name);
+    return true;
+}
+
 /* Refuses options about samples of light beside --show. */
 static bool check_show(const struct options *o, struct error *err)
 {
@@ -322,7 +349,8 @@ static bool check_together(const struct options *o, struct error *err)
     if (needs_no_scene(o))
         return true;
     return check_sky(o, err) && check_batch(o, err) && check_denoise(o, err) &&
-           check_error_map(o, err) && check_films(o, err) && check_show(o, err);
+           check_error_map(o, err) && check_films(o, err) &&
+           check_show(o, err) && check_frames(o, err);
 }
 
 bool options_adaptive(const struct options *o)

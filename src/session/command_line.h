@@ -68,8 +68,11 @@ struct options {
     char *view_lines;            /* over those of the view file; NULL: none */
     bool has_sky;                /* in view_lines */
     const char *camera;          /* number or name; NULL: that of the view */
-    int tile_count;              /* compare: most tiles each way */
-    double false_alarms;         /* compare: probability of any */
+    int turntable_count, fly_count; /* frames; 0: none */
+    bool has_frames;
+    int first_frame, last_frame;
+    int tile_count;      /* compare: most tiles each way */
+    double false_alarms; /* compare: probability of any */
     const char *scene_path;
     bool lacks_scene;        /* no scene was given and the screen needs one */
     const char *view_path;   /* NULL: beside the scene */

@@ -95,6 +95,13 @@ static const struct option_rule batch[] = {
      ".png, .hdr or .pfm file to write or replace, or - for standard "
      "output (default: a new .png file in the current folder, named "
      "after the scene)"},
+    {"turntable", OPTION_TURNTABLE, "a number of frames", "N",
+     "render N pictures around the point that the camera looks at, to "
+     "numbered files such as out-0000.png"},
+    {"fly", OPTION_FLY, "a number of frames", "N",
+     "render N pictures along a smooth path through the numbered views"},
+    {"frames", OPTION_FRAMES, "A:B", "A:B",
+     "only frames A to B, from 0 on, of these"},
     {"denoise", OPTION_DENOISE, "the name of a picture", "[=FILE]",
      "filter the noise out of the picture; with a file write the "
      "filtered picture to this .png, .hdr or .pfm file and the "

@@ -23,6 +23,7 @@
 #define SEEDS_MAX   64
 #define SHARES_MAX  100000
 #define RANKS_MAX   65536
+#define FRAMES_MAX  1000000
 
 /* Limits of the time between checkpoints. */
 #define INTERVAL_NS_MIN 100000000u
@@ -214,25 +215,52 @@ static bool set_interval(struct options *o, const struct option_given *g,
                 g->value);
 }
 
+/* Parses two whole numbers with a sign between them, of up to 7 digits. */
+static bool parse_pair(const char *text, char sign, uint64_t max,
+                       uint64_t values[2])
+{
+    const char *p = strchr(text, sign);
+    char first[8] = "";
+
+    if (p == NULL || (size_t)(p - text) >= sizeof first)
+        return false;
+    memcpy(first, text, (size_t)(p - text));
+    return parse_digits(first, max, &values[0]) &&
+           parse_digits(p + 1, max, &values[1]);
+}
+
 /* Parses I/N. */
 static bool set_share(struct options *o, const struct option_given *g,
                       struct error *err)
 {
-    size_t length = strcspn(g->value, "/");
-    char index_text[8] = "";
-    uint64_t index = 0, count = 0;
+    uint64_t share[2];
 
-    if (length < sizeof index_text && g->value[length] == '/')
-        memcpy(index_text, g->value, length);
-    if (!parse_digits(index_text, SHARES_MAX, &index) || index == 0 ||
-        !parse_digits(g->value + length + 1, SHARES_MAX, &count) ||
-        index > count)
+    if (!parse_pair(g->value, '/', SHARES_MAX, share) || share[0] == 0 ||
+        share[0] > share[1])
         return fail(err,
                     "%s: found '%s', expected %s: two whole numbers, the first "
                     "from 1 to the second, which is at most %d",
                     g->shown, g->value, g->rule->value, SHARES_MAX);
-    o->share_index = (int)index;
-    o->share_count = (int)count;
+    o->share_index = (int)share[0];
+    o->share_count = (int)share[1];
+    return true;
+}
+
+/* Parses A:B. */
+static bool set_frames(struct options *o, const struct option_given *g,
+                       struct error *err)
+{
+    uint64_t frames[2];
+
+    if (!parse_pair(g->value, ':', FRAMES_MAX - 1, frames) ||
+        frames[0] > frames[1])
+        return fail(err,
+                    "%s: found '%s', expected A:B: two whole numbers from 0 "
+                    "to %d, the second at least the first",
+                    g->shown, g->value, FRAMES_MAX - 1);
+    o->has_frames = true;
+    o->first_frame = (int)frames[0];
+    o->last_frame = (int)frames[1];
     return true;
 }
 
@@ -240,20 +268,16 @@ static bool set_share(struct options *o, const struct option_given *g,
 static bool set_text_size(struct options *o, const struct option_given *g,
                           struct error *err)
 {
-    size_t length = strcspn(g->value, "x");
-    char cols_text[8] = "";
-    uint64_t cols = 0, rows = 0;
+    uint64_t size[2];
 
-    if (length < sizeof cols_text && g->value[length] == 'x')
-        memcpy(cols_text, g->value, length);
-    if (!parse_digits(cols_text, CELLS_MAX, &cols) || cols == 0 ||
-        !parse_digits(g->value + length + 1, CELLS_MAX, &rows) || rows == 0)
+    if (!parse_pair(g->value, 'x', CELLS_MAX, size) || size[0] == 0 ||
+        size[1] == 0)
         return fail(err,
                     "%s: found '%s', expected COLSxROWS: two whole numbers "
                     "from 1 to %d",
                     g->shown, g->value, CELLS_MAX);
-    o->text_cols = (int)cols;
-    o->text_rows = (int)rows;
+    o->text_cols = (int)size[0];
+    o->text_rows = (int)size[1];
     return true;
 }
 
@@ -365,6 +389,10 @@ bool option_set(struct options *o, const struct option_given *g,
         return set_decimal(g, TURBIDITY_LEAST, TURBIDITY_GREATEST,
                            &o->turbidity, err);
     case OPTION_OUTPUT: return given_text(g, &o->output_path, err);
+    case OPTION_TURNTABLE:
+        return whole_int(g, 1, FRAMES_MAX, &o->turntable_count, err);
+    case OPTION_FLY: return whole_int(g, 2, FRAMES_MAX, &o->fly_count, err);
+    case OPTION_FRAMES: return set_frames(o, g, err);
     case OPTION_ANSI: return set_text_size(o, g, err);
     case OPTION_DENOISE:
         o->denoise = true;

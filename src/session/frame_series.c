@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "session/frame_series.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "scene/camera_path.h"
+#include "terminal/xmalloc.h"
+
+/* ---- names ---- */
+
+/* Finds %d or %0Nd in a name. Returns NULL if there is none; *end is behind
+ * it. */
+static const char *find_place(const char *name, int *digits, const char **end)
+{
+    for (const char *p = strchr(name, '%'); p; p = strchr(p + 1, '%')) {
+        bool has_width = p[1] == '0' && p[2] >= '1' && p[2] <= '9';
+
+        *end = p + (has_width ? 4 : 2);
+        *digits = has_width ? p[2] - '0' : 1;
+        if (p[has_width ? 3 : 1] == 'd')
+            return p;
+    }
+    return NULL;
+}
+
+char *frame_name(const char *path, int number)
+{
+    const char *name = path_name(path), *end;
+    const char *dot = strrchr(name, '.');
+    int digits;
+    const char *place = find_place(name, &digits, &end);
+
+    if (place != NULL)
+        return format_text("%.*s%0*d%s", (int)(place - path), path, digits,
+                           number, end);
+    if (dot == NULL || dot == name)
+        dot = name + strlen(name);
+    return format_text("%.*s-%04d%s", (int)(dot - path), path, number, dot);
+}
+
+/* Replaces the name of a file by that of the present frame. */
+static void number_name(struct frame_series *f, int i, const char **path)
+{
+    free(f->names[i]);
+    f->names[i] = NULL;
+    if (*path == NULL || strcmp(*path, "-") == 0)
+        return;
+    f->names[i] = xchecked(frame_name(*path, f->present));
+    *path = f->names[i];
+}
+
+static void number_names(struct frame_series *f)
+{
+    struct options *o = &f->options;
+
+    *o = *f->given;
+    if (o->output_path == NULL && o->text_cols == 0)
+        o->output_path = f->default_path;
+    number_name(f, 0, &o->output_path);
+    number_name(f, 1, &o->denoise_path);
+    number_name(f, 2, &o->error_map_path);
+    number_name(f, 3, &o->stats_path);
+}
+
+/* ---- frames ---- */
+
+bool frame_series_is_wanted(const struct options *o)
+{
+    return o->turntable_count > 0 || o->fly_count > 0;
+}
+
+static bool find_keys(struct frame_series *f, struct error *err)
+{
+    const struct view *view = &f->session->edit.now.view;
+
+    for (int i = 0; i < VIEW_SHOTS; i++)
+        if (view->has_shot[i])
+            f->keys[f->key_count++] = view->shots[i];
+    return f->key_count >= 2 ||
+           fail(err,
+                "--fly: found %d numbered view%s in %s, expected at least 2",
+                f->key_count, f->key_count == 1 ? "" : "s",
+                f->session->view_path);
+}
+
+/* Returns the name of the scene as that of a picture in the current folder. */
+static char *default_path(const char *scene_path)
+{
+    char *stem = xchecked(path_stem_of_input(scene_path));
+    char *path = xformat("%s.png", path_name(stem));
+
+    free(stem);
+    return path;
+}
+
+bool frame_series_begin(struct frame_series *f, struct session *s,
+                        struct error *err)
+{
+    const struct options *o = s->options;
+
+    *f = (struct frame_series){.session = s,
+                               .given = o,
+                               .base = s->edit.now.view.pose,
+                               .begin_ns = clock_ns()};
+    f->last = (o->fly_count > 0 ? o->fly_count : o->turntable_count) - 1;
+    if (o->has_frames) {
+        f->first = o->first_frame;
+        f->last = o->last_frame;
+    }
+    f->present = f->first - 1;
+    f->default_path = default_path(o->scene_path);
+    return o->fly_count == 0 || find_keys(f, err);
+}
+
+static struct pose pose_of(const struct frame_series *f)
+{
+    const struct options *o = f->given;
+    struct pose pose = f->base;
+
+    if (o->fly_count > 0)
+        return camera_path_at(f->keys, f->key_count,
+                              (double)f->present * (f->key_count - 1) /
+                                  (o->fly_count - 1));
+    pose_turn(&pose, f->present * 360.0 / o->turntable_count);
+    return pose;
+}
+
+bool frame_series_next(struct frame_series *f)
+{
+    struct pose pose;
+
+    if (f->present == f->last)
+        return false;
+    f->present++;
+    f->frame_begin_ns = clock_ns();
+    f->session->start_ns = f->frame_begin_ns;
+    number_names(f);
+    f->session->options = &f->options;
+    pose = pose_of(f);
+    edit_pose(&f->session->edit, &pose);
+    return true;
+}
+
+int frame_series_count(const struct frame_series *f)
+{
+    return f->last - f->first + 1;
+}
+
+int frame_series_done(const struct frame_series *f)
+{
+    return f->present - f->first;
+}
+
+struct glim_progress frame_series_progress(const struct frame_series *f,
+                                           const struct glim_progress *frame,
+                                           uint64_t now_ns)
+{
+    struct glim_progress all = *frame;
+    int done = frame_series_done(f), count = frame_series_count(f);
+    double spent_s = seconds_between(f->frame_begin_ns, now_ns);
+    double mean_s =
+        frame->seconds_left < 0 ? -1 : spent_s + frame->seconds_left;
+
+    if (done > 0)
+        mean_s = seconds_between(f->begin_ns, f->frame_begin_ns) / done;
+    all.part_done = (done + frame->part_done) / count;
+    if (mean_s >= 0) {
+        double left_s =
+            frame->seconds_left >= 0 ? frame->seconds_left : mean_s - spent_s;
+
+        all.seconds_left =
+            (left_s > 0 ? left_s : 0) + mean_s * (count - done - 1);
+    }
+    return all;
+}
+
+void frame_series_end(struct frame_series *f)
+{
+    for (size_t i = 0; i < sizeof f->names / sizeof f->names[0]; i++)
+        free(f->names[i]);
+    free(f->default_path);
+    if (f->session != NULL)
+        f->session->options = f->given;
+    *f = (struct frame_series){.session = NULL};
+}

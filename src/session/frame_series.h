@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+/*
+ * frame_series.h - the pictures of a moving camera: their poses, the names of
+ * their files, and the progress of all of them
+ *
+ * Frames are numbered from 0. Frame k of a turntable of N is turned by
+ * k * 360 / N degrees; those of a flight have equal steps along the numbered
+ * views.
+ *
+ * Ownership: frame_series_end() frees; session and options are the caller's
+ * Threads:   main only
+ * Errors:    too few numbered views; frames that do not exist
+ */
+#ifndef GLIM_FRAME_SERIES_H
+#define GLIM_FRAME_SERIES_H
+
+#include "glim/glim.h"
+
+#include "session/session.h"
+
+struct frame_series {
+    struct session *session;
+    const struct options *given; /* the options of all frames */
+    struct options options;      /* those of the present frame */
+    struct pose base;            /* of a turntable */
+    struct pose keys[VIEW_SHOTS];
+    int key_count;
+    int first, last, present; /* numbers of frames */
+    uint64_t begin_ns, frame_begin_ns;
+    char *default_path; /* without -o */
+    char *names[4];     /* of the files of the present frame */
+};
+
+/* Returns true if the options ask for several frames. */
+bool frame_series_is_wanted(const struct options *o);
+
+/* Finds the frames of the session's options. */
+bool frame_series_begin(struct frame_series *f, struct session *s,
+                        struct error *err);
+
+/* Gives the session the camera of the next frame, and options with numbers in
+ * the names of the files. Returns false after the last frame. */
+bool frame_series_next(struct frame_series *f);
+
+/* Returns the number of frames, and of those before the present one. */
+int frame_series_count(const struct frame_series *f);
+int frame_series_done(const struct frame_series *f);
+
+/* Returns the progress of all frames from that of the present one: the time
+ * left takes the frames to come for as long as the mean of those that are
+ * done. */
+struct glim_progress frame_series_progress(const struct frame_series *f,
+                                           const struct glim_progress *frame,
+                                           uint64_t now_ns);
+
+/* Gives the session its own options back. */
+void frame_series_end(struct frame_series *f);
+
+/* Returns the name of a frame's file, for free(): %d or %04d in the last part
+ * of the path becomes the number; without it, -0001 goes before the ending.
+ * NULL when memory is out. */
+char *frame_name(const char *path, int number);
+
+#endif
