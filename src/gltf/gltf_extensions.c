@@ -6,8 +6,24 @@
 #include "gltf/gltf_value.h"
 
 static const char *const known[] = {
-    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_lights_punctual",
-    "KHR_materials_unlit",     "KHR_mesh_quantization",   "KHR_node_visibility",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "KHR_lights_punctual",
+    "EXT_texture_webp",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
 };
 
 static bool is_known(const char *name)

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/cgroup_quota.h"
 #include "base/file.h"
@@ -95,6 +96,26 @@ bool image_open(struct image_file *f, const char *path, enum image_form form,
     if (!expect_memory(f, held_bytes, err) ||
         !file_read(path, &f->data, &f->size_bytes, err))
         return false;
+    if (open_data(f, held_bytes, err))
+        return true;
+    image_close(f);
+    return false;
+}
+
+bool image_open_bytes(struct image_file *f, const char *path, const void *bytes,
+                      size_t size_bytes, enum image_form form,
+                      uint64_t held_bytes, struct error *err)
+{
+    *f = (struct image_file){.path = path,
+                             .form = form,
+                             .size_bytes = size_bytes,
+                             .memory_bytes = size_bytes};
+    if (!expect_memory(f, held_bytes, err))
+        return false;
+    f->data = alloc_array(size_bytes + 1, 1);
+    if (!f->data)
+        return fail(err, "%s: out of memory for the image", path);
+    memcpy(f->data, bytes, size_bytes);
     if (open_data(f, held_bytes, err))
         return true;
     image_close(f);

@@ -78,6 +78,12 @@ struct image {
 bool image_open(struct image_file *file, const char *path, enum image_form form,
                 uint64_t held_bytes, struct error *err);
 
+/* The same for bytes of a file, which are copied; `path` names them. */
+bool image_open_bytes(struct image_file *file, const char *path,
+                      const void *bytes, size_t size_bytes,
+                      enum image_form form, uint64_t held_bytes,
+                      struct error *err);
+
 /* Reads the pixels in the form that the file was opened for, and closes the
  * file. NaN is an error. Negative and infinite floats are clamped to 0 and to
  * 1e30, and counted. */

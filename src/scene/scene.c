@@ -330,6 +330,11 @@ void scene_free(struct scene *scene)
     free(scene->positions);
     free(scene->normals);
     free(scene->uvs);
+    for (size_t i = 0; i < scene->image_count; i++) {
+        free(scene->images[i].name);
+        free(scene->images[i].bytes);
+    }
+    free(scene->images);
     free(scene->uvs2);
     free(scene->colors);
     free(scene->tris);

@@ -41,6 +41,13 @@ struct scene_camera {
     struct pose pose;
 };
 
+/* An image file that a scene file contains. */
+struct scene_image {
+    char *name; /* as texture_paths has it: "model.glb#image3" */
+    void *bytes;
+    size_t size_bytes;
+};
+
 struct scene {
     char *path; /* path of the scene file */
 
@@ -85,6 +92,8 @@ struct scene {
     char **texture_paths;
     struct texture_origin *texture_origins; /* their first statements */
     uint32_t texture_count;
+    struct scene_image *images; /* that are no files of their own */
+    size_t image_count;
 
     /* normalised = (file - center) * scale */
     double center[3];

@@ -136,8 +136,18 @@ uint64_t textures_bytes(const struct host_world *host)
            sky_pixels * (sizeof *host->sky_texels + sizeof(float));
 }
 
-static void open_image(struct reading *r, uint64_t held_bytes)
+/* Opens the image, which is a file or a part of the scene's file. */
+static void open_image(const struct scene *scene, struct reading *r,
+                       uint64_t held_bytes)
 {
+    for (size_t i = 0; i < scene->image_count; i++)
+        if (strcmp(scene->images[i].name, r->path) == 0) {
+            r->is_open =
+                image_open_bytes(&r->file, r->path, scene->images[i].bytes,
+                                 scene->images[i].size_bytes, IMAGE_8BIT,
+                                 held_bytes, &r->error);
+            return;
+        }
     r->is_open =
         image_open(&r->file, r->path, IMAGE_8BIT, held_bytes, &r->error);
 }
@@ -158,9 +168,13 @@ static void report_missing(const struct scene *scene, const struct reading *r,
 {
     struct texture_origin o = scene->texture_origins[r->texture];
 
-    warnings_add_named(report, "unusable textures", r->path,
-                       "%s:%" PRIu64 ": %s: the texture is not used",
-                       scene->mtl_paths[o.file], o.line, why);
+    if (o.file == NO_INDEX) /* it has no line; `why` names the image */
+        warnings_add_named(report, "unusable textures", r->path,
+                           "%s: the texture is not used", why);
+    else
+        warnings_add_named(report, "unusable textures", r->path,
+                           "%s:%" PRIu64 ": %s: the texture is not used",
+                           scene->mtl_paths[o.file], o.line, why);
 }
 
 /* Copies the decoded image into the world. A texture whose image could not be
@@ -224,7 +238,7 @@ static uint32_t open_images(struct host_world *host, const struct scene *scene,
         r->original = find_original(scene, readings, i);
         if (r->original != NULL || shares_texels(host, scene, r->texture))
             continue;
-        open_image(r, held_bytes);
+        open_image(scene, r, held_bytes);
         if (r->file.is_beyond && i > 0)
             return i;
         if (r->is_open)
@@ -383,7 +397,7 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
         host->texture_is_tried[maps[i]] = true;
         r = reading_of(scene, maps[i]);
         if (!shares_texels(host, scene, r.texture))
-            open_image(&r, textures_bytes(host));
+            open_image(scene, &r, textures_bytes(host));
         decode_image(&r, 0, 0);
         ok = copy_image(host, scene, &r, report, err);
         image_free(&r.image);

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: MIT
+/* test_gltf_material.c - materials of glTF files against the values that an
+ * independent reader found, and textures against closed forms */
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "formats/mtl.h"
+#include "gltf/gltf_material.h"
+#include "tests/unit/files.h"
+
+/* A document and the scene with its materials. */
+struct loaded {
+    char *bytes;
+    struct gltf_document document;
+    struct scene scene;
+    struct warnings report;
+    struct error err;
+    bool ok;
+};
+
+static void load(struct loaded *l, const char *path)
+{
+    size_t size_bytes;
+
+    memset(l, 0, sizeof *l);
+    l->ok = file_read(path, &l->bytes, &size_bytes, &l->err) &&
+            mtl_add_default(&l->scene, &l->err) &&
+            gltf_document_open(&l->document, l->bytes, size_bytes, path,
+                               &l->report, &l->err) &&
+            gltf_materials_read(&l->document, &l->scene, &l->report, &l->err);
+}
+
+static void unload(struct loaded *l)
+{
+    gltf_document_close(&l->document);
+    scene_free(&l->scene);
+    warnings_free(&l->report);
+    free(l->bytes);
+}
+
+/* ---- values of the shared files ---- */
+
+/* Returns a number of an object, or `missing`. */
+static double number(const json_t *object, const char *key, double missing)
+{
+    const json_t *v = json_object_get(object, key);
+
+    return v != NULL ? json_number_value(v) : missing;
+}
+
+static void expect_color(struct vec3 c, const json_t *object, const char *key,
+                         double missing, double factor)
+{
+    const json_t *v = json_object_get(object, key);
+    const float is[3] = {c.x, c.y, c.z};
+
+    for (size_t i = 0; i < 3; i++) {
+        double want =
+            v != NULL ? json_number_value(json_array_get(v, i)) : missing;
+
+        check_close((double)is[i], fmax(want, 0) * factor,
+                    1e-6 * (1 + want * factor));
+    }
+}
+
+static bool has_texture(const json_t *want, const char *name)
+{
+    const json_t *list = json_object_get(want, "textures");
+
+    for (size_t i = 0; i < json_array_size(list); i++)
+        if (strcmp(json_string_value(json_array_get(list, i)), name) == 0)
+            return true;
+    return false;
+}
+
+static void expect_coverage(const struct material *m, const json_t *want)
+{
+    const char *mode = json_string_value(json_object_get(want, "alpha_mode"));
+    double alpha = json_number_value(
+        json_array_get(json_object_get(want, "base_color"), 3));
+
+    check_close((double)m->opacity, strcmp(mode, "OPAQUE") == 0 ? 1 : alpha,
+                1e-6);
+    check_close((double)m->cutoff,
+                strcmp(mode, "MASK") == 0 ? number(want, "alpha_cutoff", 0.5)
+                                          : 0,
+                1e-6);
+}
+
+/* F0 of KHR_materials_ior and KHR_materials_specular. */
+static void expect_specular(const struct material *m, const json_t *want)
+{
+    const json_t *s = json_object_get(want, "specular");
+    double ior = number(want, "ior", 1.5);
+    double f0 = pow((ior - 1) / (ior + 1), 2);
+
+    if (m->kind == MATERIAL_METAL)
+        return;
+    expect_color(m->specular, s, "specularColorFactor", 1,
+                 f0 * number(s, "specularFactor", 1));
+}
+
+static void expect_layers(const struct material *m, const json_t *want)
+{
+    const json_t *coat = json_object_get(want, "clearcoat");
+    const json_t *sheen = json_object_get(want, "sheen");
+    const json_t *film = json_object_get(want, "iridescence");
+    const json_t *volume = json_object_get(want, "volume");
+    double weight = number(want, "transmission", 0);
+    double distance = number(volume, "attenuationDistance", 0);
+    double rough = number(coat, "clearcoatRoughnessFactor", 0);
+
+    check_close((double)m->transmission, weight, 1e-6);
+    if (weight > 0) {
+        assert_int_equal(m->is_thin,
+                         !(number(volume, "thicknessFactor", 0) > 0));
+        check_close((double)m->ior, number(want, "ior", 1.5), 1e-6);
+    }
+    for (size_t i = 0; i < 3 && weight > 0 && distance > 0 && m->is_thin == 0;
+         i++) {
+        const float is[3] = {m->attenuation.x, m->attenuation.y,
+                             m->attenuation.z};
+        const json_t *c = json_object_get(volume, "attenuationColor");
+
+        check_close((double)is[i],
+                    -log(json_number_value(json_array_get(c, i))) / distance,
+                    1e-6);
+    }
+    check_close((double)m->coat, number(coat, "clearcoatFactor", 0), 1e-6);
+    if (m->coat > 0)
+        check_close((double)m->coat_alpha, rough * rough, 1e-6);
+    expect_color(m->sheen, sheen, "sheenColorFactor", 0, 1);
+    check_close((double)m->film, number(film, "iridescenceFactor", 0), 1e-6);
+    if (m->film > 0) {
+        check_close((double)m->film_ior, number(film, "iridescenceIor", 1.3),
+                    1e-6);
+        check_close((double)m->film_thickness,
+                    number(film, "iridescenceThicknessMaximum", 400), 1e-3);
+    }
+}
+
+/* Widths of the stretched highlight: a + (1 - a) s^2 and a, whose ratio is at
+ * most 10 here. */
+static void expect_roughness(const struct material *m, const json_t *want)
+{
+    double r = number(want, "roughness", 1), a = r * r;
+    double s =
+        number(json_object_get(want, "anisotropy"), "anisotropyStrength", 0);
+    double stretch = 1 / sqrt(1 - 0.9 * (double)m->anisotropy);
+
+    if (s > 0) {
+        check_close((double)m->alpha * stretch, a + (1 - a) * s * s, 1e-5);
+        check_close((double)m->alpha / stretch,
+                    fmax(a, (a + (1 - a) * s * s) / 10), 1e-5);
+    } else {
+        check_close((double)m->alpha, a, 1e-6);
+    }
+}
+
+static void expect_material(const struct material *m, const json_t *want)
+{
+    bool is_unlit = json_object_get(want, "unlit") != NULL;
+
+    expect_coverage(m, want);
+    if (is_unlit) {
+        expect_color(m->emission, want, "base_color", 0, 1);
+        return;
+    }
+    expect_color(m->color, want, "base_color", 1, 1);
+    if (!has_texture(want, "emissiveTexture"))
+        expect_color(m->emission, want, "emission", 0, 1);
+    check_close((double)m->metalness, number(want, "metallic", 1), 1e-6);
+    expect_roughness(m, want);
+    expect_specular(m, want);
+    expect_layers(m, want);
+}
+
+/* Returns the path of a shared file, for free(). */
+static char *shared_path(const char *name)
+{
+    const char *root = getenv("GLIM_SHARED");
+
+    return format_text("%s/suites/%s", root != NULL ? root : "../shared", name);
+}
+
+static void expect_file(const char *file, const json_t *materials)
+{
+    char *path = shared_path(file);
+    struct loaded l;
+
+    load(&l, path);
+    if (!l.ok)
+        print_error("%s\n", l.err.text);
+    assert_true(l.ok);
+    assert_int_equal(l.scene.material_count, 1 + json_array_size(materials));
+    for (size_t i = 0; i < json_array_size(materials); i++) {
+        const json_t *want = json_array_get(materials, i);
+        const char *name = json_string_value(json_object_get(want, "name"));
+
+        if (json_object_get(want, "specular_glossiness") != NULL)
+            continue;
+        print_message("%s: %s\n", file, name);
+        expect_material(&l.scene.materials[i + 1], want);
+    }
+    unload(&l);
+    free(path);
+}
+
+/* Replaces a word by as many blanks behind a 0. */
+static void replace_word(char *text, const char *word)
+{
+    size_t length = strlen(word);
+
+    for (char *p = text; (p = strstr(p, word)) != NULL; p += length)
+        memset(memset(p, ' ', length), '0', 1);
+}
+
+/* Returns the expectations of all files, or NULL without them. Some readers
+ * found NaN, which is no JSON. */
+static json_t *read_expectations(void)
+{
+    char *path = shared_path("gltf/expected.json");
+    json_error_t why;
+    struct error err;
+    json_t *all = NULL;
+    char *text;
+    size_t size_bytes;
+
+    if (file_read(path, &text, &size_bytes, &err)) {
+        char *copy = strndup(text, size_bytes);
+
+        replace_word(copy, "NaN");
+        replace_word(copy, "Infinity");
+        all = json_loads(copy, 0, &why);
+        if (all == NULL)
+            print_error("%s:%d: %s\n", path, why.line, why.text);
+        assert_non_null(all);
+        free(copy);
+        free(text);
+    }
+    free(path);
+    return all;
+}
+
+static void values_are_those_of_an_independent_reader(void **state)
+{
+    json_t *all = read_expectations();
+    const char *file;
+    json_t *entry;
+    int count = 0;
+
+    (void)state;
+    if (all == NULL) {
+        print_message("../shared/suites/gltf is missing: skipped\n");
+        skip();
+    }
+    json_object_foreach(all, file, entry)
+    {
+        const char *expected =
+            json_string_value(json_object_get(entry, "expected"));
+        const json_t *spec =
+            json_object_get(json_object_get(entry, "readers"), "spec");
+        const json_t *materials = json_object_get(spec, "materials");
+
+        if (strcmp(expected, "loads") != 0 || json_array_size(materials) == 0)
+            continue;
+        if (json_object_get(entry, "optional") != NULL)
+            continue;
+        expect_file(file, materials);
+        count++;
+    }
+    assert_true(count > 50);
+    json_decref(all);
+}
+
+/* ---- textures ---- */
+
+#define PIXEL                                                                  \
+    "data:image/png;base64,"                                                   \
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGA" \
+    "WjR9awAAAABJRU5ErkJggg=="
+
+static void load_text(struct loaded *l, const char *materials)
+{
+    char *text = format_text(
+        "{\"asset\":{\"version\":\"2.0\"},\"images\":[{\"uri\":\"" PIXEL
+        "\"}],\"samplers\":[{\"wrapS\":33071,\"wrapT\":33648,"
+        "\"magFilter\":9728}],\"textures\":[{\"source\":0},{\"source\":0,"
+        "\"sampler\":0}],\"materials\":[%s]}",
+        materials);
+
+    put_bytes("a.gltf", text, strlen(text));
+    free(text);
+    load(l, "a.gltf");
+}
+
+static const struct texture *texture_of(const struct loaded *l, uint32_t i)
+{
+    assert_true(i < l->scene.texture_count);
+    return &l->scene.textures[i];
+}
+
+/* The extension's matrix maps (u, 1 - v) to the place in the image, whose v is
+ * 0 at the top. */
+static void transforms_are_those_of_the_extension(void **state)
+{
+    const double c = cos(0.3), s = sin(0.3);
+    const struct texture *t;
+    struct loaded l;
+
+    (void)state;
+    load_text(&l, "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":"
+                  "0,\"extensions\":{\"KHR_texture_transform\":{\"offset\":"
+                  "[0.1,0.2],\"rotation\":0.3,\"scale\":[2,3],\"texCoord\":1}}"
+                  "}}}");
+    assert_true(l.ok);
+    t = texture_of(&l, l.scene.materials[1].color_texture);
+    assert_int_equal(t->flags,
+                     TEXTURE_ROTATED | TEXTURE_SECOND_UVS | TEXTURE_OPAQUE);
+    for (int i = 0; i < 9; i++) {
+        double u = i % 3 / 2., v = i / 3 / 2., down = 1 - v;
+        double x = c * 2 * u + s * 3 * down + 0.1;
+        double y = -s * 2 * u + c * 3 * down + 0.2;
+        double a = u * (double)t->scale.x, b = v * (double)t->scale.y;
+
+        check_close(a * (double)t->rotation.x - b * (double)t->rotation.y +
+                        (double)t->offset.x,
+                    x, 1e-6);
+        check_close(a * (double)t->rotation.y + b * (double)t->rotation.x +
+                        (double)t->offset.y,
+                    1 - y, 1e-6);
+    }
+    unload(&l);
+}
+
+/* Maps of one image have its path, with the channels that glTF names. */
+static void images_are_listed_once(void **state)
+{
+    struct loaded l;
+    const struct material *m;
+
+    (void)state;
+    load_text(
+        &l,
+        "{\"alphaMode\":\"BLEND\",\"pbrMetallicRoughness\":{"
+        "\"baseColorTexture\":{\"index\":1},\"metallicRoughnessTexture\":{"
+        "\"index\":0}},\"normalTexture\":{\"index\":0,\"scale\":0.5},"
+        "\"extensions\":{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1,"
+        "\"clearcoatTexture\":{\"index\":0}}}}");
+    assert_true(l.ok);
+    m = &l.scene.materials[1];
+    assert_int_equal(l.scene.image_count, 1);
+    assert_string_equal(l.scene.images[0].name, "a.gltf#image0");
+    assert_int_equal(texture_of(&l, m->color_texture)->flags,
+                     TEXTURE_CLAMP_U | TEXTURE_MIRROR_V | TEXTURE_NEAREST);
+    assert_int_equal(texture_of(&l, m->metal_texture)->channel, CHANNEL_BLUE);
+    assert_int_equal(texture_of(&l, m->alpha_texture)->channel, CHANNEL_GREEN);
+    assert_int_equal(texture_of(&l, m->coat_texture)->channel, CHANNEL_RED);
+    check_close((double)m->normal_strength, 0.5, 0);
+    check_close((double)m->normal_depth, 1, 0);
+    for (uint32_t i = 0; i < l.scene.texture_count; i++)
+        assert_string_equal(l.scene.texture_paths[i], "a.gltf#image0");
+    unload(&l);
+}
+
+static void wrong_values_have_messages(void **state)
+{
+    static const struct {
+        const char *material, *message;
+    } cases[] = {
+        {"{\"normalTexture\":{\"index\":2}}",
+         "a.gltf: /materials/0/normalTexture/index: found 2, expected one of "
+         "2 textures"},
+        {"{\"normalTexture\":{}}",
+         "a.gltf: /materials/0/normalTexture: found no index, expected the "
+         "number of a texture"},
+        {"{\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1]}}",
+         "a.gltf: /materials/0/pbrMetallicRoughness/baseColorFactor: found an "
+         "array of 2, expected an array of 4 numbers"},
+        {"{\"alphaMode\":1}",
+         "a.gltf: /materials/0/alphaMode: found 1, expected a string"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct loaded l;
+
+        load_text(&l, cases[i].material);
+        assert_false(l.ok);
+        assert_string_equal(l.err.text, cases[i].message);
+        unload(&l);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest shared[] = {
+        cmocka_unit_test(values_are_those_of_an_independent_reader),
+    };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(transforms_are_those_of_the_extension),
+        cmocka_unit_test(images_are_listed_once),
+        cmocka_unit_test(wrong_values_have_messages),
+    };
+
+    return cmocka_run_group_tests(shared, NULL, NULL) +
+           cmocka_run_group_tests(tests, enter_folder, remove_folder);
+}
