@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/gltf_accessor.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+#include "kernels/types.h"
+
+/* Elements without data that a file may have beside the bytes of its buffers. */
+#define ZEROS_MAX 65536u
+
+static const struct {
+    const char *name;
+    uint32_t component_count;
+} types[] = {
+    {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3},  {"VEC4", 4},
+    {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16},
+};
+
+static uint32_t component_bytes(uint32_t component)
+{
+    return component <= GLTF_U8 ? 1 : component <= GLTF_U16 ? 2 : 4;
+}
+
+/* ---- opening ---- */
+
+static bool read_component(const struct gltf_value *v, uint32_t *component,
+                           struct error *err)
+{
+    uint64_t number = 0;
+
+    if (!gltf_integer(v, "componentType", INT64_MAX, &number, err))
+        return false;
+    *component = (uint32_t)number;
+    return (number >= GLTF_I8 && number <= GLTF_FLOAT && number != 5124) ||
+           gltf_fail(v, err,
+                     "found componentType %" PRIu64
+                     ", expected one of 5120 to 5123, 5125 or 5126",
+                     number);
+}
+
+static bool read_type(const struct gltf_value *v, uint32_t *component_count,
+                      struct error *err)
+{
+    const char *name = "";
+
+    if (!gltf_string(v, "type", &name, err))
+        return false;
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
+        *component_count = types[i].component_count;
+        if (strcmp(name, types[i].name) == 0)
+            return true;
+    }
+    return gltf_fail(v, err,
+                     "found the type \"%.20s\", expected SCALAR to MAT4", name);
+}
+
+/* Finds the bytes of `count` elements in the view that the value names. */
+static bool find_elements(const struct gltf_value *v, uint64_t count,
+                          size_t element_bytes, struct gltf_elements *e,
+                          struct error *err)
+{
+    uint64_t offset = 0, size_bytes;
+    uint32_t index, align = component_bytes(e->component);
+    const struct gltf_view *view;
+
+    if (!gltf_index(v, "bufferView", "bufferViews", &index, err) ||
+        !gltf_integer(v, "byteOffset", INT64_MAX, &offset, err))
+        return false;
+    e->bytes = NULL;
+    if (index == NO_INDEX)
+        return true;
+    view = &v->document->views[index];
+    e->stride_bytes =
+        view->stride_bytes != 0 ? view->stride_bytes : element_bytes;
+    if (e->stride_bytes < element_bytes)
+        return gltf_fail(v, err,
+                         "found a byteStride of %zu, expected %zu or more",
+                         e->stride_bytes, element_bytes);
+    if (offset % align != 0 || e->stride_bytes % align != 0)
+        return gltf_fail(v, err,
+                         "found a byteOffset of %" PRIu64
+                         " and a byteStride of %zu, expected multiples of "
+                         "%" PRIu32,
+                         offset, e->stride_bytes, align);
+    size_bytes = view->data.size_bytes;
+    if (count == 0 ||
+        (offset <= size_bytes && size_bytes - offset >= element_bytes &&
+         count - 1 <=
+             (size_bytes - offset - element_bytes) / e->stride_bytes)) {
+        e->bytes = count > 0 ? view->data.bytes + offset : NULL;
+        return true;
+    }
+    return gltf_fail(v, err,
+                     "found %" PRIu64 " elements from byte %" PRIu64
+                     " on, expected a part of the %" PRIu64
+                     " bytes of view %" PRIu32,
+                     count, offset, size_bytes, index);
+}
+
+static uint32_t read_unsigned(const struct gltf_elements *e, uint32_t i)
+{
+    const unsigned char *p = e->bytes + i * e->stride_bytes;
+
+    if (e->component == GLTF_U8)
+        return p[0];
+    if (e->component == GLTF_U16)
+        return p[0] | (uint32_t)p[1] << 8;
+    return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 |
+           (uint32_t)p[3] << 24;
+}
+
+static bool check_sparse_indices(const struct gltf_value *v,
+                                 const struct gltf_accessor *a,
+                                 struct error *err)
+{
+    uint32_t least = 0;
+
+    for (uint32_t i = 0; i < a->sparse_count; i++) {
+        uint32_t index = read_unsigned(&a->sparse_indices, i);
+
+        if (index < least || index >= a->count)
+            return gltf_fail(v, err,
+                             "found %" PRIu32 ", expected rising numbers "
+                             "of the %" PRIu32 " elements",
+                             index, a->count);
+        least = index + 1;
+    }
+    return true;
+}
+
+static bool open_sparse(const struct gltf_value *accessor, size_t element_bytes,
+                        struct gltf_accessor *a, struct error *err)
+{
+    struct gltf_value v, indices, values;
+    uint64_t count = 0;
+
+    if (!gltf_object(accessor, "sparse", &v, err))
+        return false;
+    if (v.json == NULL)
+        return true;
+    a->sparse_values.component = a->dense.component;
+    if (!gltf_integer(&v, "count", a->count, &count, err) ||
+        !gltf_object(&v, "indices", &indices, err) ||
+        !gltf_object(&v, "values", &values, err) ||
+        !read_component(&indices, &a->sparse_indices.component, err) ||
+        !find_elements(&indices, count,
+                       component_bytes(a->sparse_indices.component),
+                       &a->sparse_indices, err) ||
+        !find_elements(&values, count, element_bytes, &a->sparse_values, err))
+        return false;
+    a->sparse_count = (uint32_t)count;
+    if (count > 0 &&
+        (a->sparse_indices.bytes == NULL || a->sparse_values.bytes == NULL))
+        return gltf_fail(&v, err,
+                         "found no bufferView of its indices or values");
+    return check_sparse_indices(&indices, a, err);
+}
+
+bool gltf_accessor_open(const struct gltf_document *document, uint32_t index,
+                        struct gltf_accessor *a, struct error *err)
+{
+    struct gltf_value v;
+    uint64_t count = 0, most;
+    size_t element_bytes;
+
+    memset(a, 0, sizeof *a);
+    if (!gltf_entry(document, "accessors", index, &v, err) ||
+        !gltf_integer(&v, "count", NO_INDEX - 1, &count, err) ||
+        !gltf_flag(&v, "normalized", &a->is_normalized, err) ||
+        !read_component(&v, &a->dense.component, err) ||
+        !read_type(&v, &a->component_count, err))
+        return false;
+    element_bytes =
+        (size_t)a->component_count * component_bytes(a->dense.component);
+    a->count = (uint32_t)count;
+    if (!find_elements(&v, count, element_bytes, &a->dense, err) ||
+        !open_sparse(&v, element_bytes, a, err))
+        return false;
+    /* zeros cost nothing in the file: they shall not fill the memory */
+    most = document->buffer_bytes + ZEROS_MAX;
+    return a->dense.bytes != NULL || count <= most ||
+           gltf_fail(&v, err,
+                     "found %" PRIu64 " elements without data, expected at "
+                     "most %" PRIu64 " in a file of its size",
+                     count, most);
+}
+
+/* ---- reading ---- */
+
+static float signed_unit(float value)
+{
+    return value < -1 ? -1 : value;
+}
+
+/* Reads the components of one element. */
+static void read_floats(const struct gltf_elements *e, uint32_t index,
+                        uint32_t component_count, bool is_normalized, float *to)
+{
+    const unsigned char *p = e->bytes + index * e->stride_bytes;
+
+    for (uint32_t k = 0; k < component_count; k++) {
+        struct gltf_elements one = {p + k * component_bytes(e->component), 0,
+                                    e->component};
+        uint32_t bits;
+
+        switch (e->component) {
+        case GLTF_I8:
+            to[k] = (float)(int8_t)*one.bytes;
+            to[k] = is_normalized ? signed_unit(to[k] / 127) : to[k];
+            break;
+        case GLTF_U8:
+            to[k] = (float)*one.bytes;
+            to[k] = is_normalized ? to[k] / 255 : to[k];
+            break;
+        case GLTF_I16:
+            one.component = GLTF_U16;
+            to[k] = (float)(int16_t)read_unsigned(&one, 0);
+            to[k] = is_normalized ? signed_unit(to[k] / 32767) : to[k];
+            break;
+        case GLTF_U16:
+            to[k] = (float)read_unsigned(&one, 0);
+            to[k] = is_normalized ? to[k] / 65535 : to[k];
+            break;
+        case GLTF_U32: to[k] = (float)read_unsigned(&one, 0); break;
+        default:
+            bits = read_unsigned(&one, 0);
+            memcpy(&to[k], &bits, sizeof to[k]);
+        }
+    }
+}
+
+/* Returns the first sparse element whose number is not below `index`. */
+static uint32_t find_sparse(const struct gltf_accessor *a, uint32_t index)
+{
+    uint32_t begin = 0, end = a->sparse_count;
+
+    while (begin < end) {
+        uint32_t middle = begin + (end - begin) / 2;
+
+        if (read_unsigned(&a->sparse_indices, middle) < index)
+            begin = middle + 1;
+        else
+            end = middle;
+    }
+    return begin;
+}
+
+void gltf_accessor_floats(const struct gltf_accessor *a, uint32_t first,
+                          uint32_t count, float *to)
+{
+    uint32_t n = a->component_count;
+
+    if (a->dense.bytes == NULL)
+        memset(to, 0, (size_t)count * n * sizeof *to);
+    for (uint32_t i = 0; a->dense.bytes != NULL && i < count; i++)
+        read_floats(&a->dense, first + i, n, a->is_normalized,
+                    to + (size_t)n * i);
+    for (uint32_t s = find_sparse(a, first); s < a->sparse_count; s++) {
+        uint32_t index = read_unsigned(&a->sparse_indices, s);
+
+        if (index - first >= count)
+            break;
+        read_floats(&a->sparse_values, s, n, a->is_normalized,
+                    to + (size_t)n * (index - first));
+    }
+}
+
+void gltf_accessor_integers(const struct gltf_accessor *a, uint32_t first,
+                            uint32_t count, uint32_t *to)
+{
+    uint32_t n = a->component_count, size = component_bytes(a->dense.component);
+
+    for (uint32_t i = 0; i < count * n; i++) {
+        struct gltf_elements e = a->dense;
+        uint32_t element = first + i / n;
+
+        e.bytes = e.bytes != NULL ? e.bytes + (size_t)(i % n) * size : NULL;
+        to[i] = e.bytes != NULL ? read_unsigned(&e, element) : 0;
+    }
+    for (uint32_t s = find_sparse(a, first); s < a->sparse_count; s++) {
+        uint32_t index = read_unsigned(&a->sparse_indices, s);
+
+        if (index - first >= count)
+            break;
+        for (uint32_t k = 0; k < n; k++) {
+            struct gltf_elements e = a->sparse_values;
+
+            e.bytes += k * size;
+            to[n * (index - first) + k] = read_unsigned(&e, s);
+        }
+    }
+}

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/gltf_mesh.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/cgroup_quota.h"
+#include "base/memory.h"
+#include "base/name_table.h"
+#include "gltf/gltf_instancing.h"
+#include "gltf/gltf_primitive.h"
+#include "gltf/gltf_skin.h"
+#include "kernels/vec.h"
+
+/* Meshes of the scene that were made of a mesh of the document. */
+struct made {
+    uint32_t first, count; /* first is NO_INDEX: none yet */
+    uint32_t skin;         /* which bends them, or NO_INDEX */
+};
+
+struct builder {
+    const struct gltf_document *document;
+    const struct gltf_nodes *nodes;
+    struct scene *scene;
+    struct warnings *report;
+    struct error *err;
+    struct pool *pool;
+    struct made *made; /* for each mesh of the document */
+    struct name_table objects;
+    size_t position_capacity, normal_capacity, uv_capacity, color_capacity;
+    size_t tri_capacity, face_capacity, object_capacity;
+    uint64_t memory_bytes; /* limit of the arrays */
+};
+
+static bool out_of_memory(const struct builder *b)
+{
+    return fail(b->err, "%s: out of memory for the scene", b->document->path);
+}
+
+/* ---- arrays ---- */
+
+/* Gives the vertices so far the colour white. */
+static bool begin_colors(struct builder *b)
+{
+    struct scene *s = b->scene;
+
+    s->colors = alloc_array(s->position_count, sizeof *s->colors);
+    b->color_capacity = s->position_count;
+    for (uint32_t i = 0; s->colors != NULL && i < s->position_count; i++)
+        s->colors[i] = v3(1, 1, 1);
+    return s->colors != NULL;
+}
+
+static bool grow_vertices(struct builder *b, const struct gltf_primitive *p)
+{
+    struct scene *s = b->scene;
+    size_t n = (size_t)s->position_count + p->vertex_count;
+    size_t normals = s->normal_count + (p->has_normals ? p->vertex_count : 0);
+    size_t uvs = s->uv_count + (p->has_uvs ? p->vertex_count : 0);
+    void *array;
+
+    if (p->has_colors && s->colors == NULL && !begin_colors(b))
+        return false;
+    array = s->file_positions;
+    if (!grow_array(&array, &b->position_capacity, n,
+                    3 * sizeof *s->file_positions))
+        return false;
+    s->file_positions = array;
+    array = s->normals;
+    if (!grow_array(&array, &b->normal_capacity, normals, sizeof *s->normals))
+        return false;
+    s->normals = array;
+    array = s->uvs;
+    if (!grow_array(&array, &b->uv_capacity, uvs, sizeof *s->uvs))
+        return false;
+    s->uvs = array;
+    array = s->colors;
+    if (s->colors != NULL &&
+        !grow_array(&array, &b->color_capacity, n, sizeof *s->colors))
+        return false;
+    s->colors = array;
+    return true;
+}
+
+static bool grow_tris(struct builder *b, const struct gltf_primitive *p)
+{
+    struct scene *s = b->scene;
+    size_t n = (size_t)s->tri_count + p->tri_count;
+    void *array = s->tris;
+
+    if (!grow_array(&array, &b->tri_capacity, n, sizeof *s->tris))
+        return false;
+    s->tris = array;
+    array = s->tri_faces;
+    if (!grow_array(&array, &b->face_capacity, n, sizeof *s->tri_faces))
+        return false;
+    s->tri_faces = array;
+    array = s->tri_objects;
+    if (!grow_array(&array, &b->object_capacity, n, sizeof *s->tri_objects))
+        return false;
+    s->tri_objects = array;
+    return true;
+}
+
+/* Makes room for the primitive, so that a mesh that many skins bend cannot fill
+ * the memory. */
+static bool reserve(struct builder *b, const struct gltf_primitive *p)
+{
+    const struct scene *s = b->scene;
+    uint64_t vertices = (uint64_t)s->position_count + p->vertex_count;
+    uint64_t tris = (uint64_t)s->tri_count + p->tri_count;
+    uint64_t bytes =
+        vertices * 3 * sizeof *s->file_positions + tris * (sizeof *s->tris + 8);
+
+    if (vertices >= NO_INDEX || tris >= NO_INDEX || bytes > b->memory_bytes)
+        return fail(b->err,
+                    "%s: out of memory for %" PRIu64 " vertices and %" PRIu64
+                    " triangles",
+                    b->document->path, vertices, tris);
+    return (grow_vertices(b, p) && grow_tris(b, p)) || out_of_memory(b);
+}
+
+/* ---- meshes ---- */
+
+static bool add_primitive(struct builder *b, const struct gltf_value *value,
+                          const struct gltf_shape *shape)
+{
+    struct gltf_primitive p = {.mode = 0};
+    bool ok = gltf_primitive_open(value, shape, &p, b->report, b->err);
+
+    if (ok && p.tri_count > 0) {
+        ok = reserve(b, &p) && scene_begin_mesh(b->scene, b->err) &&
+             gltf_primitive_add(value, &p, shape, b->scene, b->pool, b->err);
+        if (ok)
+            scene_end_mesh(b->scene);
+    }
+    gltf_primitive_free(&p);
+    return ok;
+}
+
+/* Adds the primitives of a mesh. */
+static bool add_mesh(struct builder *b, const struct gltf_value *mesh,
+                     const struct gltf_shape *shape, struct made *made)
+{
+    struct gltf_value list, v;
+
+    if (!gltf_array(mesh, "primitives", &list, b->err))
+        return false;
+    made->first = b->scene->instances.mesh_count;
+    for (size_t i = 0; i < gltf_count(&list); i++)
+        if (!gltf_item_object(&list, i, &v, b->err) ||
+            !add_primitive(b, &v, shape))
+            return false;
+    made->count = b->scene->instances.mesh_count - made->first;
+    return true;
+}
+
+/* Reads the weights of morph targets, for free(). */
+static bool read_weights(const struct gltf_value *of, double **weights,
+                         uint32_t *count, struct error *err)
+{
+    struct gltf_value list;
+
+    if (!gltf_array(of, "weights", &list, err))
+        return false;
+    *count = (uint32_t)gltf_count(&list);
+    *weights = alloc_array(*count, sizeof **weights);
+    if (*weights == NULL)
+        return gltf_fail(of, err, "out of memory for its weights");
+    return gltf_numbers(of, "weights", *count, *weights, err);
+}
+
+/* Makes the meshes of a node's mesh, whose weights are those of `weighted`. */
+static bool make(struct builder *b, uint32_t node,
+                 const struct gltf_value *mesh,
+                 const struct gltf_value *weighted, struct made *made)
+{
+    const struct gltf_node *n = &b->nodes->items[node];
+    struct gltf_shape shape = {.weights = n->weights,
+                               .weight_count = n->weight_count};
+    struct affine *joints = NULL;
+    double *weights = NULL;
+    bool ok = true;
+
+    if (n->weights == NULL) {
+        ok = read_weights(weighted, &weights, &shape.weight_count, b->err);
+        shape.weights = weights;
+    }
+    if (ok && n->skin != NO_INDEX) {
+        ok = gltf_skin_read(b->document, b->nodes, n->skin, &joints,
+                            &shape.joint_count, b->err);
+        shape.joints = joints;
+    }
+    ok = ok && add_mesh(b, mesh, &shape, made);
+    free(joints);
+    free(weights);
+    return ok;
+}
+
+/* ---- nodes ---- */
+
+/* Adds the object of a node. Names that are taken get the node's number. */
+static uint32_t add_object(struct builder *b, uint32_t node, const char *name)
+{
+    char *other = NULL;
+    uint32_t object;
+
+    if (*name == '\0' || name_table_find(&b->objects, name) != NO_NAME) {
+        other = format_text("%s#%" PRIu32, *name != '\0' ? name : "node", node);
+        if (other == NULL)
+            return NO_NAME;
+        name = other;
+    }
+    object = name_table_add(&b->objects, name);
+    free(other);
+    return object;
+}
+
+static bool add_instances(struct builder *b, uint32_t node,
+                          const struct gltf_value *value,
+                          const struct made *made, uint32_t object)
+{
+    static const struct affine identity = {
+        {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    const struct gltf_node *n = &b->nodes->items[node];
+    const struct affine *matrix =
+        made->skin != NO_INDEX ? &identity : &n->world;
+
+    for (uint32_t i = 0; i < made->count; i++)
+        if (!gltf_instances_add(value, b->scene, made->first + i, matrix,
+                                object, b->err))
+            return false;
+    return true;
+}
+
+static bool add_node(struct builder *b, uint32_t node)
+{
+    const struct gltf_node *n = &b->nodes->items[node];
+    struct made *shared = &b->made[n->mesh], own = {NO_INDEX, 0, n->skin};
+    struct gltf_value value, mesh;
+    const char *name = "";
+    bool has_weights;
+    uint32_t object;
+
+    if (!gltf_entry(b->document, "nodes", node, &value, b->err) ||
+        !gltf_entry(b->document, "meshes", n->mesh, &mesh, b->err) ||
+        !gltf_string(&mesh, "name", &name, b->err) ||
+        !gltf_string(&value, "name", &name, b->err))
+        return false;
+    object = add_object(b, node, name);
+    if (object == NO_NAME)
+        return out_of_memory(b);
+    has_weights = json_object_get(value.json, "weights") != NULL;
+    if (has_weights || n->weights != NULL) {
+        if (!make(b, node, &mesh, &value, &own))
+            return false;
+        shared = &own;
+    } else if (shared->first == NO_INDEX || shared->skin != n->skin) {
+        shared->skin = n->skin;
+        if (!make(b, node, &mesh, &mesh, shared))
+            return false;
+    }
+    return add_instances(b, node, &value, shared, object);
+}
+
+static void take_names(struct builder *b)
+{
+    struct scene *s = b->scene;
+
+    free(s->object_names[0]);
+    free(s->object_names);
+    s->object_names = b->objects.items;
+    s->object_count = b->objects.count;
+    b->objects.items = NULL; /* the scene owns it now */
+    b->objects.count = 0;
+}
+
+static bool begin(struct builder *b)
+{
+    size_t count = gltf_entry_count(b->document, "meshes");
+
+    /* finishing the scene needs as much again, and its tree too */
+    b->memory_bytes = cgroup_quota_memory("").size_bytes / 4;
+    b->made = alloc_array(count, sizeof *b->made);
+    if (b->made == NULL || name_table_add(&b->objects, "") == NO_NAME)
+        return out_of_memory(b);
+    for (size_t i = 0; i < count; i++)
+        b->made[i].first = NO_INDEX;
+    return true;
+}
+
+bool gltf_meshes_add(const struct gltf_document *document,
+                     const struct gltf_nodes *nodes, struct scene *scene,
+                     struct warnings *report, struct error *err)
+{
+    struct builder b = {.document = document,
+                        .nodes = nodes,
+                        .scene = scene,
+                        .report = report,
+                        .err = err};
+    bool ok = begin(&b);
+
+    /* the counts of triangles are not known yet: those of bytes are */
+    b.pool = scene_pool(scene, document->buffer_bytes < NO_INDEX
+                                   ? (uint32_t)(document->buffer_bytes / 32)
+                                   : NO_INDEX);
+    for (uint32_t i = 0; ok && i < nodes->visible_count; i++)
+        if (nodes->items[nodes->visible[i]].mesh != NO_INDEX)
+            ok = add_node(&b, nodes->visible[i]);
+    if (b.objects.count > 0)
+        take_names(&b);
+    pool_destroy(b.pool);
+    name_table_free(&b.objects);
+    free(b.made);
+    return ok;
+}

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/gltf_primitive.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "gltf/gltf_vertices.h"
+
+/* Values of mode. */
+enum { MODE_TRIANGLES = 4, MODE_STRIP, MODE_FAN };
+
+/* Triangles that are added as one. */
+#define BLOCK_TRIS 16384u
+
+/* ---- opening ---- */
+
+/* Reads an attribute; *is_there is false if the primitive does not have it. */
+static bool open_attribute(const struct gltf_value *attributes, const char *key,
+                           struct gltf_accessor *a, bool *is_there,
+                           struct error *err)
+{
+    uint32_t index;
+
+    if (!gltf_index(attributes, key, "accessors", &index, err))
+        return false;
+    *is_there = index != NO_INDEX;
+    return !*is_there ||
+           gltf_accessor_open(attributes->document, index, a, err);
+}
+
+/* Checks the numbers of components and elements. */
+static bool check_attribute(const struct gltf_value *attributes,
+                            const char *key, const struct gltf_accessor *a,
+                            uint32_t least, uint32_t most, uint32_t count,
+                            struct error *err)
+{
+    if (a->component_count < least || a->component_count > most)
+        return gltf_fail(attributes, err,
+                         "found %s of %" PRIu32
+                         " components, expected %" PRIu32,
+                         key, a->component_count, most);
+    return a->count == count ||
+           gltf_fail(attributes, err,
+                     "found %" PRIu32 " elements in %s, expected %" PRIu32
+                     " as in POSITION",
+                     a->count, key, count);
+}
+
+static bool open_optional(const struct gltf_value *attributes, const char *key,
+                          uint32_t least, uint32_t most, uint32_t count,
+                          struct gltf_accessor *a, bool *is_there,
+                          struct error *err)
+{
+    return open_attribute(attributes, key, a, is_there, err) &&
+           (!*is_there ||
+            check_attribute(attributes, key, a, least, most, count, err));
+}
+
+static bool open_joints(const struct gltf_value *attributes,
+                        struct gltf_primitive *p, struct error *err)
+{
+    static const char *const joints[] = {"JOINTS_0", "JOINTS_1"};
+    static const char *const weights[] = {"WEIGHTS_0", "WEIGHTS_1"};
+
+    for (uint32_t i = 0; i < GLTF_JOINT_SETS; i++) {
+        bool has_joints, has_weights;
+
+        if (!open_optional(attributes, joints[i], 4, 4, p->vertex_count,
+                           &p->joints[i], &has_joints, err) ||
+            !open_optional(attributes, weights[i], 4, 4, p->vertex_count,
+                           &p->weights[i], &has_weights, err))
+            return false;
+        if (!has_joints || !has_weights)
+            break;
+        p->joint_set_count = i + 1;
+    }
+    return true;
+}
+
+static bool open_targets(const struct gltf_value *value,
+                         const struct gltf_shape *shape,
+                         struct gltf_primitive *p, struct error *err)
+{
+    struct gltf_value list, v;
+    size_t count;
+
+    if (!gltf_array(value, "targets", &list, err))
+        return false;
+    count = gltf_count(&list);
+    count = count < shape->weight_count ? count : shape->weight_count;
+    p->targets = alloc_array(count, sizeof *p->targets);
+    if (p->targets == NULL)
+        return gltf_fail(value, err, "out of memory for its targets");
+    for (size_t i = 0; i < count; i++) {
+        struct gltf_target *t = &p->targets[p->target_count];
+
+        if (shape->weights[i] == 0)
+            continue;
+        t->weight = shape->weights[i];
+        if (!gltf_item_object(&list, i, &v, err) ||
+            !open_optional(&v, "POSITION", 3, 3, p->vertex_count, &t->positions,
+                           &t->has_positions, err) ||
+            !open_optional(&v, "NORMAL", 3, 3, p->vertex_count, &t->normals,
+                           &t->has_normals, err))
+            return false;
+        p->target_count++;
+    }
+    return true;
+}
+
+static bool open_indices(const struct gltf_value *value,
+                         struct gltf_primitive *p, struct error *err)
+{
+    const struct gltf_accessor *a = &p->indices;
+    uint32_t component;
+
+    if (!open_attribute(value, "indices", &p->indices, &p->has_indices, err))
+        return false;
+    component = a->dense.component;
+    return !p->has_indices ||
+           (a->component_count == 1 &&
+            (component == GLTF_U8 || component == GLTF_U16 ||
+             component == GLTF_U32)) ||
+           gltf_fail(value, err,
+                     "found indices of %" PRIu32 " components of type %" PRIu32
+                     ", expected SCALAR of 5121, 5123 or 5125",
+                     a->component_count, component);
+}
+
+static bool read_mode(const struct gltf_value *value, struct gltf_primitive *p,
+                      struct error *err)
+{
+    uint64_t mode = MODE_TRIANGLES;
+
+    if (!gltf_integer(value, "mode", MODE_FAN, &mode, err) ||
+        !gltf_index(value, "material", "materials", &p->material, err))
+        return false;
+    p->material = p->material == NO_INDEX ? 0 : p->material + 1;
+    p->mode = (uint32_t)mode;
+    return true;
+}
+
+static bool open_attributes(const struct gltf_value *v,
+                            struct gltf_primitive *p, struct error *err)
+{
+    uint32_t n = p->vertex_count;
+
+    return check_attribute(v, "POSITION", &p->positions, 3, 3, n, err) &&
+           open_optional(v, "NORMAL", 3, 3, n, &p->normals, &p->has_normals,
+                         err) &&
+           open_optional(v, "TEXCOORD_0", 2, 2, n, &p->uvs, &p->has_uvs, err) &&
+           open_optional(v, "COLOR_0", 3, 4, n, &p->colors, &p->has_colors,
+                         err) &&
+           open_joints(v, p, err);
+}
+
+bool gltf_primitive_open(const struct gltf_value *value,
+                         const struct gltf_shape *shape,
+                         struct gltf_primitive *p, struct warnings *report,
+                         struct error *err)
+{
+    const char *path = value->document->path;
+    struct gltf_value attributes;
+    bool has_positions;
+    uint32_t count;
+
+    if (!read_mode(value, p, err) ||
+        !gltf_object(value, "attributes", &attributes, err) ||
+        !open_attribute(&attributes, "POSITION", &p->positions, &has_positions,
+                        err))
+        return false;
+    if (p->mode < MODE_TRIANGLES || !has_positions) {
+        warnings_add(report, "primitives without faces",
+                     "%s: found a primitive of %s: not drawn", path,
+                     has_positions ? "points or lines" : "no positions");
+        return true;
+    }
+    p->vertex_count = p->positions.count;
+    if (!open_attributes(&attributes, p, err) || !open_indices(value, p, err) ||
+        !open_targets(value, shape, p, err))
+        return false;
+    count = p->has_indices ? p->indices.count : p->vertex_count;
+    if (p->mode == MODE_TRIANGLES && count % 3 != 0)
+        warnings_add(report, "primitives with vertices left over",
+                     "%s: found %" PRIu32 " vertices in a primitive, expected "
+                     "three for each triangle: the last are ignored",
+                     path, count);
+    p->tri_count = p->mode == MODE_TRIANGLES ? count / 3
+                   : count > 2               ? count - 2
+                                             : 0;
+    return true;
+}
+
+void gltf_primitive_free(struct gltf_primitive *p)
+{
+    free(p->targets);
+    memset(p, 0, sizeof *p);
+}
+
+/* ---- triangles ---- */
+
+struct job {
+    const struct gltf_primitive *primitive;
+    struct scene *scene;
+    uint32_t first_position, first_normal, first_uv, first_tri;
+    atomic_bool has_failed;
+};
+
+static uint32_t vertex_of(const struct gltf_primitive *p, uint32_t i)
+{
+    uint32_t v = i;
+
+    if (p->has_indices)
+        gltf_accessor_integers(&p->indices, i, 1, &v);
+    return v;
+}
+
+/* Fills the three places of a triangle in the list of vertices. */
+static void places_of(uint32_t mode, uint32_t i, uint32_t places[3])
+{
+    if (mode == MODE_TRIANGLES) {
+        for (uint32_t k = 0; k < 3; k++)
+            places[k] = 3 * i + k;
+    } else if (mode == MODE_STRIP) {
+        places[0] = i;
+        places[1] = i + 1 + i % 2;
+        places[2] = i + 2 - i % 2;
+    } else {
+        places[0] = i + 1;
+        places[1] = i + 2;
+        places[2] = 0;
+    }
+}
+
+static bool has_normal(const struct scene *s, uint32_t n)
+{
+    return s->normals[n].x != 0 || s->normals[n].y != 0 || s->normals[n].z != 0;
+}
+
+/* Fills triangle i. Returns false if an index is out of range. */
+static bool fill_tri(const struct job *j, uint32_t i, struct tri *t)
+{
+    const struct gltf_primitive *p = j->primitive;
+    uint32_t places[3], v[3];
+    bool has_normals = p->has_normals;
+
+    places_of(p->mode, i, places);
+    for (int k = 0; k < 3; k++) {
+        v[k] = vertex_of(p, places[k]);
+        if (v[k] >= p->vertex_count)
+            return false;
+        has_normals =
+            has_normals && has_normal(j->scene, j->first_normal + v[k]);
+        t->v[k] = j->first_position + v[k];
+        t->vt[k] = p->has_uvs ? j->first_uv + v[k] : NO_INDEX;
+    }
+    for (int k = 0; k < 3; k++)
+        t->vn[k] = has_normals ? j->first_normal + v[k] : NO_INDEX;
+    t->material = p->material;
+    return true;
+}
+
+static void fill_block(void *context, uint32_t block, int worker)
+{
+    struct job *j = context;
+    struct scene *s = j->scene;
+    uint32_t begin = block * BLOCK_TRIS, count = j->primitive->tri_count;
+    uint32_t end = count - begin < BLOCK_TRIS ? count : begin + BLOCK_TRIS;
+
+    (void)worker;
+    for (uint32_t i = begin; i < end; i++) {
+        uint32_t t = j->first_tri + i;
+
+        if (!fill_tri(j, i, &s->tris[t]))
+            atomic_store(&j->has_failed, true);
+        s->tri_faces[t] = t;
+        s->tri_objects[t] = 0;
+    }
+}
+
+/* Names the first index out of range. */
+static bool fail_index(const struct gltf_value *value,
+                       const struct gltf_primitive *p, struct error *err)
+{
+    uint32_t i = 0;
+
+    while (vertex_of(p, i) < p->vertex_count)
+        i++;
+    return gltf_fail(value, err,
+                     "found vertex %" PRIu32 " at place %" PRIu32
+                     " of the indices, expected one of %" PRIu32 " vertices",
+                     vertex_of(p, i), i, p->vertex_count);
+}
+
+bool gltf_primitive_add(const struct gltf_value *value,
+                        const struct gltf_primitive *p,
+                        const struct gltf_shape *shape, struct scene *scene,
+                        struct pool *pool, struct error *err)
+{
+    struct job job = {.primitive = p,
+                      .scene = scene,
+                      .first_position = scene->position_count,
+                      .first_normal = scene->normal_count,
+                      .first_uv = scene->uv_count,
+                      .first_tri = scene->tri_count};
+
+    if (!gltf_vertices_add(value, p, shape, scene, pool, err))
+        return false;
+    pool_each(pool, p->tri_count / BLOCK_TRIS + (p->tri_count % BLOCK_TRIS > 0),
+              fill_block, &job);
+    if (atomic_load(&job.has_failed))
+        return fail_index(value, p, err);
+    scene->tri_count += p->tri_count;
+    return true;
+}
