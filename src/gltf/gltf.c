@@ -5,6 +5,7 @@
 #include "gltf/gltf_material.h"
 #include "gltf/gltf_mesh.h"
 #include "gltf/gltf_node.h"
+#include "gltf/gltf_view.h"
 
 bool gltf_parse(struct scene *scene, const char *bytes, size_t size_bytes,
                 const char *path, struct warnings *report, struct error *err)
@@ -19,6 +20,7 @@ bool gltf_parse(struct scene *scene, const char *bytes, size_t size_bytes,
         mesh_mtl_read(scene, report, err) &&
         gltf_nodes_read(&document, &nodes, err) &&
         gltf_nodes_place(&document, NO_INDEX, &nodes, err) &&
+        gltf_view_read(&document, &nodes, scene, report, err) &&
         gltf_meshes_add(&document, &nodes, scene, report, err);
 
     gltf_nodes_free(&nodes);

@@ -6,7 +6,8 @@
 
 #include "kernels/types.h"
 
-/* Elements without data that a file may have beside the bytes of its buffers. */
+/* Elements without data that a file may have beside the bytes of its buffers.
+ */
 #define ZEROS_MAX 65536u
 
 static const struct {

@@ -157,6 +157,7 @@ bool gltf_uri_find(const struct gltf_value *value, const char *uri, char **path,
 bool gltf_uri_read(const struct gltf_value *value, const char *uri,
                    struct gltf_bytes *to, struct error *err)
 {
+    struct error own;
     char *path, *bytes;
     bool ok;
 
@@ -165,10 +166,10 @@ bool gltf_uri_read(const struct gltf_value *value, const char *uri,
         return read_data(value, uri, to, err);
     if (!gltf_uri_find(value, uri, &path, err))
         return false;
-    ok = file_read(path, &bytes, &to->size_bytes, err);
+    ok = file_read(path, &bytes, &to->size_bytes, &own);
     free(path);
     if (!ok)
-        return false;
+        return gltf_fail(value, err, "%s", own.text);
     to->owned = bytes;
     to->bytes = to->owned;
     return true;

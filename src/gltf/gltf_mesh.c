@@ -28,7 +28,8 @@ struct builder {
     struct pool *pool;
     struct made *made; /* for each mesh of the document */
     struct name_table objects;
-    size_t position_capacity, normal_capacity, uv_capacity, color_capacity;
+    size_t position_capacity, normal_capacity, color_capacity;
+    size_t uv_capacity, uv2_capacity;
     size_t tri_capacity, face_capacity, object_capacity;
     uint64_t memory_bytes; /* limit of the arrays */
 };
@@ -52,12 +53,34 @@ static bool begin_colors(struct builder *b)
     return s->colors != NULL;
 }
 
+/* Makes room for texture coordinates. The second set begins with the first
+ * primitive that has one. */
+static bool grow_uvs(struct builder *b, const struct gltf_primitive *p)
+{
+    struct scene *s = b->scene;
+    size_t n = s->uv_count + (p->has_uvs ? p->vertex_count : 0);
+    bool has_second = s->uvs2 != NULL || p->has_uv_set[1];
+    void *array = s->uvs;
+
+    if (!grow_array(&array, &b->uv_capacity, n, sizeof *s->uvs))
+        return false;
+    s->uvs = array;
+    array = s->uvs2;
+    if (!has_second)
+        return true;
+    if (!grow_array(&array, &b->uv2_capacity, n, sizeof *s->uvs2))
+        return false;
+    if (s->uvs2 == NULL)
+        memset(array, 0, s->uv_count * sizeof *s->uvs2);
+    s->uvs2 = array;
+    return true;
+}
+
 static bool grow_vertices(struct builder *b, const struct gltf_primitive *p)
 {
     struct scene *s = b->scene;
     size_t n = (size_t)s->position_count + p->vertex_count;
     size_t normals = s->normal_count + (p->has_normals ? p->vertex_count : 0);
-    size_t uvs = s->uv_count + (p->has_uvs ? p->vertex_count : 0);
     void *array;
 
     if (p->has_colors && s->colors == NULL && !begin_colors(b))
@@ -71,10 +94,8 @@ static bool grow_vertices(struct builder *b, const struct gltf_primitive *p)
     if (!grow_array(&array, &b->normal_capacity, normals, sizeof *s->normals))
         return false;
     s->normals = array;
-    array = s->uvs;
-    if (!grow_array(&array, &b->uv_capacity, uvs, sizeof *s->uvs))
+    if (!grow_uvs(b, p))
         return false;
-    s->uvs = array;
     array = s->colors;
     if (s->colors != NULL &&
         !grow_array(&array, &b->color_capacity, n, sizeof *s->colors))

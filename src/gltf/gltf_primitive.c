@@ -150,7 +150,10 @@ static bool open_attributes(const struct gltf_value *v,
     return check_attribute(v, "POSITION", &p->positions, 3, 3, n, err) &&
            open_optional(v, "NORMAL", 3, 3, n, &p->normals, &p->has_normals,
                          err) &&
-           open_optional(v, "TEXCOORD_0", 2, 2, n, &p->uvs, &p->has_uvs, err) &&
+           open_optional(v, "TEXCOORD_0", 2, 2, n, &p->uvs[0],
+                         &p->has_uv_set[0], err) &&
+           open_optional(v, "TEXCOORD_1", 2, 2, n, &p->uvs[1],
+                         &p->has_uv_set[1], err) &&
            open_optional(v, "COLOR_0", 3, 4, n, &p->colors, &p->has_colors,
                          err) &&
            open_joints(v, p, err);
@@ -181,6 +184,7 @@ bool gltf_primitive_open(const struct gltf_value *value,
     if (!open_attributes(&attributes, p, err) || !open_indices(value, p, err) ||
         !open_targets(value, shape, p, err))
         return false;
+    p->has_uvs = p->has_uv_set[0] || p->has_uv_set[1];
     count = p->has_indices ? p->indices.count : p->vertex_count;
     if (p->mode == MODE_TRIANGLES && count % 3 != 0)
         warnings_add(report, "primitives with vertices left over",

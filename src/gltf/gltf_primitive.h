@@ -27,8 +27,11 @@ struct gltf_primitive {
     uint32_t mode; /* 4 triangles, 5 strip, 6 fan; others draw no faces */
     uint32_t material;
     uint32_t vertex_count, tri_count;
-    struct gltf_accessor positions, normals, uvs, colors, indices;
-    bool has_normals, has_uvs, has_colors, has_indices;
+    struct gltf_accessor positions, normals, colors, indices;
+    struct gltf_accessor uvs[2];
+    bool has_normals, has_colors, has_indices;
+    bool has_uv_set[2]; /* each set */
+    bool has_uvs;       /* one of them */
     struct gltf_accessor joints[GLTF_JOINT_SETS], weights[GLTF_JOINT_SETS];
     uint32_t joint_set_count;
     struct gltf_target *targets;

@@ -129,14 +129,17 @@ static void put_normals(const struct job *j, struct chunk *c)
     }
 }
 
-/* glTF counts v from the top. */
-static void put_uvs(const struct job *j, const struct gltf_accessor *a,
-                    const struct chunk *c, struct vec2 *to)
+/* Puts a set of texture coordinates, 0 without one. glTF counts v from the
+ * top. */
+static void put_uvs(const struct job *j, int set, const struct chunk *c,
+                    struct vec2 *to)
 {
-    float numbers[2 * CHUNK];
+    const struct gltf_primitive *p = j->primitive;
+    float numbers[2 * CHUNK] = {0};
 
-    (void)j;
-    gltf_accessor_floats(a, c->first, c->count, numbers);
+    to += j->first_uv + c->first;
+    if (p->has_uv_set[set])
+        gltf_accessor_floats(&p->uvs[set], c->first, c->count, numbers);
     for (uint32_t i = 0; i < c->count; i++)
         to[i] = v2(texture_coordinate((double)numbers[2 * i]),
                    texture_coordinate(1 - (double)numbers[2 * i + 1]));
@@ -173,7 +176,9 @@ static void put_chunk(const struct job *j, struct chunk *c)
     if (p->has_normals)
         put_normals(j, c);
     if (p->has_uvs)
-        put_uvs(j, &p->uvs, c, s->uvs + j->first_uv + c->first);
+        put_uvs(j, 0, c, s->uvs);
+    if (p->has_uvs && s->uvs2 != NULL)
+        put_uvs(j, 1, c, s->uvs2);
     if (s->colors != NULL && p->has_colors)
         put_colors(j, c);
     for (uint32_t i = 0; s->colors != NULL && !p->has_colors && i < c->count;

@@ -48,6 +48,17 @@ static void turn_vector(double v[3])
     v[2] = -y;
 }
 
+static void turn_lamp(struct lamp *lamp)
+{
+    double d[3];
+
+    turn_vector(lamp->position);
+    turn_vector(lamp->at);
+    lamp_direction(lamp, d);
+    turn_vector(d);
+    lamp_set_direction(lamp, d);
+}
+
 static void turn_z_up(struct scene *scene)
 {
     for (size_t i = 0; i < scene->position_count; i++)
@@ -59,6 +70,8 @@ static void turn_z_up(struct scene *scene)
         turn_vector(pose->at);
         turn_vector(pose->up);
     }
+    for (uint32_t i = 0; i < scene->lamps.count; i++)
+        turn_lamp(&scene->lamps.items[i]);
     for (size_t i = 0; i < scene->normal_count; i++) {
         struct vec3 *n = &scene->normals[i];
         float y = n->y;
@@ -85,6 +98,23 @@ static bool read_file(struct scene *scene, const char *path,
     return ok;
 }
 
+/* Moves the point that a camera looks at to the depth of the scene's centre:
+ * files only say its direction. */
+static void look_at_center(const struct scene *scene, struct pose *pose)
+{
+    double forward[3], way[3], depth;
+
+    vec3d_sub(pose->at, pose->eye, forward);
+    for (int i = 0; i < 3; i++)
+        way[i] =
+            scene->bounds_lo[i] / 2 + scene->bounds_hi[i] / 2 - pose->eye[i];
+    if (!vec3d_normalize(forward))
+        return;
+    depth = vec3d_dot(forward, way);
+    for (int i = 0; depth > 0 && isfinite(depth) && i < 3; i++)
+        pose->at[i] = pose->eye[i] + depth * forward[i];
+}
+
 bool scene_load(struct scene *scene, const char *path, enum scene_up up,
                 struct warnings *report, struct error *err)
 {
@@ -92,7 +122,11 @@ bool scene_load(struct scene *scene, const char *path, enum scene_up up,
         return false;
     if (up == SCENE_UP_Z || (up == SCENE_UP_OF_FILE && scene->up_is_z))
         turn_z_up(scene);
-    return scene_finish(scene, report, err);
+    if (!scene_finish(scene, report, err))
+        return false;
+    for (uint32_t i = 0; i < scene->camera_count; i++)
+        look_at_center(scene, &scene->cameras[i].pose);
+    return true;
 }
 
 /* ---- the view ---- */
@@ -291,6 +325,8 @@ bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
         !choose_camera(scene, options->camera, view, err) ||
         (options->view_lines != NULL &&
          !view_parse_over(view, options->view_lines, report, err)) ||
+        (view->lamps.count == 0 && !lamps_copy(&view->lamps, &scene->lamps) &&
+         !fail(err, "%s: out of memory for its lights", path)) ||
         !world_init(host, scene, options->thread_count, report, err) ||
         !world_load_sky(host, view, report, err) ||
         !world_set_lamps(host, scene, view, err))

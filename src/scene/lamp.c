@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/geometry.h"
 #include "base/memory.h"
 
 void lamp_init(struct lamp *lamp, enum lamp_kind kind)
@@ -13,6 +14,22 @@ void lamp_init(struct lamp *lamp, enum lamp_kind kind)
     for (int i = 0; i < 3; i++)
         lamp->rgb[i] = 1;
     lamp->outer_deg = 45;
+}
+
+void lamp_direction(const struct lamp *lamp, double to[3])
+{
+    double azimuth = angle_rad(lamp->azimuth_deg);
+    double elevation = angle_rad(lamp->elevation_deg);
+
+    to[0] = sin(azimuth) * cos(elevation);
+    to[1] = sin(elevation);
+    to[2] = -cos(azimuth) * cos(elevation);
+}
+
+void lamp_set_direction(struct lamp *lamp, const double to[3])
+{
+    lamp->azimuth_deg = angle_deg(atan2(to[0], -to[2]));
+    lamp->elevation_deg = angle_deg(atan2(to[1], hypot(to[0], to[2])));
 }
 
 bool lamps_add(struct lamps *lamps, const struct lamp *lamp)

@@ -48,6 +48,11 @@ struct lamps {
  * and a spot's angles of 0 and 45 degrees. */
 void lamp_init(struct lamp *lamp, enum lamp_kind kind);
 
+/* Computes the direction to a directional light, and sets it from one of any
+ * length. */
+void lamp_direction(const struct lamp *lamp, double to[3]);
+void lamp_set_direction(struct lamp *lamp, const double to[3]);
+
 /* Appends a lamp and shares its profile. */
 bool lamps_add(struct lamps *lamps, const struct lamp *lamp);
 

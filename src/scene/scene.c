@@ -340,6 +340,7 @@ void scene_free(struct scene *scene)
     free(scene->tris);
     free(scene->tri_faces);
     free(scene->tri_objects);
+    lamps_free(&scene->lamps);
     free_strings(scene->object_names, scene->object_count);
     for (uint32_t i = 0; i < scene->camera_count; i++)
         free(scene->cameras[i].name);

@@ -18,6 +18,7 @@
 #include "base/thread_pool.h"
 #include "base/warnings.h"
 #include "scene/instances.h"
+#include "scene/lamp.h"
 #include "scene/material.h"
 #include "scene/pose.h"
 #include "kernels/types.h"
@@ -79,6 +80,7 @@ struct scene {
 
     struct scene_camera *cameras; /* a view without a camera has the first */
     uint32_t camera_count;
+    struct lamps lamps; /* a view without lamps has these */
 
     struct material *materials; /* 0 is the default, named "" */
     char **material_names;
