@@ -36,6 +36,7 @@ search() # NAME
     case $name in
     obj | scene) seeds "$name" obj ;;
     mtl) seeds mtl mtl ;;
+    gltf) seeds gltf gltf glb ;;
     ply) seeds ply ply ;;
     stl) seeds stl stl STL ;;
     view) seeds view view ;;
