@@ -21,6 +21,7 @@
 #include "session/stats_json.h"
 #include "inspect/error_map.h"
 #include "inspect/view_modes.h"
+#include "batch_aov.h"
 #include "batch_filter.h"
 #include "batch_progress.h"
 
@@ -54,7 +55,9 @@ static bool check_outputs(const struct session *s, struct error *err)
         (!session_check_output(s, "--stats", o->stats_path, err) ||
          !stats_json_check(o->stats_path, err)))
         return false;
-    if (o->output_path && !session_check_output(s, "-o", o->output_path, err))
+    if (o->output_path &&
+        (!session_check_output(s, "-o", o->output_path, err) ||
+         !batch_aov_check(s, o->output_path, err)))
         return false;
     if (o->denoise_path && !batch_filter_check(s, err))
         return false;
@@ -273,9 +276,10 @@ static bool is_other_file(const char *option, const char *path,
 }
 
 /* Writes the files beside the picture. */
-static bool save_more(const struct session *s, const char *picture,
+static bool save_more(struct view_mode *show, const char *picture,
                       struct error *err)
 {
+    const struct session *s = show->session;
     const char *stats = s->options->stats_path;
     const char *map = s->options->error_map_path;
 
@@ -283,7 +287,9 @@ static bool save_more(const struct session *s, const char *picture,
                      error_map_write(render_film(s->render),
                                      session_develop(s).exposure, map, err))) &&
            (!stats || (is_other_file("--stats", stats, picture, err) &&
-                       stats_json_write(s, stats, err)));
+                       stats_json_write(s, stats, err))) &&
+           batch_aov_check(s, picture, err) &&
+           batch_aov_write(show, picture, err);
 }
 
 static void say_result(const struct session *s, const char *name,
@@ -310,7 +316,7 @@ static bool save_all(struct view_mode *show, struct error *err)
     ok = save_film(show, &name, err);
     if (ok)
         say_result(s, name, &p);
-    ok = ok && save_more(s, name, err);
+    ok = ok && save_more(show, name, err);
     free(name);
     return ok;
 }

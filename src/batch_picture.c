@@ -20,7 +20,7 @@ bool batch_picture_is_wanted(const struct options *o)
 {
     return o->batch && !frame_series_is_wanted(o) && o->show == SHOW_LIGHT &&
            o->text_cols == 0 && !o->stats_path && !o->error_map_path &&
-           !o->paths && !o->kernels_path && !o->film_path &&
+           o->aovs == 0 && !o->paths && !o->kernels_path && !o->film_path &&
            !o->checkpoint_path && !o->resume_path;
 }
 

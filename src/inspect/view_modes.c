@@ -98,11 +98,11 @@ bool view_mode_need_tree(struct view_mode *s, struct error *err)
     return true;
 }
 
-/* Starts the threads on first use. */
-static void need_pool(struct view_mode *s)
+struct pool *view_mode_pool(struct view_mode *s)
 {
     if (!s->pool)
         s->pool = world_pool(&s->session->world);
+    return s->pool;
 }
 
 /* Sets the legend, the line below the picture, if it has changed. */
@@ -258,7 +258,7 @@ static bool find_errors(struct view_mode *s, struct film *film)
     if (s->error_spp == p.spp_done && s->error_restart_ns == of->restart_ns)
         return s->error_spp > 0;
     s->error_spp = 0;
-    need_pool(s);
+    view_mode_pool(s);
     if (!p.film_error.is_known ||
         !need_numbers(s, (size_t)film->width * (size_t)film->height) ||
         !film_error_map(film, session_develop(of).exposure, s->pool,
@@ -304,7 +304,7 @@ static bool count_costs(struct view_mode *s, const struct frame *frame)
         s->cost_height == frame->height &&
         memcmp(&s->cost_camera, &w.settings.camera, sizeof s->cost_camera) == 0)
         return true;
-    need_pool(s);
+    view_mode_pool(s);
     free(s->costs);
     s->cost_width = 0;
     s->costs = alloc_array((size_t)frame->width * (size_t)frame->height,
@@ -401,7 +401,7 @@ static bool find_numbers(struct view_mode *s, const struct frame *frame,
 
     if (!view_mode_need_tree(s, err) || !find_world(s, &w, err))
         return false;
-    need_pool(s);
+    view_mode_pool(s);
     if (!need_numbers(s, 3 * (size_t)frame->width * (size_t)frame->height))
         return fail_memory(frame, err);
     w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);

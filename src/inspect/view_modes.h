@@ -75,6 +75,9 @@ bool view_mode_picture(struct view_mode *s, struct film *film,
 bool view_mode_need_tree(struct view_mode *s, struct error *err);
 bool view_mode_world(const struct view_mode *s, struct world *w);
 
+/* Returns the threads for pictures of the view, which start on first use. */
+struct pool *view_mode_pool(struct view_mode *s);
+
 /* Returns the camera scaled to the pixels of the frame. */
 struct camera view_mode_camera(const struct view_mode *s,
                                const struct camera *camera,

@@ -34,6 +34,18 @@ enum show_kind {
     SHOW_KINDS
 };
 
+/* Property of the first surfaces in a file of its own. */
+enum aov_kind {
+    AOV_ALBEDO,
+    AOV_NORMALS,
+    AOV_POSITION,
+    AOV_DEPTH,
+    AOV_UV,
+    AOV_OBJECT,
+    AOV_MATERIAL,
+    AOV_KINDS
+};
+
 enum backend_choice {
     BACKEND_CPU,
     BACKEND_OPENCL,
@@ -69,6 +81,7 @@ struct options {
     bool has_sky;                /* in view_lines */
     const char *camera;          /* number or name; NULL: that of the view */
     int turntable_count, fly_count; /* frames; 0: none */
+    uint32_t aovs;                  /* bits 1 << enum aov_kind */
     bool has_frames;
     int first_frame, last_frame;
     int tile_count;      /* compare: most tiles each way */
@@ -155,7 +168,9 @@ struct render_limits options_limits(const struct options *o);
 /* Returns the number of CPU threads. */
 int options_threads(const struct options *o);
 
-/* Names of enum show_kind in batch mode, ending with NULL. */
+/* Names of enum show_kind in batch mode, and of enum aov_kind, ending with
+ * NULL. */
 extern const char *const options_shows[];
+extern const char *const options_aovs[];
 
 #endif

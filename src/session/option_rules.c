@@ -112,6 +112,12 @@ static const struct option_rule batch[] = {
     {"error-map", OPTION_ERROR_MAP, "the name of a picture", "FILE",
      "write a .png, .hdr or .pfm picture of the error of each pixel: "
      "heat colours from black, 0.1 %, to white, 100 %"},
+    {"aov", OPTION_AOV,
+     "a list of albedo, normals, position, depth, uv, object and material",
+     "LIST",
+     "also write properties of the surfaces, to files such as "
+     "out.normals.pfm: a list of albedo, normals, position, depth, uv, object "
+     "and material, with commas"},
     {"show", OPTION_SHOW,
      "light, preview, normals, faces, uvs, depth, materials or cost", "KIND",
      "preview, normals, faces, uvs, depth, materials or cost instead of "

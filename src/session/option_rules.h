@@ -51,6 +51,7 @@ enum option_id {
     OPTION_FRAMES,
     OPTION_ANSI,
     OPTION_SHOW,
+    OPTION_AOV,
     OPTION_DENOISE,
     OPTION_STATS,
     OPTION_ERROR_MAP,

@@ -305,6 +305,29 @@ static bool set_seed(struct options *o, const struct option_given *g,
     return true;
 }
 
+/* Adds the words of a list with commas. */
+static bool set_aovs(struct options *o, const struct option_given *g,
+                     struct error *err)
+{
+    const char *p = g->value;
+
+    for (;;) {
+        size_t length = strcspn(p, ",");
+        int i = 0;
+
+        while (options_aovs[i] && (strlen(options_aovs[i]) != length ||
+                                   memcmp(options_aovs[i], p, length) != 0))
+            i++;
+        if (!options_aovs[i])
+            return fail(err, "%s: found '%.*s', expected %s", g->shown,
+                        length < 60 ? (int)length : 60, p, g->rule->value);
+        o->aovs |= 1u << i;
+        if (p[length] == '\0')
+            return true;
+        p += length + 1;
+    }
+}
+
 /* Sets an option whose value is one of several words. */
 static bool set_word(struct options *o, const struct option_given *g,
                      struct error *err)
@@ -393,6 +416,7 @@ bool option_set(struct options *o, const struct option_given *g,
         return whole_int(g, 1, FRAMES_MAX, &o->turntable_count, err);
     case OPTION_FLY: return whole_int(g, 2, FRAMES_MAX, &o->fly_count, err);
     case OPTION_FRAMES: return set_frames(o, g, err);
+    case OPTION_AOV: return set_aovs(o, g, err);
     case OPTION_ANSI: return set_text_size(o, g, err);
     case OPTION_DENOISE:
         o->denoise = true;
