@@ -38,6 +38,10 @@ struct glim *batch_handle_open(const struct options *o, struct error *err)
         .turbidity = o->turbidity,
         .up = (enum glim_up)o->up,
         .camera = o->camera,
+        .scene = o->choice.scene,
+        .animation = o->choice.animation,
+        .has_anim_time = o->choice.has_time,
+        .anim_time_s = o->choice.time_s,
         .view_lines = o->view_lines,
         .threads = options_threads(o),
     };

@@ -130,6 +130,14 @@ struct glim_open_options {
     /* number or name of the camera: a numbered view of the view file, or a
      * camera of the scene; NULL means the view's own */
     const char *camera;
+    /* scene and animation of a glTF file by number, from 1, or name; NULL means
+     * the file's default and the first one */
+    const char *scene;
+    const char *animation;
+    /* pose as the animation has it after anim_time_s seconds; without both, the
+     * file is at rest */
+    bool has_anim_time;
+    double anim_time_s;
     /* lines of a view file that go over its own: "exposure 1.5\nsky a.hdr". A
      * sky or background replaces the sun. Names of files are relative to the
      * current folder. NULL means none */

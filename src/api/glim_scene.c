@@ -87,6 +87,10 @@ static bool open_all(struct glim *g, const char *path,
 {
     struct scene_options how = {.up = (enum scene_up)o->up,
                                 .camera = o->camera,
+                                .choice = {.scene = o->scene,
+                                           .animation = o->animation,
+                                           .has_time = o->has_anim_time,
+                                           .time_s = o->anim_time_s},
                                 .view_lines = o->view_lines};
 
     g->cancel_fd = event_fd_open("glim", err);

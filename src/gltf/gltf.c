@@ -2,10 +2,33 @@
 #include "gltf/gltf.h"
 
 #include "formats/mesh_finish.h"
+#include "gltf/gltf_animation.h"
 #include "gltf/gltf_material.h"
 #include "gltf/gltf_mesh.h"
 #include "gltf/gltf_node.h"
 #include "gltf/gltf_view.h"
+
+/* Reads the nodes, poses them and lists those of the chosen scene. */
+static bool place_nodes(const struct gltf_document *document,
+                        const struct scene_choice *choice,
+                        struct gltf_nodes *nodes, struct error *err)
+{
+    uint32_t scene = NO_INDEX, animation = 0;
+    bool is_animated = choice->has_time || choice->animation != NULL;
+
+    if (choice->scene != NULL &&
+        !gltf_find(document, "scenes", "scene", choice->scene, &scene, err))
+        return false;
+    if (is_animated &&
+        !gltf_find(document, "animations", "animation",
+                   choice->animation != NULL ? choice->animation : "1",
+                   &animation, err))
+        return false;
+    return gltf_nodes_read(document, nodes, err) &&
+           (!is_animated || gltf_animation_pose(document, animation,
+                                                choice->time_s, nodes, err)) &&
+           gltf_nodes_place(document, scene, nodes, err);
+}
 
 bool gltf_parse(struct scene *scene, const char *bytes, size_t size_bytes,
                 const char *path, struct warnings *report, struct error *err)
@@ -18,8 +41,7 @@ bool gltf_parse(struct scene *scene, const char *bytes, size_t size_bytes,
         mesh_mtl_begin(scene, "", report, err) &&
         gltf_materials_read(&document, scene, report, err) &&
         mesh_mtl_read(scene, report, err) &&
-        gltf_nodes_read(&document, &nodes, err) &&
-        gltf_nodes_place(&document, NO_INDEX, &nodes, err) &&
+        place_nodes(&document, &scene->choice, &nodes, err) &&
         gltf_view_read(&document, &nodes, scene, report, err) &&
         gltf_meshes_add(&document, &nodes, scene, report, err);
 

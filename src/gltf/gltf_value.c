@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "base/memory.h"
 #include "kernels/types.h"
 
@@ -188,6 +189,31 @@ bool gltf_entry(const struct gltf_document *document, const char *collection,
     struct gltf_value v = collection_of(document, collection);
 
     return gltf_item_object(&v, index, to, err);
+}
+
+bool gltf_find(const struct gltf_document *document, const char *collection,
+               const char *what, const char *wanted, uint32_t *index,
+               struct error *err)
+{
+    struct gltf_value list = collection_of(document, collection);
+    size_t count = gltf_count(&list);
+    const char *p = wanted;
+    uint64_t number;
+
+    if (digits_parse(&p, 10, UINT32_MAX, &number) && *p == '\0' &&
+        number >= 1 && number <= count) {
+        *index = (uint32_t)number - 1;
+        return true;
+    }
+    for (*index = 0; *index < count; ++*index) {
+        const char *name = json_string_value(
+            json_object_get(json_array_get(list.json, *index), "name"));
+
+        if (name != NULL && strcmp(name, wanted) == 0)
+            return true;
+    }
+    return fail(err, "%s: found no %s '%.80s', expected a name or 1 to %zu",
+                document->path, what, wanted, count);
 }
 
 size_t gltf_count(const struct gltf_value *array)

@@ -62,6 +62,12 @@ bool gltf_entry(const struct gltf_document *document, const char *collection,
 size_t gltf_entry_count(const struct gltf_document *document,
                         const char *collection);
 
+/* Finds an entry by its number, from 1, or its name. `what` is the word for it
+ * in messages. */
+bool gltf_find(const struct gltf_document *document, const char *collection,
+               const char *what, const char *wanted, uint32_t *index,
+               struct error *err);
+
 /* Returns the number of items; 0 if the array is absent. */
 size_t gltf_count(const struct gltf_value *array);
 

@@ -12,13 +12,13 @@
 
 /* The first row is that of files that no row recognises. */
 static const struct scene_format formats[] = {
-    {"Wavefront OBJ", "obj", "y up, with MTL files and images", NULL,
-     obj_parse},
+    {"Wavefront OBJ", "obj", "y up, with MTL files and images", NULL, obj_parse,
+     false},
     {"PLY", "ply", "y up, z from Blender; ascii and binary", ply_matches,
-     ply_parse},
+     ply_parse, false},
     {"glTF", "gltf glb", "y up; version 2.0, with buffers and images",
-     gltf_matches, gltf_parse},
-    {"STL", "stl", "z up; ascii and binary", stl_matches, stl_parse},
+     gltf_matches, gltf_parse, true},
+    {"STL", "stl", "z up; ascii and binary", stl_matches, stl_parse, false},
 };
 
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };

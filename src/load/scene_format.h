@@ -30,6 +30,7 @@ struct scene_format {
      * that only the name tells. */
     bool (*matches)(const char *bytes, size_t size_bytes);
     scene_parse *parse;
+    bool has_choices; /* it reads what scene->choice says */
 };
 
 /* Returns the format of this number, from 0, or NULL after the last. */

@@ -86,14 +86,21 @@ static void turn_z_up(struct scene *scene)
 static bool read_file(struct scene *scene, const char *path,
                       struct warnings *report, struct error *err)
 {
+    const struct scene_choice *c = &scene->choice;
+    const struct scene_format *f;
     char *bytes;
     size_t size_bytes;
     bool ok;
 
     if (!text_file_read(path, &bytes, &size_bytes, err))
         return false;
-    ok = scene_format_of(path, bytes, size_bytes)
-             ->parse(scene, bytes, size_bytes, path, report, err);
+    f = scene_format_of(path, bytes, size_bytes);
+    if (!f->has_choices && (c->scene || c->animation || c->has_time))
+        warnings_add(report, "choices without effect",
+                     "%s: found no scenes or animations, which %s does not "
+                     "have: the options for them have no effect",
+                     path, f->name);
+    ok = f->parse(scene, bytes, size_bytes, path, report, err);
     free(bytes);
     return ok;
 }
@@ -321,6 +328,7 @@ bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
                 struct warnings *report, struct error *err)
 {
     scene->thread_count = options->thread_count;
+    scene->choice = options->choice;
     if (!scene_load(scene, path, options->up, report, err) ||
         !choose_camera(scene, options->camera, view, err) ||
         (options->view_lines != NULL &&

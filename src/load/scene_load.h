@@ -20,6 +20,7 @@ struct scene_options {
     /* number or name of the camera; NULL: that of the view, or the first one of
      * the scene */
     const char *camera;
+    struct scene_choice choice;
     const char *view_lines; /* for view_parse_over(); NULL: none */
 };
 

@@ -36,6 +36,15 @@ struct material_origin {
     uint32_t file; /* index into mtl_paths; NO_INDEX for the default */
 };
 
+/* What is read of a file that holds several scenes or poses. Entries are named
+ * by their number, from 1, or by their name; NULL: the file's default. */
+struct scene_choice {
+    const char *scene;
+    const char *animation; /* NULL: the first one */
+    bool has_time;         /* else the pose is that at rest */
+    double time_s;         /* of the animation */
+};
+
 /* Camera of the scene file, in file units. */
 struct scene_camera {
     char *name; /* "" if it has none */
@@ -53,6 +62,7 @@ struct scene {
     char *path; /* path of the scene file */
 
     int thread_count; /* of the threads that may load it; 0 means one */
+    struct scene_choice choice; /* the caller's, set before reading */
     bool up_is_z; /* axis of the file, as its format and its writer have it */
 
     /* only while loading; freed by scene_finish() */

@@ -80,6 +80,7 @@ struct options {
     char *view_lines;            /* over those of the view file; NULL: none */
     bool has_sky;                /* in view_lines */
     const char *camera;          /* number or name; NULL: that of the view */
+    struct scene_choice choice;  /* of the scene file */
     int turntable_count, fly_count; /* frames; 0: none */
     uint32_t aovs;                  /* bits 1 << enum aov_kind */
     bool has_frames;

@@ -81,8 +81,11 @@ static bool apply_edit(struct session *s, const struct view *view,
 static bool open_scene(struct session *s, struct view *view, struct error *err)
 {
     const struct options *o = s->options;
-    struct scene_options how = {o->up, options_threads(o), o->camera,
-                                o->view_lines};
+    struct scene_options how = {.up = o->up,
+                                .thread_count = options_threads(o),
+                                .camera = o->camera,
+                                .choice = o->choice,
+                                .view_lines = o->view_lines};
     struct view file;
 
     if (!view_find(view, o->scene_path, o->view_path, &s->view_path, &s->report,

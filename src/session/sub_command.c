@@ -90,6 +90,9 @@ bool sub_command_takes(enum sub_command command, enum option_id id)
     case OPTION_UP:
     case OPTION_FOV:
     case OPTION_CAMERA:
+    case OPTION_SCENE_PART:
+    case OPTION_ANIMATION:
+    case OPTION_ANIM_TIME:
     case OPTION_SKY:
     case OPTION_SKY_STRENGTH:
     case OPTION_SKY_ROTATION:

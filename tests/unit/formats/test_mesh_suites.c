@@ -85,7 +85,7 @@ static void check_file(const struct expectation *e)
     struct host_world world = {.tris = NULL};
     struct warnings report = {0};
     /* boxes are in the file's own axes */
-    const struct scene_options how = {SCENE_UP_Y, 1, NULL, NULL};
+    const struct scene_options how = {.up = SCENE_UP_Y, .thread_count = 1};
     struct view view;
     struct error err = {""};
     bool ok;
