@@ -51,7 +51,9 @@ ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno \
 	-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer)
 ALL_LDFLAGS = -pthread -pie -Wl,-z,relro,-z,now $(LDFLAGS) \
 	$(if $(SAN),-fsanitize=$(SAN))
-LIB_LIBS = -ljansson -lmeshoptimizer -lz -lm -ldl
+# WebP images are read if libwebp is there.
+WEBP := $(shell pkg-config --exists libwebp 2>/dev/null && echo 1)
+LIB_LIBS = -ljansson -lmeshoptimizer $(if $(WEBP),-lwebp) -lz -lm -ldl
 LIBS = -lncursesw -ltinfo $(LIB_LIBS)
 FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
@@ -85,7 +87,8 @@ FILTERS := $(ISAS:%=$(B)/filter_loops_%.o)
 # With MPI=1 the program has src/cluster/; otherwise cluster_none.c replaces it.
 MPI_SOURCES := $(addprefix src/cluster/,cluster.c cluster_backend.c \
 	cluster_pass.c cluster_worker.c wire.c)
-SOURCES := $(filter-out $(MPI_SOURCES),$(wildcard src/*.c src/*/*.c))
+WEBP_OTHER := src/picture/$(if $(WEBP),image_webp_none.c,image_webp.c)
+SOURCES := $(filter-out $(MPI_SOURCES) $(WEBP_OTHER),$(wildcard src/*.c src/*/*.c))
 OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(SOURCES)) $(B)/kernels.o \
 	$(PATHS) $(FILTERS)
 PROGRAM := $(B)/$(if $(MPI),mpi/)glim
@@ -94,8 +97,9 @@ MPI_PROGRAM := $(if $(SAN),,$(if $(shell command -v mpicc),$(B)/mpi/glim))
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 # libglim: the folders up to src/api/ in the table of CONTRIBUTING.md.
 LIB_FOLDERS := base picture filter bvh light scene formats gltf load render opencl api
-LIB_OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(foreach d,$(LIB_FOLDERS), \
-	$(wildcard src/$(d)/*.c))) $(B)/kernels.o $(PATHS) $(FILTERS)
+LIB_OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(filter-out $(WEBP_OTHER), \
+	$(foreach d,$(LIB_FOLDERS),$(wildcard src/$(d)/*.c)))) $(B)/kernels.o \
+	$(PATHS) $(FILTERS)
 VERSION := $(shell sed -n 's/.*GLIM_VERSION *"\(.*\)"/\1/p' include/glim/version.h)
 SONAME := libglim.so.$(firstword $(subst ., ,$(VERSION)))
 LIB_FILES := $(B)/libglim.a $(B)/libglim.so.$(VERSION) $(B)/glim.pc

@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.." || exit 1
 
 # C files without a header of their own name: the program's entry, the bodies of
 # stb's headers, and what backend.h and glim.h declare.
-HEADERLESS='main stb backend_cpu cluster_none cluster_backend cluster_worker glim_scene glim_render glim_picture glim_film'
+HEADERLESS='main stb backend_cpu cluster_none image_webp_none cluster_backend cluster_worker glim_scene glim_render glim_picture glim_film'
 
 # Files that may use the C library's output, because they write files. Output
 # for people goes through print.c.
@@ -75,6 +75,8 @@ function check_include(name, is_system,    kernel, other)
             fault("only text_file.c includes <" name ">")
         if (name == "jansson.h" && folder != "src/gltf")
             fault("only src/gltf/ includes <" name ">")
+        if (name ~ /^webp\// && path != "src/picture/image_webp.c")
+            fault("only image_webp.c includes <" name ">")
         if (name == "meshoptimizer.h" && path != "src/gltf/gltf_meshopt.c")
             fault("only gltf_meshopt.c includes <" name ">")
         if (name ~ /^CL\// && folder != "src/opencl")

@@ -260,11 +260,27 @@ static bool choose_camera(const struct scene *scene, const char *wanted,
 
 /* ---- the scene with its view ---- */
 
-static bool is_dark(const struct host_world *host, const struct view *view)
+/* Radiance up to which surfaces of models glow, but are no lamps: that of
+ * emissiveFactor in glTF, whose displays and eyes light no room. */
+#define GLOW_MAX 1.0f
+
+static bool has_lamp_surfaces(const struct host_world *host, bool is_model)
+{
+    if (!is_model)
+        return world_has_emitters(host);
+    for (uint32_t i = 0; i < host->material_count; i++)
+        if (host->material_is_used[i] &&
+            v3_max_component(host->materials[i].emission) > GLOW_MAX)
+            return true;
+    return false;
+}
+
+static bool is_dark(const struct scene *scene, const struct host_world *host,
+                    const struct view *view)
 {
     const double *b = view->lighting.background;
 
-    return !world_has_emitters(host) && !host->sky_texels &&
+    return !has_lamp_surfaces(host, scene->has_own_mtl) && !host->sky_texels &&
            host->point_light_count + host->directional_light_count == 0 &&
            b[0] <= 0.0 && b[1] <= 0.0 && b[2] <= 0.0;
 }
@@ -303,7 +319,7 @@ static bool complete_view(const struct scene *scene, struct host_world *host,
 {
     bool is_model = scene->has_own_mtl;
 
-    if (scene->tri_count > 0 && is_dark(host, view) &&
+    if (scene->tri_count > 0 && is_dark(scene, host, view) &&
         !view->lighting.has_background) {
         if (is_model && !add_studio(scene, host, view, err))
             return false;

@@ -8,6 +8,7 @@
 #include "picture/image_gif.h"
 #include "picture/image_pnm.h"
 #include "picture/image_psd.h"
+#include "picture/image_webp.h"
 #include "picture/stb.h"
 
 /* Memory of a decoder for tables and rounding, without its pixels. */
@@ -281,14 +282,15 @@ bool image_header(struct image_file *f, struct error *err)
     if (b.size > INT_MAX)
         return fail(err, "%s: found %.1f GiB, expected 2 GiB at most", f->path,
                     (double)b.size / (1 << 30));
-    f->kind = is_png(b)         ? IMAGE_PNG
-              : image_pnm_is(f) ? IMAGE_PNM
-              : image_gif_is(f) ? IMAGE_GIF
-              : image_psd_is(f) ? IMAGE_PSD
-              : is_bmp(b)       ? IMAGE_BMP
-              : is_jpeg(b)      ? IMAGE_JPEG
-              : is_tga(b)       ? IMAGE_TGA
-                                : IMAGE_UNKNOWN;
+    f->kind = is_png(b)          ? IMAGE_PNG
+              : image_pnm_is(f)  ? IMAGE_PNM
+              : image_gif_is(f)  ? IMAGE_GIF
+              : image_psd_is(f)  ? IMAGE_PSD
+              : image_webp_is(f) ? IMAGE_WEBP
+              : is_bmp(b)        ? IMAGE_BMP
+              : is_jpeg(b)       ? IMAGE_JPEG
+              : is_tga(b)        ? IMAGE_TGA
+                                 : IMAGE_UNKNOWN;
     switch (f->kind) {
     case IMAGE_PNG: return png_header(f, err);
     case IMAGE_JPEG: return jpeg_header(f, err);
@@ -297,6 +299,7 @@ bool image_header(struct image_file *f, struct error *err)
     case IMAGE_PNM: return image_pnm_header(f, err) && own_decoder(f);
     case IMAGE_GIF: return image_gif_header(f, err) && own_decoder(f);
     case IMAGE_PSD: return image_psd_header(f, err) && own_decoder(f);
+    case IMAGE_WEBP: return image_webp_header(f, err);
     default: break;
     }
     return fail(err,

@@ -14,6 +14,7 @@
 #include "picture/image_header.h"
 #include "picture/image_pnm.h"
 #include "picture/image_psd.h"
+#include "picture/image_webp.h"
 #include "picture/stb.h"
 
 #include "kernels/tone.h"
@@ -40,7 +41,8 @@ static bool is_float(const struct image_file *f)
 /* True for the kinds of 8 bits a channel that stb_image does not decode. */
 static bool is_own(const struct image_file *f)
 {
-    return f->kind == IMAGE_PNM || f->kind == IMAGE_GIF || f->kind == IMAGE_PSD;
+    return f->kind == IMAGE_PNM || f->kind == IMAGE_GIF ||
+           f->kind == IMAGE_PSD || f->kind == IMAGE_WEBP;
 }
 
 /* ---- opening ---- */
@@ -178,6 +180,7 @@ static uint8_t *decode_own(const struct image_file *f, struct error *err)
 {
     switch (f->kind) {
     case IMAGE_GIF: return image_gif_decode(f, err);
+    case IMAGE_WEBP: return image_webp_decode(f, err);
     case IMAGE_PSD: return image_psd_decode(f, err);
     default: return image_pnm_decode(f, err);
     }

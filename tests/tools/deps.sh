@@ -89,6 +89,7 @@ look()
             need_header CL/cl.h opencl-c-headers
             need_header jansson.h libjansson-dev
             need_header meshoptimizer.h libmeshoptimizer-dev
+            need_header webp/decode.h libwebp-dev
             ;;
         test)
             need_header cmocka.h libcmocka-dev

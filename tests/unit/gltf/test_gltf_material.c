@@ -367,6 +367,44 @@ static void images_are_listed_once(void **state)
     unload(&l);
 }
 
+/* Closed forms of the specification, without shared files. */
+static void factors_become_values(void **state)
+{
+    const struct material *m;
+    struct loaded l;
+
+    (void)state;
+    load_text(&l,
+              "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.1,0.2,0.3,"
+              "0.4],\"metallicFactor\":0},\"emissiveFactor\":[0.5,0,0],"
+              "\"extensions\":{\"KHR_materials_emissive_strength\":{"
+              "\"emissiveStrength\":6},\"KHR_materials_ior\":{\"ior\":2},"
+              "\"KHR_materials_transmission\":{\"transmissionFactor\":0.5}}},"
+              "{\"extensions\":{\"KHR_materials_unlit\":{}},\"alphaMode\":"
+              "\"BLEND\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.1,"
+              "0.2,0.3,0.4],\"baseColorTexture\":{\"index\":0}}},"
+              "{\"alphaMode\":\"MASK\",\"alphaCutoff\":0}");
+    assert_true(l.ok);
+    m = &l.scene.materials[1];
+    check_close((double)m->color.z, 0.3, 1e-6);
+    check_close((double)m->opacity, 1, 0);
+    check_close((double)m->emission.x, 3, 1e-6);
+    check_close((double)m->specular.x, 1. / 9, 1e-6);
+    check_close((double)m->transmission, 0.5, 1e-6);
+    assert_int_equal(m->is_thin, 1);
+    m = &l.scene.materials[2];
+    check_close((double)m->emission.y, 0.2, 1e-6);
+    check_close((double)m->color.y, 0, 0);
+    check_close((double)m->opacity, 0.4, 1e-6);
+    assert_int_equal(texture_of(&l, m->opacity_texture)->channel,
+                     CHANNEL_ALPHA);
+    assert_int_equal(texture_of(&l, m->emission_texture)->is_data, 0);
+    m = &l.scene.materials[3];
+    assert_int_equal(m->kind, MATERIAL_METAL);
+    check_close((double)m->cutoff, 0, 0);
+    unload(&l);
+}
+
 static void wrong_values_have_messages(void **state)
 {
     static const struct {
@@ -404,6 +442,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(transforms_are_those_of_the_extension),
         cmocka_unit_test(images_are_listed_once),
+        cmocka_unit_test(factors_become_values),
         cmocka_unit_test(wrong_values_have_messages),
     };
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "picture/image_webp.h"
+
+bool image_webp_is(const struct image_file *f)
+{
+    (void)f;
+    return false;
+}
+
+bool image_webp_header(struct image_file *f, struct error *err)
+{
+    return fail(err, "%s: found WebP, which this build does not read", f->path);
+}
+
+uint8_t *image_webp_decode(const struct image_file *f, struct error *err)
+{
+    fail(err, "%s: found WebP, which this build does not read", f->path);
+    return NULL;
+}
