@@ -404,14 +404,14 @@ static bool is_incomplete(const struct session *s)
            render_progress(s->render).state != RENDER_DONE;
 }
 
-/* Renders one frame. *is_written is false if a signal came before its end. */
+/* Renders one frame, and sets *is_written unless a signal came before its
+ * end. */
 static bool run_frame(struct view_mode *show, struct session_film *f,
                       const struct frame_series *series, int wake_fd,
                       bool *is_written, struct error *err)
 {
     struct session *s = show->session;
 
-    *is_written = false;
     if (!check_outputs(s, err))
         return false;
     if (s->options->show != SHOW_LIGHT)
@@ -429,8 +429,10 @@ static bool run_frames(struct view_mode *show, struct session_film *f,
     bool ok = frame_series_begin(&series, show->session, err), is_written;
     int done = 0;
 
-    while (ok && batch_stop_signal() == 0 && frame_series_next(&series)) {
-        ok = run_frame(show, f, &series, wake_fd, &is_written, err);
+    while (ok && batch_stop_signal() == 0 && frame_series_has_next(&series)) {
+        is_written = false;
+        ok = frame_series_next(&series, err) &&
+             run_frame(show, f, &series, wake_fd, &is_written, err);
         done += is_written;
     }
     if (ok)

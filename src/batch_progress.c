@@ -271,7 +271,7 @@ void batch_say_frames(int done, int count, uint64_t begin_ns)
         print_line(stderr, "stopped by %s after %d of %d pictures",
                    signal_name(stop_signal), done, count);
     else
-        print_line(stderr, "%d pictures, %.1f s", done,
+        print_line(stderr, "%d picture%s, %.1f s", done, done == 1 ? "" : "s",
                    seconds_between(begin_ns, clock_ns()));
 }
 

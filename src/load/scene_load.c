@@ -95,6 +95,7 @@ static bool read_file(struct scene *scene, const char *path,
     if (!text_file_read(path, &bytes, &size_bytes, err))
         return false;
     f = scene_format_of(path, bytes, size_bytes);
+    scene->has_choices = f->has_choices;
     if (!f->has_choices && (c->scene || c->animation || c->has_time))
         warnings_add(report, "choices without effect",
                      "%s: found no scenes or animations, which %s does not "

@@ -63,6 +63,7 @@ struct scene {
 
     int thread_count; /* of the threads that may load it; 0 means one */
     struct scene_choice choice; /* the caller's, set before reading */
+    bool has_choices;           /* its format has scenes and animations */
     bool up_is_z; /* axis of the file, as its format and its writer have it */
 
     /* only while loading; freed by scene_finish() */

@@ -174,6 +174,7 @@ void options_init(struct options *o)
 {
     *o = (struct options){.spp = 16,
                           .checkpoint_ns = 60000000000u,
+                          .fps = 24,
                           .max_bounces = -1,
                           .seed_count = 8,
                           .tile_count = 16,

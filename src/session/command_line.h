@@ -85,6 +85,7 @@ struct options {
     uint32_t aovs;                  /* bits 1 << enum aov_kind */
     bool has_frames;
     int first_frame, last_frame;
+    double fps;          /* frames of a second of animation */
     int tile_count;      /* compare: most tiles each way */
     double false_alarms; /* compare: probability of any */
     const char *scene_path;

@@ -71,7 +71,7 @@ static void number_names(struct frame_series *f)
 
 bool frame_series_is_wanted(const struct options *o)
 {
-    return o->turntable_count > 0 || o->fly_count > 0;
+    return o->turntable_count > 0 || o->fly_count > 0 || o->has_frames;
 }
 
 static bool find_keys(struct frame_series *f, struct error *err)
@@ -114,7 +114,28 @@ bool frame_series_begin(struct frame_series *f, struct session *s,
     }
     f->present = f->first - 1;
     f->default_path = default_path(o->scene_path);
-    return o->fly_count == 0 || find_keys(f, err);
+    if (o->fly_count > 0)
+        return find_keys(f, err);
+    return o->turntable_count > 0 || s->scene.has_choices ||
+           fail(err,
+                "--frames: found no animation in %s, expected a glTF file, "
+                "--turntable or --fly",
+                o->scene_path);
+}
+
+/* Loads the scene as it is at the time of the frame. */
+static bool load(struct frame_series *f, struct error *err)
+{
+    struct session *s = f->session, fresh;
+    bool ok;
+
+    f->options.choice.has_time = true;
+    f->options.choice.time_s = f->present / f->given->fps;
+    ok = session_load(&fresh, &f->options, f->frame_begin_ns, err);
+    if (ok)
+        session_take_loaded(s, &fresh);
+    session_close(&fresh);
+    return ok;
 }
 
 static struct pose pose_of(const struct frame_series *f)
@@ -130,17 +151,22 @@ static struct pose pose_of(const struct frame_series *f)
     return pose;
 }
 
-bool frame_series_next(struct frame_series *f)
+bool frame_series_has_next(const struct frame_series *f)
+{
+    return f->present < f->last;
+}
+
+bool frame_series_next(struct frame_series *f, struct error *err)
 {
     struct pose pose;
 
-    if (f->present == f->last)
-        return false;
     f->present++;
     f->frame_begin_ns = clock_ns();
     f->session->start_ns = f->frame_begin_ns;
     number_names(f);
     f->session->options = &f->options;
+    if (f->given->turntable_count == 0 && f->given->fly_count == 0)
+        return load(f, err);
     pose = pose_of(f);
     edit_pose(&f->session->edit, &pose);
     return true;

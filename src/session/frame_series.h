@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 /*
- * frame_series.h - the pictures of a moving camera: their poses, the names of
- * their files, and the progress of all of them
+ * frame_series.h - the pictures of a moving camera or an animated scene: their
+ * poses, the names of their files, and the progress of all of them
  *
  * Frames are numbered from 0. Frame k of a turntable of N is turned by
  * k * 360 / N degrees; those of a flight have equal steps along the numbered
- * views.
+ * views. Without either, the scene is loaded again for each frame, as its
+ * animation poses it at k / fps seconds.
  *
  * Ownership: frame_series_end() frees; session and options are the caller's
  * Threads:   main only
- * Errors:    too few numbered views; frames that do not exist
+ * Errors:    too few numbered views; scenes without an animation
  */
 #ifndef GLIM_FRAME_SERIES_H
 #define GLIM_FRAME_SERIES_H
@@ -38,9 +39,12 @@ bool frame_series_is_wanted(const struct options *o);
 bool frame_series_begin(struct frame_series *f, struct session *s,
                         struct error *err);
 
-/* Gives the session the camera of the next frame, and options with numbers in
- * the names of the files. Returns false after the last frame. */
-bool frame_series_next(struct frame_series *f);
+/* Returns true before the last frame. */
+bool frame_series_has_next(const struct frame_series *f);
+
+/* Gives the session the camera or the scene of the next frame, and options with
+ * numbers in the names of the files. */
+bool frame_series_next(struct frame_series *f, struct error *err);
 
 /* Returns the number of frames, and of those before the present one. */
 int frame_series_count(const struct frame_series *f);

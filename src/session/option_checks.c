@@ -198,17 +198,21 @@ static bool check_aovs(const struct options *o, struct error *err)
  * of them. */
 static bool check_frames(const struct options *o, struct error *err)
 {
-    const char *name = o->fly_count > 0 ? "--fly" : "--turntable";
+    const char *name = o->fly_count > 0         ? "--fly"
+                       : o->turntable_count > 0 ? "--turntable"
+                                                : "--frames";
     int count = o->fly_count > 0 ? o->fly_count : o->turntable_count;
 
-    if (count == 0)
-        return !o->has_frames ||
-               fail(err, "--frames: found no --turntable or --fly");
+    if (count == 0 && !o->has_frames)
+        return true;
     if (!o->batch)
         return fail(err, "%s: found no -b, expected batch mode", name);
     if (o->turntable_count > 0 && o->fly_count > 0)
         return fail(err, "--fly: found --turntable, expected one of the two");
-    if (o->has_frames && o->last_frame >= count)
+    if (count == 0 && o->choice.has_time)
+        return fail(err, "--frames: found --anim-time, expected --fps, which "
+                         "gives each frame its time");
+    if (count > 0 && o->has_frames && o->last_frame >= count)
         return fail(err, "--frames: found %d:%d, expected frames from 0 to %d",
                     o->first_frame, o->last_frame, count - 1);
     if (o->film_path || o->checkpoint_path || o->resume_path)

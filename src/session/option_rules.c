@@ -107,7 +107,10 @@ static const struct option_rule batch[] = {
     {"fly", OPTION_FLY, "a number of frames", "N",
      "render N pictures along a smooth path through the numbered views"},
     {"frames", OPTION_FRAMES, "A:B", "A:B",
-     "only frames A to B, from 0 on, of these"},
+     "only frames A to B, from 0 on, of these; alone, frames of the animation "
+     "of a glTF file"},
+    {"fps", OPTION_FPS, "a number", "N",
+     "frames of a second of animation, 1 to 1000 (default: 24)"},
     {"denoise", OPTION_DENOISE, "the name of a picture", "[=FILE]",
      "filter the noise out of the picture; with a file write the "
      "filtered picture to this .png, .hdr or .pfm file and the "

@@ -52,6 +52,7 @@ enum option_id {
     OPTION_TURNTABLE,
     OPTION_FLY,
     OPTION_FRAMES,
+    OPTION_FPS,
     OPTION_ANSI,
     OPTION_SHOW,
     OPTION_AOV,

@@ -416,6 +416,7 @@ bool option_set(struct options *o, const struct option_given *g,
         return whole_int(g, 1, FRAMES_MAX, &o->turntable_count, err);
     case OPTION_FLY: return whole_int(g, 2, FRAMES_MAX, &o->fly_count, err);
     case OPTION_FRAMES: return set_frames(o, g, err);
+    case OPTION_FPS: return set_decimal(g, 1, 1000, &o->fps, err);
     case OPTION_AOV: return set_aovs(o, g, err);
     case OPTION_ANSI: return set_text_size(o, g, err);
     case OPTION_DENOISE:
