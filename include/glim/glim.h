@@ -146,11 +146,11 @@ struct glim_open_options {
                     images */
 };
 
-/* Opens the scene of an OBJ, PLY or STL file, which gzip may have packed ("-":
- * standard input), with its materials and images, and its view file with
+/* Opens the scene of an OBJ, glTF, PLY or STL file, which gzip may have packed
+ * ("-": standard input), with its materials and images, and its view file with
  * camera, size and sky. A scene without a camera is framed as a whole; a scene
- * without light gets a soft sky, a PLY or STL model also a lamp. `options` may
- * be NULL. Returns NULL on errors. */
+ * without light gets a soft sky, a glTF, PLY or STL model also a lamp.
+ * `options` may be NULL. Returns NULL on errors. */
 GLIM_API struct glim *glim_open(const char *path,
                                 const struct glim_open_options *options,
                                 struct glim_error *err);

@@ -63,13 +63,12 @@ void option_help_print(FILE *to)
     print_line(to, "       glim -b [options] [-o picture.png] scene.obj");
     for (int i = 0; (command = sub_command_rule(i)) != NULL; i++)
         print_line(to, "       glim%s %s", command->name, command->operands);
-    print_lines(to,
-                "\n"
-                "Path traces an OBJ, PLY or STL scene, live in the terminal "
-                "or, with -b, to a\n"
-                "file. On the screen, ? shows the keys and q quits.\n"
-                "\n"
-                "commands\n");
+    print_lines(to, "\n"
+                    "Path traces an OBJ, glTF, PLY or STL scene, live in the "
+                    "terminal or, with -b, to\n"
+                    "a file. On the screen, ? shows the keys and q quits.\n"
+                    "\n"
+                    "commands\n");
     for (int i = 0; (command = sub_command_rule(i)) != NULL; i++)
         print_row(to, command->name + 1, command->help);
     for (const struct option_section *s = option_sections; s->title; s++) {
