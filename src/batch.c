@@ -13,8 +13,6 @@
 #include "base/print.h"
 #include "picture/image_write.h"
 #include "api/handle.h"
-#include "terminal/ansi_text.h"
-#include "terminal/tty.h"
 #include "terminal/xmalloc.h"
 #include "session/frame_series.h"
 #include "session/session_film.h"
@@ -24,18 +22,11 @@
 #include "batch_aov.h"
 #include "batch_filter.h"
 #include "batch_progress.h"
+#include "batch_text.h"
 
 static bool is_standard_output(const char *path)
 {
     return strcmp(path, "-") == 0;
-}
-
-/* Returns the file for the text; NULL for standard output. */
-static const char *text_path(const struct options *o)
-{
-    const char *path = o->output_path;
-
-    return path && !is_standard_output(path) ? path : NULL;
 }
 
 static bool check_film(const struct session *s, const char *option,
@@ -69,8 +60,8 @@ static bool check_outputs(const struct session *s, struct error *err)
         !check_film(s, "--checkpoint", o->checkpoint_path, err))
         return false;
     if (o->text_cols > 0)
-        return !text_path(o) || file_check(text_path(o), err);
-    return batch_check_picture(o->output_path, err);
+        return !batch_text_path(o) || file_check(batch_text_path(o), err);
+    return s->video.process != 0 || batch_check_picture(o->output_path, err);
 }
 
 /* Says that a checkpoint failed: once, since a full disk stays full. */
@@ -131,55 +122,6 @@ static void wait_for_end(struct session *s, struct session_film *f,
     session_progress(s);
 }
 
-/* Returns the glyphs of the text. The terminal is not asked, since the text may
- * be read on another one; it is assumed to show Unicode. Without colours the
- * locale decides between braille and ASCII. */
-static enum glyphs text_glyphs(const struct options *o, enum palette palette)
-{
-    bool may_learn;
-    bool has_unicode = palette != PALETTE_MONO || tty_is_utf8(&may_learn);
-
-    return term_caps_glyphs(o->display.glyph, palette, has_unicode);
-}
-
-static enum palette text_palette(const struct options *o)
-{
-    const char *no_color = getenv("NO_COLOR");
-
-    if (o->display.color == COLOR_AUTO && no_color && no_color[0] != '\0')
-        return PALETTE_MONO;
-    return term_caps_palette(o->display.color);
-}
-
-static bool save_text(struct view_mode *show, struct film *film, char **name,
-                      struct error *err)
-{
-    const struct session *s = show->session;
-    const struct options *o = s->options;
-    struct cells_rect fit =
-        cells_fit(s->crop.width, s->crop.height, o->text_cols, o->text_rows,
-                  o->display.cell_aspect > 0 ? o->display.cell_aspect : 2);
-    enum palette palette = text_palette(o);
-    struct ansi_text_style style = {fit.cols, fit.rows, palette,
-                                    text_glyphs(o, palette)};
-    const char *path = text_path(o);
-    struct frame frame = {0};
-    size_t size_bytes;
-    char *text;
-    bool ok = ansi_text_frame_init(&frame, &style, err) &&
-              view_mode_picture(show, film, &frame, err) &&
-              ansi_text_of_frame(&frame, &style, &text, &size_bytes, err);
-
-    frame_free(&frame);
-    if (!ok)
-        return false;
-    *name = xstrdup(path ? path : "standard output");
-    ok = path ? file_write(path, text, size_bytes, false, NULL, err)
-              : file_write_stdout(text, size_bytes, err);
-    free(text);
-    return ok;
-}
-
 /* Writes to the file that the options name. */
 static bool write_picture(struct session *s, struct film *film,
                           const struct frame *frame, struct error *err)
@@ -207,6 +149,23 @@ static char *write_numbered(struct session *s, struct film *film,
     return name;
 }
 
+/* Adds the frame, or the film if frame is NULL, to the video. */
+static bool write_to_video(struct session *s, struct film *film,
+                           const struct frame *frame, struct error *err)
+{
+    struct frame developed = {0};
+    bool ok;
+
+    if (frame)
+        return video_pipe_write(&s->video, frame, err);
+    ok = frame_init(&developed, film->width, film->height, err);
+    if (ok)
+        film_resolve(film, session_develop(s), &developed);
+    ok = ok && video_pipe_write(&s->video, &developed, err);
+    frame_free(&developed);
+    return ok;
+}
+
 /* Saves the frame, or the film if frame is NULL. *name is the file's name, for
  * free(). */
 static bool save_pixels(struct session *s, struct film *film,
@@ -215,6 +174,10 @@ static bool save_pixels(struct session *s, struct film *film,
 {
     const char *path = s->options->output_path;
 
+    if (s->video.process != 0) {
+        *name = xstrdup(path);
+        return write_to_video(s, film, frame, err);
+    }
     if (path) {
         *name = xstrdup(is_standard_output(path) ? "standard output" : path);
         return write_picture(s, film, frame, err);
@@ -240,7 +203,7 @@ static bool save_picture(struct view_mode *show, struct film *film, char **name,
                          struct error *err)
 {
     if (show->session->options->text_cols > 0)
-        return save_text(show, film, name, err);
+        return batch_text_write(show, film, name, err);
     if (show->kind != SHOW_LIGHT)
         return save_shown(show, name, err);
     return save_pixels(show->session, film, NULL, name, err);
@@ -435,6 +398,7 @@ static bool run_frames(struct view_mode *show, struct session_film *f,
              run_frame(show, f, &series, wake_fd, &is_written, err);
         done += is_written;
     }
+    ok = ok && frame_series_close(&series, err);
     if (ok)
         batch_say_frames(done, frame_series_count(&series), series.begin_ns);
     frame_series_end(&series);

@@ -11,6 +11,7 @@
 #include "session/option_checks.h"
 #include "session/option_set.h"
 #include "session/sub_command.h"
+#include "session/video_pipe.h"
 
 const char *const options_shows[] = {
     [SHOW_LIGHT] = "light",
@@ -132,6 +133,13 @@ static bool settle_backend(struct options *o, struct error *err)
 bool options_adaptive(const struct options *o)
 {
     return o->adaptive || (!o->no_adaptive && o->error_limit > 0);
+}
+
+bool options_output_is_video(const struct options *o)
+{
+    return o->output_path && o->text_cols == 0 &&
+           (o->turntable_count > 0 || o->fly_count > 0 || o->has_frames) &&
+           video_pipe_is_name(o->output_path);
 }
 
 bool options_output_is_film(const struct options *o)

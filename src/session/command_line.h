@@ -160,6 +160,9 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err);
 /* Returns true if pixels with more error are to get more samples. */
 bool options_adaptive(const struct options *o);
 
+/* Returns true if the output is a video of several frames. */
+bool options_output_is_video(const struct options *o);
+
 /* Returns true if the output of merge is a film. */
 bool options_output_is_film(const struct options *o);
 

@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/print.h"
 #include "scene/camera_path.h"
 #include "terminal/xmalloc.h"
 
@@ -59,9 +60,10 @@ static void number_names(struct frame_series *f)
     struct options *o = &f->options;
 
     *o = *f->given;
-    if (o->output_path == NULL && o->text_cols == 0)
+    if (f->default_path != NULL)
         o->output_path = f->default_path;
-    number_name(f, 0, &o->output_path);
+    if (f->session->video.process == 0)
+        number_name(f, 0, &o->output_path);
     number_name(f, 1, &o->denoise_path);
     number_name(f, 2, &o->error_map_path);
     number_name(f, 3, &o->stats_path);
@@ -98,6 +100,45 @@ static char *default_path(const char *scene_path)
     return path;
 }
 
+/* Returns the name of a video as that of pictures. */
+static char *path_of_pictures(const char *video_path)
+{
+    char *stem = xchecked(path_stem(video_path));
+    char *path = xformat("%s.png", stem);
+
+    free(stem);
+    return path;
+}
+
+/* Opens the video, or finds the names of files without one. */
+static bool find_output(struct frame_series *f, struct error *err)
+{
+    struct session *s = f->session;
+    const char *path = f->given->output_path;
+    bool is_missing;
+    char *first;
+
+    if (path == NULL && f->given->text_cols == 0)
+        f->default_path = default_path(f->given->scene_path);
+    if (!options_output_is_video(f->given))
+        return true;
+    if (!session_check_output(s, "-o", path, err) || !file_check(path, err))
+        return false;
+    if (video_pipe_open(&s->video, path, s->crop.width, s->crop.height,
+                        f->given->fps, &is_missing, err))
+        return true;
+    if (!is_missing)
+        return false;
+    f->default_path = path_of_pictures(path);
+    first = xchecked(frame_name(f->default_path, f->first));
+    print_line(stderr,
+               "glim: warning: -o %s: found no ffmpeg, expected one for a "
+               "video: the pictures are files, from %s on",
+               path, first);
+    free(first);
+    return true;
+}
+
 bool frame_series_begin(struct frame_series *f, struct session *s,
                         struct error *err)
 {
@@ -113,14 +154,14 @@ bool frame_series_begin(struct frame_series *f, struct session *s,
         f->last = o->last_frame;
     }
     f->present = f->first - 1;
-    f->default_path = default_path(o->scene_path);
-    if (o->fly_count > 0)
-        return find_keys(f, err);
-    return o->turntable_count > 0 || s->scene.has_choices ||
-           fail(err,
-                "--frames: found no animation in %s, expected a glTF file, "
-                "--turntable or --fly",
-                o->scene_path);
+    if (o->fly_count > 0 && !find_keys(f, err))
+        return false;
+    if (o->fly_count == 0 && o->turntable_count == 0 && !s->scene.has_choices)
+        return fail(err,
+                    "--frames: found no animation in %s, expected a glTF "
+                    "file, --turntable or --fly",
+                    o->scene_path);
+    return find_output(f, err);
 }
 
 /* Loads the scene as it is at the time of the frame. */
@@ -205,12 +246,19 @@ struct glim_progress frame_series_progress(const struct frame_series *f,
     return all;
 }
 
+bool frame_series_close(struct frame_series *f, struct error *err)
+{
+    return video_pipe_close(&f->session->video, err);
+}
+
 void frame_series_end(struct frame_series *f)
 {
+    struct error ignored; /* there is another one */
+
+    frame_series_close(f, &ignored);
     for (size_t i = 0; i < sizeof f->names / sizeof f->names[0]; i++)
         free(f->names[i]);
     free(f->default_path);
-    if (f->session != NULL)
-        f->session->options = f->given;
+    f->session->options = f->given;
     *f = (struct frame_series){.session = NULL};
 }

@@ -28,14 +28,15 @@ struct frame_series {
     int key_count;
     int first, last, present; /* numbers of frames */
     uint64_t begin_ns, frame_begin_ns;
-    char *default_path; /* without -o */
+    char *default_path; /* without -o or ffmpeg; NULL: not needed */
     char *names[4];     /* of the files of the present frame */
 };
 
 /* Returns true if the options ask for several frames. */
 bool frame_series_is_wanted(const struct options *o);
 
-/* Finds the frames of the session's options. */
+/* Finds the frames of the session's options, and opens their video. If there is
+ * no ffmpeg for it, a warning says so, and they become PNG files. */
 bool frame_series_begin(struct frame_series *f, struct session *s,
                         struct error *err);
 
@@ -56,6 +57,9 @@ int frame_series_done(const struct frame_series *f);
 struct glim_progress frame_series_progress(const struct frame_series *f,
                                            const struct glim_progress *frame,
                                            uint64_t now_ns);
+
+/* Ends the video, if there is one. */
+bool frame_series_close(struct frame_series *f, struct error *err);
 
 /* Gives the session its own options back. */
 void frame_series_end(struct frame_series *f);

@@ -55,6 +55,7 @@ static bool check_batch(const struct options *o, struct error *err)
             err,
             "--ansi: found --glyph for pixels, expected one for characters");
     if (o->output_path && o->text_cols == 0 && !options_output_is_film(o) &&
+        !options_output_is_video(o) &&
         image_write_format_of(o->output_path) == IMAGE_WRITE_UNKNOWN)
         return fail(err,
                     "-o: found '%s', expected a name that ends in .png, .hdr "
@@ -190,6 +191,8 @@ static bool check_aovs(const struct options *o, struct error *err)
         return fail(err, "--aov: found --show, expected a render of light");
     if (o->text_cols > 0)
         return fail(err, "--aov: found --ansi, expected a picture");
+    if (options_output_is_video(o))
+        return fail(err, "--aov: found a video, expected pictures");
     return !is_standard_output(o->output_path) ||
            fail(err, "--aov: found -o -, expected the name of a file");
 }
@@ -237,7 +240,7 @@ static bool check_show(const struct options *o, struct error *err)
                     keymap_first_name(&o->keys, ACTION_VIEW_NEXT).text);
     if (o->stats_path)
         return fail(err, "--stats: found --show, expected a render of light");
-    if (o->output_path && o->text_cols == 0 &&
+    if (o->output_path && o->text_cols == 0 && !options_output_is_video(o) &&
         image_write_format_of(o->output_path) != IMAGE_WRITE_PNG)
         return fail(
             err, "-o: found '%s', expected a name that ends in .png for --show",

@@ -110,7 +110,7 @@ static const struct option_rule batch[] = {
      "only frames A to B, from 0 on, of these; alone, frames of the animation "
      "of a glTF file"},
     {"fps", OPTION_FPS, "a number", "N",
-     "frames of a second of animation, 1 to 1000 (default: 24)"},
+     "frames of a second of animation or video, 1 to 1000 (default: 24)"},
     {"denoise", OPTION_DENOISE, "the name of a picture", "[=FILE]",
      "filter the noise out of the picture; with a file write the "
      "filtered picture to this .png, .hdr or .pfm file and the "

@@ -19,6 +19,7 @@
 #include "session/command_line.h"
 #include "session/edit.h"
 #include "session/file_watch.h"
+#include "session/video_pipe.h"
 
 struct session {
     const struct options *options;
@@ -46,6 +47,7 @@ struct session {
     bool is_filtered;        /* the screen's picture is to be filtered */
     bool draft_has_surfaces; /* of the last restart in live mode */
     bool is_denoised;        /* a filtered picture was written */
+    struct video_pipe video; /* of batch mode's pictures, if it is open */
     /* of batch mode's films: what decides the samples, the index of the first
      * one, and the samples to go on from (NULL: none) */
     struct film_identity film_identity;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/*
+ * video_pipe.h - a video file that a process of ffmpeg writes from pictures
+ *
+ * Ownership: video_pipe_close() ends the process; the path stays the caller's
+ * Threads:   one at a time
+ * Errors:    no ffmpeg, or one that fails; its own words go to standard error
+ */
+#ifndef GLIM_VIDEO_PIPE_H
+#define GLIM_VIDEO_PIPE_H
+
+#include <sys/types.h>
+
+#include "base/error.h"
+#include "picture/frame.h"
+
+struct video_pipe {
+    const char *path;
+    pid_t process; /* 0: none */
+    int fd;
+};
+
+/* Returns true if the name ends like that of a video: .mp4, .webm or .webp. */
+bool video_pipe_is_name(const char *path);
+
+/* Starts ffmpeg, which replaces the file. *is_missing tells whether there is
+ * no ffmpeg. */
+bool video_pipe_open(struct video_pipe *v, const char *path, int width,
+                     int height, double fps, bool *is_missing,
+                     struct error *err);
+
+/* Adds a picture of the video's size. Blocks until ffmpeg has read it. */
+bool video_pipe_write(struct video_pipe *v, const struct frame *frame,
+                      struct error *err);
+
+/* Ends the video and waits until ffmpeg has written it. A zeroed struct is
+ * closed. */
+bool video_pipe_close(struct video_pipe *v, struct error *err);
+
+#endif
