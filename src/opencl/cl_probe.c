@@ -1,32 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "opencl/cl_probe.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
-#include <poll.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include "base/clock.h"
+#include "base/child.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "render/cpu_dispatch.h"
 #include "opencl/cl_source.h"
 #include "opencl/selftest.h"
 
-extern char **environ;
-
 /* Time limit: compilers take seconds, a hanging driver takes forever. */
 #define ANSWER_NS UINT64_C(60000000000)
-
-/* Polling interval of *is_unwanted. */
-#define LOOK_MS 50
 
 /* Limit for the copy's output, more than a compiler prints. */
 #define OUTPUT_BYTES_MAX ((size_t)1 << 20)
@@ -151,40 +140,23 @@ char *cl_probe_device(const struct backend *backend)
 
 /* ---- its parent ---- */
 
-/* Starts the copy with both outputs in the pipe and the signal handling that
- * glim was started with. Returns 0 or an error number. */
-static int spawn(pid_t *pid, const char *program, const char *const *arguments,
-                 int output)
-{
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    sigset_t none, all;
-    int reason;
-
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes,
-                             POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&files, output, 1);
-    posix_spawn_file_actions_adddup2(&files, output, 2);
-    /* posix_spawn() does not change the arguments, in spite of its type */
-    reason = posix_spawn(pid, program, &files, &attributes,
-                         (char *const *)(uintptr_t)arguments, environ);
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-    return reason;
-}
-
-static int start_copy(pid_t *pid, const struct cl_request *r, int output)
+/* Runs the copy with both outputs in one text. */
+static enum child_end run_copy(const struct cl_request *r,
+                               const atomic_bool *is_unwanted,
+                               struct child_result *result)
 {
     char features[16];
     const char *arguments[10] = {"glim", "--probe", features, "--backend",
                                  r->needs_gpu ? "auto" : "opencl"};
+    struct child_task task = {
+        .program = r->program,
+        .arguments = arguments,
+        .has_errors = true,
+        .is_cut = true, /* the cause is at the beginning */
+        .time_ns = ANSWER_NS,
+        .size_bytes = OUTPUT_BYTES_MAX,
+        .is_unwanted = is_unwanted,
+    };
     int count = 5;
 
     snprintf(features, sizeof features, "%u", r->features);
@@ -196,46 +168,7 @@ static int start_copy(pid_t *pid, const struct cl_request *r, int output)
         arguments[count++] = "--kernels";
         arguments[count++] = r->kernels_path;
     }
-    return spawn(pid, r->program, arguments, output);
-}
-
-/* Reads the pipe to its end. Returns NULL on a timeout, if *is_unwanted becomes
- * true, or if memory is out. */
-static char *read_output(int fd, const atomic_bool *is_unwanted)
-{
-    uint64_t end_ns = clock_ns() + ANSWER_NS;
-    char *text = alloc_array(1, 1);
-    size_t length = 0;
-
-    while (text != NULL) {
-        struct pollfd in = {.fd = fd, .events = POLLIN};
-        char bytes[4096];
-        ssize_t count;
-
-        if (atomic_load(is_unwanted) || clock_ns() > end_ns) {
-            free(text);
-            return NULL;
-        }
-        if (poll(&in, 1, LOOK_MS) <= 0)
-            continue;
-        count = read(fd, bytes, sizeof bytes);
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count <= 0)
-            return text;
-        if (length + (size_t)count > OUTPUT_BYTES_MAX)
-            continue; /* the beginning has the cause, so the rest is skipped */
-        char *longer = realloc(text, length + (size_t)count + 1);
-        if (longer == NULL)
-            free(text);
-        text = longer;
-        if (text == NULL)
-            break;
-        memcpy(text + length, bytes, (size_t)count);
-        length += (size_t)count;
-        text[length] = '\0';
-    }
-    return NULL;
+    return child_run(&task, result);
 }
 
 /* Reports the failure of the copy: its last line, or the signal that killed
@@ -265,8 +198,6 @@ static bool fail_copy(struct cl_probe *probe, char *output, int status,
 static bool take_output(struct cl_probe *probe, char *output, int status,
                         struct error *err)
 {
-    if (output == NULL)
-        return fail(err, "OpenCL: the driver does not answer");
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         return fail_copy(probe, output, status, err);
     if (take_answer(probe, output))
@@ -278,32 +209,23 @@ static bool take_output(struct cl_probe *probe, char *output, int status,
 bool cl_probe_run(struct cl_probe *probe, const struct cl_request *r,
                   const atomic_bool *is_unwanted, struct error *err)
 {
-    pid_t child;
-    int fds[2], reason, status = 0;
-    char *output;
+    struct child_result result;
 
     *probe = (struct cl_probe){0};
-    if (pipe2(fds, O_CLOEXEC) != 0)
-        return fail(err, "OpenCL: cannot open a pipe: %s", strerror(errno));
-    reason = start_copy(&child, r, fds[1]);
-    close(fds[1]);
-    if (reason != 0) {
-        close(fds[0]);
+    switch (run_copy(r, is_unwanted, &result)) {
+    case CHILD_NOT_RUN:
         return fail(err, "OpenCL: %s: cannot run the self-test: %s", r->program,
-                    strerror(reason));
-    }
-    output = read_output(fds[0], is_unwanted);
-    close(fds[0]);
-    if (output == NULL)
-        kill(child, SIGKILL);
-    while (waitpid(child, &status, 0) < 0) {
-        if (errno == EINTR)
-            continue;
-        free(output);
+                    strerror(result.reason));
+    case CHILD_UNKNOWN:
         return fail(err, "OpenCL: how the self-test ended is not known: %s",
-                    strerror(errno));
+                    strerror(result.reason));
+    case CHILD_LATE:
+    case CHILD_TOO_LONG:
+    case CHILD_NO_MEMORY:
+        return fail(err, "OpenCL: the driver does not answer");
+    case CHILD_ENDED: break;
     }
-    if (!take_output(probe, output, status, err))
+    if (!take_output(probe, result.output, result.status, err))
         return false;
     remember(probe, r);
     return true;

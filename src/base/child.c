@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "base/child.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+
+extern char **environ;
+
+/* Polling interval of *is_unwanted. */
+#define LOOK_MS 50
+
+/* Size of a read, and of the pipe if the system grants it: a child that writes
+ * much then waits less. */
+#define PIPE_BYTES (1 << 16)
+
+/* Starts the program with its output in the pipe. Returns 0 or an error
+ * number. */
+static int start(pid_t *pid, const struct child_task *t, int output)
+{
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t attributes;
+    sigset_t none, all;
+    int reason;
+
+    sigemptyset(&none);
+    sigfillset(&all);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes,
+                             POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &all);
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&files, output, 1);
+    if (t->has_errors)
+        posix_spawn_file_actions_adddup2(&files, output, 2);
+    else
+        posix_spawn_file_actions_addopen(&files, 2, "/dev/null", O_WRONLY, 0);
+    /* posix_spawn() does not change the arguments, in spite of its type */
+    reason = posix_spawn(pid, t->program, &files, &attributes,
+                         (char *const *)(uintptr_t)t->arguments, environ);
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+    return reason;
+}
+
+/* Reads once. Returns false at the end of the output, and when there is no
+ * reason to read more, which is put into *end. */
+static bool read_some(int fd, const struct child_task *t,
+                      struct child_result *r, size_t *capacity,
+                      enum child_end *end)
+{
+    void *bytes = r->output;
+    ssize_t count;
+
+    if (!grow_array(&bytes, capacity, r->size_bytes + PIPE_BYTES + 1, 1)) {
+        *end = CHILD_NO_MEMORY;
+        return false;
+    }
+    r->output = bytes;
+    count = read(fd, r->output + r->size_bytes, PIPE_BYTES);
+    if (count < 0 && errno == EINTR)
+        return true;
+    if (count <= 0)
+        return false;
+    if (r->size_bytes + (size_t)count <= t->size_bytes) {
+        r->size_bytes += (size_t)count;
+        return true;
+    }
+    if (!t->is_cut)
+        *end = CHILD_TOO_LONG;
+    return t->is_cut;
+}
+
+static enum child_end read_output(int fd, const struct child_task *t,
+                                  struct child_result *r)
+{
+    uint64_t end_ns = clock_ns() + t->time_ns;
+    enum child_end end = CHILD_ENDED;
+    size_t capacity = 0;
+
+    for (;;) {
+        struct pollfd in = {.fd = fd, .events = POLLIN};
+
+        if (clock_ns() > end_ns ||
+            (t->is_unwanted != NULL && atomic_load(t->is_unwanted)))
+            return CHILD_LATE;
+        if (poll(&in, 1, LOOK_MS) <= 0)
+            continue;
+        if (!read_some(fd, t, r, &capacity, &end))
+            break;
+    }
+    if (end == CHILD_ENDED)
+        r->output[r->size_bytes] = '\0';
+    return end;
+}
+
+/* Waits for the child. Returns false if its status is lost. */
+static bool await(pid_t child, struct child_result *r)
+{
+    while (waitpid(child, &r->status, 0) < 0) {
+        if (errno == EINTR)
+            continue;
+        r->reason = errno;
+        return false;
+    }
+    return true;
+}
+
+enum child_end child_run(const struct child_task *t, struct child_result *r)
+{
+    enum child_end end;
+    pid_t child;
+    int fds[2];
+
+    *r = (struct child_result){0};
+    if (pipe2(fds, O_CLOEXEC) != 0) {
+        r->reason = errno;
+        return CHILD_NOT_RUN;
+    }
+    fcntl(fds[0], F_SETPIPE_SZ, PIPE_BYTES * 16);
+    r->reason = start(&child, t, fds[1]);
+    close(fds[1]);
+    if (r->reason != 0) {
+        close(fds[0]);
+        return CHILD_NOT_RUN;
+    }
+    end = read_output(fds[0], t, r);
+    close(fds[0]);
+    if (end != CHILD_ENDED)
+        kill(child, SIGKILL);
+    if (!await(child, r) && end == CHILD_ENDED)
+        end = CHILD_UNKNOWN;
+    if (end != CHILD_ENDED) {
+        free(r->output);
+        r->output = NULL;
+        r->size_bytes = 0;
+    }
+    return end;
+}
