@@ -96,7 +96,7 @@ PROGRAM := $(B)/$(if $(MPI),mpi/)glim
 MPI_PROGRAM := $(if $(SAN),,$(if $(shell command -v mpicc),$(B)/mpi/glim))
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 # libglim: the folders up to src/api/ in the table of CONTRIBUTING.md.
-LIB_FOLDERS := base picture filter bvh light scene formats gltf load render opencl api
+LIB_FOLDERS := base picture filter bvh light scene formats gltf import load render opencl api
 LIB_OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(filter-out $(WEBP_OTHER), \
 	$(foreach d,$(LIB_FOLDERS),$(wildcard src/$(d)/*.c)))) $(B)/kernels.o \
 	$(PATHS) $(FILTERS)
@@ -152,9 +152,9 @@ $(B)/mpi/glim: $(filter-out %/cluster_none.o,$(OBJECTS)) \
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(LIBS) \
 		$(shell mpicc --showme:link)
 
-# The program that tries OpenCL devices for the library.
-$(B)/api/glim_render.o: private ALL_CFLAGS += -DGLIM_PROGRAM='"$(BINDIR)/glim"'
-$(B)/api/glim_render.o $(B)/glim.pc: $(B)/places
+# The program that tries OpenCL devices and reads formats for the library.
+$(B)/api/glim_scene.o: private ALL_CFLAGS += -DGLIM_PROGRAM='"$(BINDIR)/glim"'
+$(B)/api/glim_scene.o $(B)/glim.pc: $(B)/places
 
 # $* is the instruction set and, after a _, the set of features.
 ISA = $(firstword $(subst _, ,$*))

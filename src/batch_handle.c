@@ -44,6 +44,7 @@ struct glim *batch_handle_open(const struct options *o, struct error *err)
         .anim_time_s = o->choice.time_s,
         .view_lines = o->view_lines,
         .threads = options_threads(o),
+        .program = "/proc/self/exe",
     };
     struct glim_error why;
     struct glim *g = glim_open(o->scene_path, &how, &why);
@@ -84,8 +85,6 @@ bool batch_handle_use_device(struct glim *g, const struct options *o,
     struct glim_error why;
     const char *log;
 
-    if (!glim_set_program(g, "/proc/self/exe", &why))
-        return batch_fail_as(err, &why);
     if (glim_set_backend(g, is_auto ? GLIM_BACKEND_GPU : GLIM_BACKEND_OPENCL,
                          o->device, &why))
         return true;

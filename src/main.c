@@ -22,6 +22,7 @@
 #include "base/memory.h"
 #include "base/print.h"
 #include "glim/version.h"
+#include "import/import_child.h"
 #include "load/scene_format.h"
 #include "render/cpu_dispatch.h"
 #include "opencl/cl_device.h"
@@ -44,6 +45,9 @@
 #include "batch_films.h"
 #include "batch_picture.h"
 #include "batch_reference.h"
+
+/* Width of the lines of --formats. */
+#define FORMAT_COLS 72
 
 enum exit_status { EXIT_DONE, EXIT_FAILED, EXIT_USAGE };
 
@@ -102,12 +106,36 @@ static int list_devices(void)
     return print_out("");
 }
 
+/* Prints endings of names, as many as fit on each line. */
+static void print_endings(const char *endings)
+{
+    const char *line = endings;
+    const char *p = endings;
+
+    while (*p != '\0') {
+        const char *end = p + strcspn(p, " ");
+
+        if (end - line > FORMAT_COLS) {
+            print_line(stdout, "    %.*s", (int)(p - 1 - line), line);
+            line = p;
+        }
+        p = *end == ' ' ? end + 1 : end;
+    }
+    print_line(stdout, "    %s", line);
+}
+
 static int list_formats(void)
 {
     const struct scene_format *f;
 
-    for (uint32_t i = 0; (f = scene_format_number(i)) != NULL; i++)
-        print_line(stdout, "%-14s %-9s %s", f->name, f->endings, f->about);
+    for (uint32_t i = 0; (f = scene_format_number(i)) != NULL; i++) {
+        const char *missing = f->missing != NULL ? f->missing() : NULL;
+
+        print_line(stdout, "%s: %s%s%s", f->name, f->about,
+                   missing != NULL ? "; missing: " : "",
+                   missing != NULL ? missing : "");
+        print_endings(f->endings);
+    }
     return print_out("");
 }
 
@@ -132,6 +160,20 @@ static int probe(const struct options *o)
     }
     cl_probe_free(&probe);
     return ok ? print_out("") : complain(EXIT_FAILED, &err);
+}
+
+/* Runs this program as the copy that reads a scene: import.h. The library's own
+ * output is lost. */
+static int import(const struct options *o)
+{
+    struct import_limits limits = {o->import_s, o->import_bytes};
+    int fd = dup(1), nowhere = open("/dev/null", O_WRONLY);
+    FILE *to = fd >= 0 ? fdopen(fd, "w") : NULL;
+
+    if (to == NULL || nowhere < 0 || dup2(nowhere, 1) < 0)
+        return EXIT_FAILED;
+    /* the destructors of a library may crash, too */
+    _Exit(import_child(o->scene_path, limits, to) ? EXIT_DONE : EXIT_FAILED);
 }
 
 /* Checks that there is a screen for live mode, or a file or pipe for the
@@ -339,6 +381,8 @@ int main(int argc, char **argv)
                                              : complain(EXIT_FAILED, &err);
     if (options.probe)
         return probe(&options);
+    if (options.is_import)
+        return import(&options);
     if (!options.is_worker && cluster_rank() == 0 &&
         !check_terminal(&options, &err))
         return complain(EXIT_USAGE, &err);

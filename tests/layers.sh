@@ -15,7 +15,7 @@ HEADERLESS='main stb backend_cpu cluster_none image_webp_none cluster_backend cl
 
 # Files that may use the C library's output, because they write files. Output
 # for people goes through print.c.
-WRITERS='print film_header assign mtl_save view_file view_light cl_source stats_json json reference_info curses_windows'
+WRITERS='print film_header import_child import_material assign mtl_save view_file view_light cl_source stats_json json reference_info curses_windows'
 
 {
     find include src kernels scenes tests -name '*.[ch]' -o -name '*.cl'
@@ -79,6 +79,8 @@ function check_include(name, is_system,    kernel, other)
             fault("only image_webp.c includes <" name ">")
         if (name == "meshoptimizer.h" && path != "src/gltf/gltf_meshopt.c")
             fault("only gltf_meshopt.c includes <" name ">")
+        if (name ~ /^assimp\// && path != "src/import/assimp_api.h")
+            fault("only assimp_api.h includes <" name ">")
         if (name ~ /^CL\// && folder != "src/opencl")
             fault("only src/opencl/ includes <" name ">")
         return

@@ -144,13 +144,16 @@ struct glim_open_options {
     const char *view_lines;
     int threads; /* CPU threads as in glim_set_threads(), also for reading
                     images */
+    /* path of the glim program, whose copies test devices and read formats of
+     * others; NULL means the installed one */
+    const char *program;
 };
 
-/* Opens the scene of an OBJ, glTF, PLY or STL file, which gzip may have packed
- * ("-": standard input), with its materials and images, and its view file with
- * camera, size and sky. A scene without a camera is framed as a whole; a scene
- * without light gets a soft sky, a glTF, PLY or STL model also a lamp.
- * `options` may be NULL. Returns NULL on errors. */
+/* Opens the scene of a file of a format that glim --formats lists, which gzip
+ * may have packed ("-": standard input), with its materials and images, and its
+ * view file with camera, size and sky. A scene without a camera is framed as a
+ * whole; a scene without light gets a soft sky, a glTF, PLY or STL model also a
+ * lamp. `options` may be NULL. Returns NULL on errors. */
 GLIM_API struct glim *glim_open(const char *path,
                                 const struct glim_open_options *options,
                                 struct glim_error *err);
@@ -211,11 +214,6 @@ GLIM_API bool glim_set_threads(struct glim *g, int count,
  * this takes seconds. After an error the CPU renders. */
 GLIM_API bool glim_set_backend(struct glim *g, enum glim_backend backend,
                                const char *device, struct glim_error *err);
-
-/* Sets the path of the glim program that tests devices; NULL means the
- * installed one. */
-GLIM_API bool glim_set_program(struct glim *g, const char *path,
-                               struct glim_error *err);
 
 /* Returns the output of the driver and its compiler at the last
  * glim_set_backend(), in lines; NULL if there is none. */

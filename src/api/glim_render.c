@@ -14,10 +14,6 @@
 #include "render/cpu_dispatch.h"
 #include "render/render_left.h"
 
-#ifndef GLIM_PROGRAM
-#define GLIM_PROGRAM "glim"
-#endif
-
 /* Greatest number of threads, more than machines have processors. */
 #define THREADS_MAX 4096
 
@@ -77,20 +73,6 @@ bool glim_set_threads(struct glim *g, int count, struct glim_error *err)
     return true;
 }
 
-bool glim_set_program(struct glim *g, const char *path, struct glim_error *err)
-{
-    char *copy = path != NULL ? strdup(path) : NULL;
-    struct error why;
-
-    if (path != NULL && copy == NULL) {
-        fail(&why, "%s: out of memory for the name", path);
-        return handle_fail(err, &why);
-    }
-    free(g->program);
-    g->program = copy;
-    return true;
-}
-
 /* Returns the kernel features that pictures of the handle need. */
 static uint32_t features_of(const struct glim *g)
 {
@@ -115,7 +97,7 @@ bool glim_set_backend(struct glim *g, enum glim_backend backend,
                       const char *device, struct glim_error *err)
 {
     struct cl_request request = {
-        .program = g->program != NULL ? g->program : GLIM_PROGRAM,
+        .program = g->program,
         .device = device,
         .needs_gpu = backend == GLIM_BACKEND_GPU,
     };

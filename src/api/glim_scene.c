@@ -11,6 +11,11 @@
 #include "scene/world_materials.h"
 #include "load/scene_load.h"
 
+/* The program whose copies run the code of others. */
+#ifndef GLIM_PROGRAM
+#define GLIM_PROGRAM "glim"
+#endif
+
 bool handle_fail(struct glim_error *to, const struct error *err)
 {
     _Static_assert(sizeof to->text == sizeof err->text, "one length of texts");
@@ -93,6 +98,10 @@ static bool open_all(struct glim *g, const char *path,
                                            .time_s = o->anim_time_s},
                                 .view_lines = o->view_lines};
 
+    g->program = strdup(o->program != NULL ? o->program : GLIM_PROGRAM);
+    if (g->program == NULL)
+        return fail(err, "%s: out of memory", path);
+    g->scene.program = g->program;
     g->cancel_fd = event_fd_open("glim", err);
     if (g->cancel_fd < 0 || !handle_set_threads(g, o->threads, err))
         return false;

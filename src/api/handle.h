@@ -27,8 +27,7 @@ struct glim {
     struct rect crop;
     uint32_t seed;
     int thread_count; /* 0: all processors of the process */
-    char *program;    /* path of the program that tests devices; NULL: the
-                         installed one */
+    char *program;    /* path of glim, whose copies run the code of others */
 
     struct backend *cpu;    /* NULL until needed */
     struct backend *device; /* renders unless NULL */

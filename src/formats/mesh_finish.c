@@ -190,8 +190,8 @@ bool mesh_mtl_read(struct scene *scene, struct warnings *report,
     return ok;
 }
 
-static bool add_material(struct scene *scene, struct word texture,
-                         struct warnings *report, struct error *err)
+static bool add_clay(struct scene *scene, struct word texture,
+                     struct warnings *report, struct error *err)
 {
     char *text = clay_text(scene, texture);
     bool ok = text != NULL ? mesh_mtl_begin(scene, text, report, err) &&
@@ -202,7 +202,7 @@ static bool add_material(struct scene *scene, struct word texture,
     return ok;
 }
 
-static bool add_normals(struct scene *scene, struct error *err)
+bool mesh_add_normals(struct scene *scene, struct error *err)
 {
     struct pool *pool;
     bool ok;
@@ -219,9 +219,9 @@ bool mesh_finish(struct scene *scene, const struct vec3 *face_colors,
                  struct word texture, struct warnings *report,
                  struct error *err)
 {
-    if (!add_normals(scene, err))
+    if (!mesh_add_normals(scene, err))
         return false;
     if (face_colors != NULL && !color_faces(scene, face_colors))
         return out_of_memory(scene, err);
-    return add_material(scene, texture, report, err);
+    return add_clay(scene, texture, report, err);
 }

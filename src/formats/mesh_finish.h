@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * mesh_finish.h - completes the scenes of files that have a mesh and no
- * materials: PLY and STL
+ * mesh_finish.h - completes the scenes of files without MTL files
  *
- * All faces have the material "clay", which an MTL file beside the scene, such
- * as model.ply.mtl for model.ply, may define anew; glim writes edits there.
+ * An MTL file beside the scene, such as model.ply.mtl for model.ply, may define
+ * their materials anew; glim writes edits there. All faces of PLY and STL files
+ * have the material "clay".
  *
  * Ownership: everything belongs to the scene
  * Threads:   one for each scene
@@ -21,6 +21,9 @@
 
 /* Sets the scene's path and adds the object of all faces, named "". */
 bool mesh_begin(struct scene *scene, const char *path, struct error *err);
+
+/* Adds normals that are smooth below a crease if the scene has none. */
+bool mesh_add_normals(struct scene *scene, struct error *err);
 
 /* Returns sRGB clay: the colour of faces and vertices that have none in a file
  * with colours. */

@@ -9,16 +9,20 @@
 #include "formats/ply_header.h"
 #include "formats/stl.h"
 #include "gltf/gltf.h"
+#include "import/import.h"
 
 /* The first row is that of files that no row recognises. */
 static const struct scene_format formats[] = {
     {"Wavefront OBJ", "obj", "y up, with MTL files and images", NULL, obj_parse,
-     false},
+     false, NULL},
     {"PLY", "ply", "y up, z from Blender; ascii and binary", ply_matches,
-     ply_parse, false},
+     ply_parse, false, NULL},
     {"glTF", "gltf glb", "y up; version 2.0, with buffers and images",
-     gltf_matches, gltf_parse, true},
-    {"STL", "stl", "z up; ascii and binary", stl_matches, stl_parse, false},
+     gltf_matches, gltf_parse, true, NULL},
+    {"STL", "stl", "z up; ascii and binary", stl_matches, stl_parse, false,
+     NULL},
+    {"others", import_endings, "FBX, COLLADA, 3DS, X3D and more, by libassimp",
+     NULL, import_parse, false, import_missing},
 };
 
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };

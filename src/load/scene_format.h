@@ -31,6 +31,9 @@ struct scene_format {
     bool (*matches)(const char *bytes, size_t size_bytes);
     scene_parse *parse;
     bool has_choices; /* it reads what scene->choice says */
+    /* Returns NULL if the format can be read, else the package that is missing.
+     * NULL: formats that need none. */
+    const char *(*missing)(void);
 };
 
 /* Returns the format of this number, from 0, or NULL after the last. */

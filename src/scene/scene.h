@@ -64,6 +64,7 @@ struct scene {
     int thread_count; /* of the threads that may load it; 0 means one */
     struct scene_choice choice; /* the caller's, set before reading */
     bool has_choices;           /* its format has scenes and animations */
+    const char *program; /* reads formats of others (import.h); may be NULL */
     bool up_is_z; /* axis of the file, as its format and its writer have it */
 
     /* only while loading; freed by scene_finish() */

@@ -141,7 +141,10 @@ struct options {
     int ranks;          /* processes of a cluster to start; 0: none */
     bool is_worker;     /* render for rank 0; no scene is needed */
     bool probe;         /* test a device, see cl_probe.h; no scene is needed */
-    uint32_t features;  /* features for the test */
+    bool is_import;     /* send the scene, see import.h */
+    unsigned import_s;
+    uint64_t import_bytes;
+    uint32_t features; /* features for the test */
 };
 
 /* Sets the defaults. There are no keys yet. */

@@ -86,6 +86,8 @@ static const struct option_rule device[] = {
      "processor, see --version)"},
     /* internal, see cl_probe.h */
     {"probe", OPTION_PROBE, "a number of features", NULL, NULL},
+    /* internal, see import.h */
+    {"import", OPTION_IMPORT, "limits of time and memory", NULL, NULL},
 };
 
 static const struct option_rule cluster[] = {

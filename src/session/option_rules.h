@@ -45,6 +45,7 @@ enum option_id {
     OPTION_KERNELS,
     OPTION_ISA,
     OPTION_PROBE,
+    OPTION_IMPORT,
     OPTION_RANKS,
     OPTION_WORKER,
     OPTION_BATCH,

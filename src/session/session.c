@@ -111,6 +111,7 @@ bool session_load(struct session *s, const struct options *options,
     bool ok;
 
     *s = (struct session){.options = options,
+                          .scene = {.program = "/proc/self/exe"},
                           .start_ns = start_ns,
                           .is_filtered = !options->no_filter};
     view_init(&view);

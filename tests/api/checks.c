@@ -281,10 +281,13 @@ static void check_threads(void)
 /* Without the program that tries devices, the CPU renders. */
 static void check_device(void)
 {
-    struct glim *g = open_small();
     struct glim_error err;
+    struct glim *g =
+        glim_open(scene_path,
+                  &(struct glim_open_options){.program = "/nowhere/glim"},
+                  &err);
 
-    check(glim_set_program(g, "/nowhere/glim", &err), "a program");
+    check(g != NULL && glim_set_size(g, WIDTH, HEIGHT, &err), "a program");
     check_error(glim_set_backend(g, GLIM_BACKEND_OPENCL, NULL, &err), &err,
                 "/nowhere/glim");
     check(glim_render(g, 1, 0, NULL, NULL, NULL) == GLIM_DONE,

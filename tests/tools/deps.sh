@@ -90,6 +90,7 @@ look()
             need_header jansson.h libjansson-dev
             need_header meshoptimizer.h libmeshoptimizer-dev
             need_header webp/decode.h libwebp-dev
+            need_header assimp/cimport.h libassimp-dev
             ;;
         test)
             need_header cmocka.h libcmocka-dev

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+#include "import/import_child.h"
+
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+
+#include "import/assimp_api.h"
+
+#if HAS_ASSIMP
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/name_table.h"
+#include "import/import_material.h"
+#include "import/import_stream.h"
+
+/* What is done once for each place of a mesh in the tree of nodes: it is
+ * counted, or an array of it is written. */
+struct sender;
+typedef void take_mesh(struct sender *s, const struct aiNode *node,
+                       const struct aiMesh *mesh, const double matrix[12]);
+
+struct sender {
+    const struct aiScene *scene;
+    FILE *to;
+    struct import_head head;
+    uint64_t vertex_count, tri_count, object_count, name_bytes; /* so far */
+    take_mesh *take;
+};
+
+/* ---- matrices: three rows of four numbers ---- */
+
+static void matrix_multiply(const double a[12], const struct aiMatrix4x4 *m,
+                            double to[12])
+{
+    const double b[4][4] = {
+        {(double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4},
+        {(double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4},
+        {(double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4},
+        {0, 0, 0, 1},
+    };
+
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 4; k++)
+            to[4 * i + k] = a[4 * i] * b[0][k] + a[4 * i + 1] * b[1][k] +
+                            a[4 * i + 2] * b[2][k] + a[4 * i + 3] * b[3][k];
+}
+
+/* Fills the cofactors of the left three columns, which are the transposed
+ * inverse times the determinant, and returns that. */
+static double cofactors(const double m[12], double to[9])
+{
+    for (int i = 0; i < 3; i++) {
+        const double *a = m + 4 * ((i + 1) % 3), *b = m + 4 * ((i + 2) % 3);
+
+        for (int k = 0; k < 3; k++)
+            to[3 * i + k] = a[(k + 1) % 3] * b[(k + 2) % 3] -
+                            a[(k + 2) % 3] * b[(k + 1) % 3];
+    }
+    return m[0] * to[0] + m[1] * to[1] + m[2] * to[2];
+}
+
+/* ---- visits ---- */
+
+static bool is_drawn(const struct aiMesh *mesh)
+{
+    return (mesh->mPrimitiveTypes & aiPrimitiveType_TRIANGLE) != 0 &&
+           mesh->mVertices != NULL;
+}
+
+static void visit_nodes(struct sender *s, const struct aiNode *node,
+                        const double parent[12])
+{
+    double matrix[12];
+
+    matrix_multiply(parent, &node->mTransformation, matrix);
+    for (unsigned i = 0; i < node->mNumMeshes; i++) {
+        const struct aiMesh *mesh = s->scene->mMeshes[node->mMeshes[i]];
+
+        if (is_drawn(mesh))
+            s->take(s, node, mesh, matrix);
+    }
+    for (unsigned i = 0; i < node->mNumChildren; i++)
+        visit_nodes(s, node->mChildren[i], matrix);
+}
+
+static void visit_all(struct sender *s, take_mesh *take)
+{
+    static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+
+    s->vertex_count = s->tri_count = s->object_count = s->name_bytes = 0;
+    s->take = take;
+    visit_nodes(s, s->scene->mRootNode, identity);
+}
+
+static uint32_t count_tris(const struct aiMesh *mesh)
+{
+    uint32_t count = 0;
+
+    for (unsigned i = 0; i < mesh->mNumFaces; i++)
+        count += mesh->mFaces[i].mNumIndices == 3;
+    return count;
+}
+
+static void count(struct sender *s, const struct aiNode *node,
+                  const struct aiMesh *mesh, const double matrix[12])
+{
+    (void)matrix;
+    s->vertex_count += mesh->mNumVertices;
+    s->tri_count += count_tris(mesh);
+    s->object_count++;
+    s->name_bytes += strlen(node->mName.data) + 1;
+    if (mesh->mNormals != NULL)
+        s->head.flags |= IMPORT_HAS_NORMALS;
+    if (mesh->mTextureCoords[0] != NULL)
+        s->head.flags |= IMPORT_HAS_UVS;
+    if (mesh->mColors[0] != NULL)
+        s->head.flags |= IMPORT_HAS_COLORS;
+}
+
+static void send_positions(struct sender *s, const struct aiNode *node,
+                           const struct aiMesh *mesh, const double m[12])
+{
+    (void)node;
+    for (unsigned i = 0; i < mesh->mNumVertices; i++) {
+        const struct aiVector3D *v = &mesh->mVertices[i];
+        const double x = (double)v->x, y = (double)v->y, z = (double)v->z;
+        double p[3];
+
+        for (int k = 0; k < 3; k++)
+            p[k] = m[4 * k] * x + m[4 * k + 1] * y + m[4 * k + 2] * z +
+                   m[4 * k + 3];
+        fwrite(p, sizeof p, 1, s->to);
+    }
+}
+
+static void send_normals(struct sender *s, const struct aiNode *node,
+                         const struct aiMesh *mesh, const double matrix[12])
+{
+    double m[9];
+    double sign = cofactors(matrix, m) < 0 ? -1 : 1;
+
+    (void)node;
+    for (unsigned i = 0; i < mesh->mNumVertices; i++) {
+        float n[3] = {0, 0, 0};
+
+        if (mesh->mNormals != NULL) {
+            const struct aiVector3D *v = &mesh->mNormals[i];
+
+            for (int k = 0; k < 3; k++)
+                n[k] = (float)(sign * (m[3 * k] * (double)v->x +
+                                       m[3 * k + 1] * (double)v->y +
+                                       m[3 * k + 2] * (double)v->z));
+        }
+        fwrite(n, sizeof n, 1, s->to);
+    }
+}
+
+static void send_uvs(struct sender *s, const struct aiNode *node,
+                     const struct aiMesh *mesh, const double matrix[12])
+{
+    (void)node;
+    (void)matrix;
+    for (unsigned i = 0; i < mesh->mNumVertices; i++) {
+        const struct aiVector3D *v = mesh->mTextureCoords[0];
+        float uv[2] = {v != NULL ? v[i].x : 0, v != NULL ? v[i].y : 0};
+
+        fwrite(uv, sizeof uv, 1, s->to);
+    }
+}
+
+static void send_colors(struct sender *s, const struct aiNode *node,
+                        const struct aiMesh *mesh, const double matrix[12])
+{
+    (void)node;
+    (void)matrix;
+    for (unsigned i = 0; i < mesh->mNumVertices; i++) {
+        const struct aiColor4D *c = mesh->mColors[0];
+        float rgb[3] = {c != NULL ? c[i].r : 1, c != NULL ? c[i].g : 1,
+                        c != NULL ? c[i].b : 1};
+
+        fwrite(rgb, sizeof rgb, 1, s->to);
+    }
+}
+
+/* Sends the triangles of a mesh. A mirror turns their winding. */
+static void send_tris(struct sender *s, const struct aiNode *node,
+                      const struct aiMesh *mesh, const double matrix[12])
+{
+    double unused[9];
+    bool is_mirrored = cofactors(matrix, unused) < 0;
+    uint32_t first = (uint32_t)s->vertex_count;
+
+    (void)node;
+    for (unsigned i = 0; i < mesh->mNumFaces; i++) {
+        const struct aiFace *f = &mesh->mFaces[i];
+        struct import_tri t = {.material = mesh->mMaterialIndex,
+                               .object = (uint32_t)s->object_count};
+
+        if (f->mNumIndices != 3)
+            continue;
+        for (int k = 0; k < 3; k++)
+            t.v[k] = first + f->mIndices[is_mirrored ? 2 - k : k];
+        fwrite(&t, sizeof t, 1, s->to);
+    }
+    s->vertex_count += mesh->mNumVertices;
+    s->object_count++;
+}
+
+static void send_names(struct sender *s, const struct aiNode *node,
+                       const struct aiMesh *mesh, const double matrix[12])
+{
+    (void)mesh;
+    (void)matrix;
+    fwrite(node->mName.data, strlen(node->mName.data) + 1, 1, s->to);
+}
+
+/* ---- the scene ---- */
+
+/* Returns the materials as MTL text, for free(). */
+static char *material_text(const struct assimp_api *api, struct sender *s,
+                           size_t *size_bytes)
+{
+    struct name_table names = {0};
+    char *text = NULL;
+    FILE *to = open_memstream(&text, size_bytes);
+    bool ok = to != NULL;
+
+    for (unsigned i = 0; ok && i < s->scene->mNumMaterials; i++)
+        ok = import_material_write(api, s->scene->mMaterials[i], &names,
+                                   &s->head.image_count, to);
+    name_table_free(&names);
+    if (to != NULL && (fclose(to) != 0 || !ok)) {
+        free(text);
+        text = NULL;
+    }
+    return text;
+}
+
+static bool fill_head(struct sender *s, size_t material_bytes,
+                      struct error *err)
+{
+    visit_all(s, count);
+    if (s->vertex_count >= NO_INDEX || s->tri_count >= NO_INDEX ||
+        s->object_count >= NO_INDEX)
+        return fail(err, "found %llu triangles, expected fewer than 2^32",
+                    (unsigned long long)s->tri_count);
+    memcpy(s->head.magic, IMPORT_MAGIC, sizeof s->head.magic);
+    s->head.vertex_count = (uint32_t)s->vertex_count;
+    s->head.tri_count = (uint32_t)s->tri_count;
+    s->head.object_count = (uint32_t)s->object_count;
+    s->head.name_bytes = s->name_bytes;
+    s->head.material_count = s->scene->mNumMaterials;
+    s->head.material_bytes = material_bytes;
+    return true;
+}
+
+static bool send(const struct assimp_api *api, struct sender *s,
+                 struct error *err)
+{
+    size_t size_bytes = 0;
+    char *text = material_text(api, s, &size_bytes);
+    bool ok = text != NULL ? fill_head(s, size_bytes, err)
+                           : fail(err, "out of memory for the materials");
+
+    if (ok) {
+        fwrite(&s->head, sizeof s->head, 1, s->to);
+        visit_all(s, send_positions);
+        if ((s->head.flags & IMPORT_HAS_NORMALS) != 0)
+            visit_all(s, send_normals);
+        if ((s->head.flags & IMPORT_HAS_UVS) != 0)
+            visit_all(s, send_uvs);
+        if ((s->head.flags & IMPORT_HAS_COLORS) != 0)
+            visit_all(s, send_colors);
+        visit_all(s, send_tris);
+        visit_all(s, send_names);
+        fwrite(text, size_bytes, 1, s->to);
+        ok = fflush(s->to) == 0 && !ferror(s->to);
+        if (!ok)
+            fail(err, "the scene could not be sent: %s", strerror(errno));
+    }
+    free(text);
+    return ok;
+}
+
+/* Reads the file. Lines and points are left out. */
+static const struct aiScene *read_file(const struct assimp_api *api,
+                                       const char *path)
+{
+    struct aiPropertyStore *options = api->CreatePropertyStore();
+
+    api->SetImportPropertyInteger(options, AI_CONFIG_PP_SBP_REMOVE,
+                                  aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    return api->ImportFileExWithProperties(path,
+                                           aiProcess_Triangulate |
+                                               aiProcess_SortByPType |
+                                               aiProcess_JoinIdenticalVertices |
+                                               aiProcess_GenUVCoords |
+                                               aiProcess_TransformUVCoords |
+                                               aiProcess_ValidateDataStructure,
+                                           NULL, options);
+}
+
+static bool read_and_send(const char *path, FILE *to, struct error *err)
+{
+    const struct assimp_api *api = assimp_api_open(err);
+    struct sender s = {.to = to};
+
+    if (api == NULL)
+        return false;
+    s.scene = read_file(api, path);
+    if (s.scene == NULL)
+        return fail(err, "libassimp: %s", api->GetErrorString());
+    if (s.scene->mRootNode == NULL || s.scene->mNumMeshes == 0)
+        return fail(err, "found no faces");
+    return send(api, &s, err);
+}
+
+#else
+
+static bool read_and_send(const char *path, FILE *to, struct error *err)
+{
+    (void)path;
+    (void)to;
+    return assimp_api_open(err) != NULL;
+}
+
+#endif
+
+/* Sanitizers map more memory than any limit. */
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+#define HAS_SHADOW 1
+#else
+#define HAS_SHADOW 0
+#endif
+
+static void set_limits(struct import_limits limits)
+{
+    const struct rlimit time = {limits.time_s, limits.time_s};
+    const struct rlimit memory = {limits.memory_bytes, limits.memory_bytes};
+    const struct rlimit none = {0, 0};
+
+    setrlimit(RLIMIT_CPU, &time);
+    if (!HAS_SHADOW)
+        setrlimit(RLIMIT_AS, &memory);
+    setrlimit(RLIMIT_CORE, &none);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
+bool import_child(const char *path, struct import_limits limits, FILE *to)
+{
+    struct error err;
+
+    set_limits(limits);
+    if (read_and_send(path, to, &err))
+        return true;
+    fprintf(to, "%s\n", err.text);
+    fflush(to);
+    return false;
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+/*
+ * import_child.h - reads a scene with libassimp, in a copy of the program, and
+ * sends it as import_stream.h says
+ *
+ * Threads:   one
+ * Errors:    those of libassimp, sent as a line; the limits end the process by
+ * a signal
+ */
+#ifndef GLIM_IMPORT_CHILD_H
+#define GLIM_IMPORT_CHILD_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* Most that the process may use, and the time of the processor. */
+struct import_limits {
+    unsigned time_s;
+    uint64_t memory_bytes;
+};
+
+/* Sends the scene of the file, or returns false and sends the message. */
+bool import_child(const char *path, struct import_limits limits, FILE *to);
+
+#endif
