@@ -83,7 +83,8 @@ static inline struct vec3 aov_value(const struct world *w,
                   v->has_uv ? 1.0f : 0.0f);
     case SAMPLE_DEPTH: return v3(h.t, 0.0f, 0.0f);
     case SAMPLE_MATERIAL:
-        return v3((float)w->tris[h.tri].material + 1.0f, 0.0f, 0.0f);
+        return v3((float)tri_material(w, h.tri, v->instance) + 1.0f, 0.0f,
+                  0.0f);
     default:
         b = bsdf_at(w, m, v);
         return preview_color(w, m, &b, v, v3_neg(r.d));
@@ -106,7 +107,7 @@ static inline struct path_sample aov_sample(const struct world *w, struct ray r,
             out.radiance = v3_add(out.radiance, sky_radiance(w, r.d));
         return out;
     }
-    m = w->materials[w->tris[h.tri].material];
+    m = w->materials[tri_material(w, h.tri, instance_of(w, h.tri))];
     if (surface_at(w, &m, r, h, &v))
         out.radiance = v3_add(out.radiance, aov_value(w, &m, &v, r, h));
     return out;

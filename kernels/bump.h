@@ -40,11 +40,12 @@ static inline bool has_bumps(const struct material *m)
  * grow. Returns false where they span no area. */
 static inline bool uv_tangents(const struct world *w,
                                GLOBAL const struct vec2 *uvs, struct tri t,
-                               struct vec3 *along_u, struct vec3 *along_v)
+                               uint32_t instance, struct vec3 *along_u,
+                               struct vec3 *along_v)
 {
-    struct vec3 p0 = w->positions[t.v[0]];
-    struct vec3 e1 = v3_sub(w->positions[t.v[1]], p0);
-    struct vec3 e2 = v3_sub(w->positions[t.v[2]], p0);
+    struct vec3 p0 = position_at(w, t.v[0], instance);
+    struct vec3 e1 = v3_sub(position_at(w, t.v[1], instance), p0);
+    struct vec3 e2 = v3_sub(position_at(w, t.v[2], instance), p0);
     struct vec2 a = uvs[t.vt[0]];
     struct vec2 b = uvs[t.vt[1]];
     struct vec2 c = uvs[t.vt[2]];
@@ -103,8 +104,9 @@ static inline struct vec3 bent_normal(struct vec3 n, struct vec3 ng,
  * tangents are of the coordinates of the map of normals. */
 static inline struct vec3 bumped_normal(const struct world *w,
                                         const struct material *m, struct tri t,
-                                        struct uv_pair uv, struct vec3 n,
-                                        struct vec3 ng, struct vec3 wo)
+                                        uint32_t instance, struct uv_pair uv,
+                                        struct vec3 n, struct vec3 ng,
+                                        struct vec3 wo)
 {
     bool is_second =
         has_second_uvs(w) &&
@@ -114,7 +116,8 @@ static inline struct vec3 bumped_normal(const struct world *w,
     struct vec3 slope = v3(0.0f, 0.0f, 1.0f); /* the normal in tangent space */
     float length;
 
-    if (!uv_tangents(w, is_second ? w->uvs2 : w->uvs, t, &along_u, &along_v))
+    if (!uv_tangents(w, is_second ? w->uvs2 : w->uvs, t, instance, &along_u,
+                     &along_v))
         return n;
     if (m->normal_texture != NO_INDEX) {
         struct vec3 c =

@@ -33,6 +33,7 @@ enum feature {
     FEATURE_ROUGH_SHEETS = 1048576, /* rough thin glass */
     FEATURE_CAUSTICS = 2097152,     /* of spheres and discs: caustic_lobes.h */
     FEATURE_THIN_FILM = 4194304,    /* iridescence: thin_film.h */
+    FEATURE_INSTANCES = 8388608,    /* instance.h */
     /* texture_flag beyond TEXTURE_CLAMP, channels, maps of rare parameters */
     FEATURE_TEXTURE_OPTIONS = 16777216
 };

@@ -174,9 +174,12 @@ static inline bool sample_near_light(const struct world *w,
     return true;
 }
 
-/* The light that a triangle belongs to, or NO_INDEX. */
+/* The light that a triangle belongs to, or NO_INDEX. Instances have none: light
+ * samples do not find their emission. */
 static inline uint32_t light_of(const struct world *w, uint32_t tri)
 {
+    if (has_instances(w) && tri >= plain_tri_count(w))
+        return NO_INDEX;
     return w->settings.light_count > 0 ? w->tri_lights[tri] : NO_INDEX;
 }
 

@@ -140,7 +140,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
     }
     /* call this early: it takes long, and nothing before depends on it */
     path_prepare_2d(p, vertex);
-    m = w->materials[w->tris[h->tri].material];
+    m = w->materials[tri_material(w, h->tri, instance_of(w, h->tri))];
     if (!surface_at(w, &m, p->ray, *h, &v))
         return false;
     if (HAS(FEATURE_ATTENUATION)) {

@@ -21,24 +21,25 @@ struct surface_point {
     struct uv_pair uv;
     struct vec3 color; /* of the vertices; if has_vertex_colors() */
     bool has_uv;
-    bool is_outside;  /* the eye is on the side of the normal by the winding */
-    bool is_lifted;   /* moved off its face by surface_lift() */
-    uint32_t face;    /* value of ray.from for rays that leave */
-    struct vec3 t, b; /* with n: the local frame of BSDFs */
+    bool is_outside;   /* the eye is on the side of the normal by the winding */
+    bool is_lifted;    /* moved off its face by surface_lift() */
+    uint32_t face;     /* value of ray.from for rays that leave */
+    uint32_t instance; /* of the triangle, or NO_INDEX */
+    struct vec3 t, b;  /* with n: the local frame of BSDFs */
 };
 
 static inline struct vec3 shading_normal(const struct world *w, struct tri t,
-                                         struct hit h, struct vec3 ng,
-                                         struct vec3 wo)
+                                         uint32_t instance, struct hit h,
+                                         struct vec3 ng, struct vec3 wo)
 {
     struct vec3 n;
     float length;
 
     if (t.vn[0] == NO_INDEX)
         return ng;
-    n = v3_add(v3_add(v3_scale(w->normals[t.vn[0]], h.b0),
-                      v3_scale(w->normals[t.vn[1]], h.b1)),
-               v3_scale(w->normals[t.vn[2]], h.b2));
+    n = v3_add(v3_add(v3_scale(normal_at(w, t.vn[0], instance), h.b0),
+                      v3_scale(normal_at(w, t.vn[1], instance), h.b1)),
+               v3_scale(normal_at(w, t.vn[2], instance), h.b2));
     length = v3_length(n);
     if (!(length > 1e-6f))
         return ng;
@@ -56,7 +57,8 @@ static inline void surface_turn_frame(const struct world *w, struct vec2 grain,
     struct vec3 along_u, along_v, d;
     float length;
 
-    if (!v->has_uv || !uv_tangents(w, w->uvs, t, &along_u, &along_v)) {
+    if (!v->has_uv ||
+        !uv_tangents(w, w->uvs, t, v->instance, &along_u, &along_v)) {
         along_u = v3(v->n.z, 0.0f, -v->n.x);
         along_v = v3_cross(v->n, along_u);
     }
@@ -91,17 +93,21 @@ static inline bool surface_at(const struct world *w, const struct material *m,
                               struct ray r, struct hit h,
                               struct surface_point *v)
 {
-    struct tri t = w->tris[h.tri];
-    struct vec3 p0 = w->positions[t.v[0]];
-    struct vec3 p1 = w->positions[t.v[1]];
-    struct vec3 p2 = w->positions[t.v[2]];
+    uint32_t instance = instance_of(w, h.tri);
+    struct tri t = tri_at(w, h.tri, instance);
+    struct vec3 p0 = position_at(w, t.v[0], instance);
+    struct vec3 p1 = position_at(w, t.v[1], instance);
+    struct vec3 p2 = position_at(w, t.v[2], instance);
     struct vec3 wo = v3_neg(r.d);
 
+    if (instance != NO_INDEX)
+        t.ng = instance_face(w->instances[instance], t.ng, p0, p1, p2);
     if (v3_is_zero(t.ng))
         return false;
     v->is_outside = v3_dot(t.ng, wo) > 0.0f;
     v->ng = v3_scale(t.ng, minus_if(!v->is_outside));
-    v->n = shading_normal(w, t, h, v->ng, wo);
+    v->instance = instance;
+    v->n = shading_normal(w, t, instance, h, v->ng, wo);
     v->p = hit_point_inset(h, p0, p1, p2, &v->p_error);
     v->above = offset_ray_origin(v->p, v->p_error, v->ng);
     v->is_lifted = false;
@@ -117,7 +123,7 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     if (has_vertex_colors(w))
         v->color = vertex_color(w, t, h);
     if (HAS(FEATURE_BUMPS) && v->has_uv && has_bumps(m))
-        v->n = bumped_normal(w, m, t, v->uv, v->n, v->ng, wo);
+        v->n = bumped_normal(w, m, t, instance, v->uv, v->n, v->ng, wo);
     frame_around(v->n, &v->t, &v->b);
     if (HAS(FEATURE_ANISOTROPY) && m->anisotropy > 0.0f)
         surface_turn_frame(w, m->grain, t, v);
@@ -240,18 +246,18 @@ static inline void surface_lift(const struct world *w, uint32_t tri,
                                 struct hit h, struct surface_point *v)
 {
     const float b[3] = {h.b0, h.b1, h.b2};
-    struct tri t = w->tris[tri];
+    struct tri t = tri_at(w, tri, v->instance);
     struct vec3 up = v3(0.0f, 0.0f, 0.0f);
 
     if (t.vn[0] == NO_INDEX)
         return;
     for (uint32_t i = 0; i < 3; i++) {
-        struct vec3 n = w->normals[t.vn[i]];
+        struct vec3 n = normal_at(w, t.vn[i], v->instance);
         float height;
 
         if (v3_dot(n, v->ng) < 0.0f)
             n = v3_neg(n);
-        height = v3_dot(v3_sub(v->p, w->positions[t.v[i]]), n);
+        height = v3_dot(v3_sub(v->p, position_at(w, t.v[i], v->instance)), n);
         up = v3_add(up, v3_scale(n, -b[i] * f_min(height, 0.0f)));
     }
     /* on a flat face the offset is rounding only */

@@ -8,7 +8,7 @@
 #ifndef KERNELS_TEXTURE_H
 #define KERNELS_TEXTURE_H
 
-#include "kernels/vec.h"
+#include "kernels/instance.h"
 
 struct rgba {
     struct vec3 color;
@@ -255,7 +255,7 @@ static inline float opacity_at(const struct world *w, struct material m,
 /* The probability with which a hit stops a ray. */
 static inline float coverage_at(const struct world *w, struct hit h)
 {
-    struct tri t = w->tris[h.tri];
+    struct tri t = tri_at(w, h.tri, instance_of(w, h.tri));
     struct material m = w->materials[t.material];
     float opacity = opacity_at(w, m, t, h);
 

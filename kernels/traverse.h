@@ -23,14 +23,38 @@
 struct slabs {
     struct vec3 o;
     struct vec3 inverse;
+    /* only with FEATURE_INSTANCES */
+    struct vec3 widen; /* of boxes */
+    float nearer;      /* factor of the distance of entry */
 };
 
-static inline struct slabs slabs_of(struct ray r)
+/* Entries of the stack: with instances those of two trees. */
+#define QUERY_STACK ((HAS(FEATURE_INSTANCES) ? 2 : 1) * TRAVERSE_STACK)
+
+static inline struct slabs slabs_of(const struct world *w, struct ray r)
 {
     struct slabs s;
 
     s.o = r.o;
     s.inverse = v3(1.0f / r.d.x, 1.0f / r.d.y, 1.0f / r.d.z);
+    s.widen = v3(0.0f, 0.0f, 0.0f);
+    s.nearer = 1.0f - (has_instances(w) ? INSTANCE_WIDEN : BOX_WIDEN);
+    return s;
+}
+
+/* The slabs of a ray in an instance, or in the triangles outside of meshes. */
+static inline struct slabs slabs_in(const struct world *w, struct ray r,
+                                    uint32_t instance)
+{
+    struct slabs s = slabs_of(w, r);
+
+    if (instance != NO_INDEX) {
+        struct mesh_ray m = instance_ray(w->instances[instance], r);
+
+        s.o = m.o;
+        s.inverse = v3(1.0f / m.d.x, 1.0f / m.d.y, 1.0f / m.d.z);
+        s.widen = m.widen;
+    }
     return s;
 }
 
@@ -57,38 +81,52 @@ static inline float box_entry(struct slabs s, struct vec3 lo, struct vec3 hi,
     float leave = FLOAT_MAX;
 
     COUNT_BOX();
+    if (HAS(FEATURE_INSTANCES)) {
+        lo = v3_sub(lo, s.widen);
+        hi = v3_add(hi, s.widen);
+    }
     slab_axis(lo.x, hi.x, s.o.x, s.inverse.x, &enter, &leave);
     slab_axis(lo.y, hi.y, s.o.y, s.inverse.y, &enter, &leave);
     slab_axis(lo.z, hi.z, s.o.z, s.inverse.z, &enter, &leave);
-    enter *= 1.0f - BOX_WIDEN;
+    enter *= HAS(FEATURE_INSTANCES) ? s.nearer : 1.0f - BOX_WIDEN;
     leave *= 1.0f + BOX_WIDEN;
     return enter <= leave && enter <= t_max ? enter : bits_float(0x7f800000u);
 }
 
-/* Tests the triangles of a leaf. Returns true if one is a nearer hit. */
+/* Tests the triangles of a leaf, where the instance shows them. Returns true if
+ * one is a nearer hit. */
 static inline bool leaf_hit(const struct world *w, struct ray r, struct shear s,
-                            struct node leaf, struct hit *best)
+                            struct node leaf, uint32_t instance,
+                            struct hit *best)
 {
     bool found = false;
 
     for (uint32_t i = 0; i < leaf.count; i++) {
+        struct leaf_tri t = w->leaf_tris[leaf.next + i];
+
         COUNT_TRIANGLE();
-        if (tri_hit(w, r, s, w->leaf_tris[leaf.next + i], best))
+        if (HAS(FEATURE_INSTANCES) && instance != NO_INDEX)
+            t = instance_leaf_tri(w->instances[instance], t);
+        if (tri_hit(w, r, s, t, best))
             found = true;
     }
     return found;
 }
 
-/* Finds the nearest hit up to r.t_max. Returns false if there is none. */
+/* Finds the nearest hit up to r.t_max. Returns false if there is none. With
+ * instances the first tree leads to the trees of meshes. `base` is the depth of
+ * the stack where the ray entered that of a mesh. */
 static inline bool hit_closest(const struct world *w, struct ray r,
                                struct hit *best)
 {
-    struct slabs slabs = slabs_of(r);
+    struct slabs slabs = slabs_of(w, r);
     struct shear shear = shear_of(r);
-    uint32_t stack[TRAVERSE_STACK];
-    float entries[TRAVERSE_STACK];
+    uint32_t stack[QUERY_STACK];
+    float entries[QUERY_STACK];
     uint32_t depth = 0;
     uint32_t at = 0;
+    uint32_t instance = NO_INDEX, base = NO_INDEX;
+    bool is_in_tris = !has_instances(w);
 
     best->t = r.t_max;
     best->b0 = best->b1 = best->b2 = 0.0f;
@@ -125,10 +163,22 @@ static inline bool hit_closest(const struct world *w, struct ray r,
                 at = near;
                 continue;
             }
+        } else if (HAS(FEATURE_INSTANCES) && !is_in_tris) {
+            is_in_tris = true;
+            base = depth;
+            instance = n.next;
+            slabs = slabs_in(w, r, instance);
+            at = n.count;
+            continue;
         } else {
-            leaf_hit(w, r, shear, n, best);
+            leaf_hit(w, r, shear, n, instance, best);
         }
         do {
+            if (HAS(FEATURE_INSTANCES) && depth == base) {
+                is_in_tris = false;
+                base = NO_INDEX;
+                slabs = slabs_of(w, r);
+            }
             if (depth == 0)
                 return best->tri != NO_INDEX;
             depth--;
@@ -151,10 +201,12 @@ static inline void hits_closest(const struct world *w, const struct ray *rays,
  * hit. Children are visited in any order. */
 static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
-    struct slabs slabs = slabs_of(r);
+    struct slabs slabs = slabs_of(w, r);
     struct shear shear = shear_of(r);
-    uint32_t stack[TRAVERSE_STACK];
+    uint32_t stack[QUERY_STACK];
     uint32_t depth = 0;
+    uint32_t instance = NO_INDEX, base = NO_INDEX;
+    bool is_in_tris = !has_instances(w);
     struct hit h;
 
     if (w->settings.tri_count == 0 || !ray_is_finite(r))
@@ -166,9 +218,23 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
         uint32_t at = stack[--depth];
         struct node n = w->nodes[at];
 
+        if (HAS(FEATURE_INSTANCES) && depth < base && base != NO_INDEX) {
+            is_in_tris = false;
+            base = NO_INDEX;
+            slabs = slabs_of(w, r);
+        }
         while (box_entry(slabs, n.lo, n.hi, r.t_max) <= r.t_max) {
+            if (HAS(FEATURE_INSTANCES) && n.count != 0 && !is_in_tris) {
+                is_in_tris = true;
+                base = depth;
+                instance = n.next;
+                slabs = slabs_in(w, r, instance);
+                at = n.count;
+                n = w->nodes[at];
+                continue;
+            }
             if (n.count != 0) {
-                if (leaf_hit(w, r, shear, n, &h))
+                if (leaf_hit(w, r, shear, n, instance, &h))
                     return true;
                 break;
             }

@@ -24,6 +24,12 @@
 #define BOX_PAD   0x1p-20f
 #define BOX_WIDEN (16.0f * FLOAT_EPSILON)
 
+/* Widening of the distances of entry in worlds with instances: the error that
+ * triangle_hit() leaves in a distance, and some more. Sides of meshes are often
+ * sides of their boxes, so that a triangle may seem to be hit before its box.
+ */
+#define INSTANCE_WIDEN (2.0f * T_PRECISION)
+
 /* False if a number of the ray is NaN or infinite, as the sum then is. Such
  * rays hit nothing. */
 static inline bool ray_is_finite(struct ray r)
@@ -48,6 +54,18 @@ static inline bool hit_wins(const struct world *w, struct ray r, struct hit h,
     if (h.t > best->t || (h.t == best->t && h.tri >= best->tri))
         return false;
     return !has_coverage(w) || hit_is_solid(w, r, h);
+}
+
+/* A triangle of a mesh, numbered within the mesh, where an instance shows it.
+ */
+static inline struct leaf_tri instance_leaf_tri(struct instance at,
+                                                struct leaf_tri t)
+{
+    t.p0 = instance_point(at, t.p0);
+    t.p1 = instance_point(at, t.p1);
+    t.p2 = instance_point(at, t.p2);
+    t.tri = at.first_tri + t.tri;
+    return t;
 }
 
 /* Tests one triangle. Returns true if it is a nearer hit. */

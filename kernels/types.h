@@ -160,18 +160,35 @@ struct camera {
 };
 
 /* A node of the binary tree. Nodes are stored depth-first: the left child of
- * node i is node i + 1. */
+ * node i is node i + 1. With instances the first tree is that of instances, and
+ * the trees of meshes follow. */
 struct node {
     struct vec3 lo;
-    uint32_t next; /* inner node: right child; leaf: its first leaf_tri */
+    uint32_t next; /* inner node: right child; leaf: its first leaf_tri, or
+                      the instance: NO_INDEX for triangles outside of meshes */
     struct vec3 hi;
-    uint32_t count; /* triangles of a leaf; 0 for an inner node */
+    uint32_t count; /* inner node: 0; leaf: triangles, or the tree's root */
 };
 
 /* A triangle with its corners, stored in the order of the leaves. */
 struct leaf_tri {
     struct vec3 p0, p1, p2;
     uint32_t tri;
+};
+
+/* A mesh in a place: instance.h. */
+struct instance {
+    struct vec3 rows[3];    /* of the matrix from the mesh to the world */
+    struct vec3 origin;     /* where the origin of the mesh is */
+    struct vec3 inverse[3]; /* rows of the matrix from the world to the mesh */
+    float pad;           /* bound of errors near the instance, in the world */
+    float inverse_error; /* bound of those of the inverse, in the mesh */
+    uint32_t first_tri;  /* number of its first triangle */
+    uint32_t tri_count;
+    uint32_t mesh_tri;  /* index in tris of that of the mesh */
+    uint32_t mesh;      /* number of the mesh */
+    uint32_t material;  /* of all its triangles */
+    uint32_t is_mirror; /* 1: the matrix mirrors */
 };
 
 /*
@@ -355,7 +372,8 @@ struct settings {
                           directional lights */
 
     /* lengths of the world's arrays */
-    uint32_t tri_count;
+    uint32_t tri_count; /* each mesh once */
+    uint32_t instance_count;
     uint32_t position_count;
     uint32_t normal_count;
     uint32_t uv_count;
@@ -384,9 +402,10 @@ struct world {
     GLOBAL const struct vec3 *positions;
     GLOBAL const struct vec3 *normals;
     GLOBAL const struct vec2 *uvs;
-    GLOBAL const struct vec2 *uvs2;   /* second uvs; NULL: none */
-    GLOBAL const struct vec3 *colors; /* of vertices; NULL: none */
-    GLOBAL const struct tri *tris;
+    GLOBAL const struct vec2 *uvs2;          /* second uvs; NULL: none */
+    GLOBAL const struct vec3 *colors;        /* of vertices; NULL: none */
+    GLOBAL const struct tri *tris;           /* those of meshes are the last */
+    GLOBAL const struct instance *instances; /* by first_tri */
     GLOBAL const struct material *materials;
     GLOBAL const struct texture *textures;
     GLOBAL const uint32_t *texels;

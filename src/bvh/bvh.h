@@ -41,7 +41,8 @@ struct bvh_leaves {
 };
 
 /* Builds the tree for queries that test one triangle after the other, with
- * leaf_tris. Without a pool the calling thread builds. */
+ * leaf_tris; with instances the joined trees of struct node. Without a pool the
+ * calling thread builds. */
 bool bvh_build(struct bvh *bvh, const struct world *world, struct pool *pool,
                struct error *err);
 

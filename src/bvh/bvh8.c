@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "bvh/bvh8_collapse.h"
+#include "bvh/instance_trees.h"
 
 /* Alignment to cache lines, and to large pages: misses in the table of pages
  * cost rays through a million triangles 5 %. */
@@ -22,6 +23,11 @@
  * can hold them with others: rooms save 5 to 15 %. Small ones would cost as
  * much by the memory. */
 const struct bvh_leaves bvh8_leaves = {2, 1, 4.0f, BVH8_LEAF_TRIS};
+
+/* Every stand-in has a leaf, so that rays enter only meshes whose box they
+ * meet.
+ */
+static const struct bvh_leaves stand_in_leaves = {0, 0, 1.0f, 1};
 
 /* Node of the wide tree: the binary nodes that are its children, and the index
  * of the node, first block or subtree that each of them becomes. */
@@ -292,11 +298,11 @@ static void *alloc_tree(size_t node_count, size_t block_count)
     return p;
 }
 
-static bool build(struct builder *b, struct pool *pool)
+static bool build(struct builder *b, uint32_t leaf_tris, struct pool *pool)
 {
     struct bvh8 *wide = b->wide;
 
-    if (!bvh8_collapse_init(&b->collapse, b->bvh, pool) ||
+    if (!bvh8_collapse_init(&b->collapse, b->bvh, leaf_tris, pool) ||
         !collapse_all(b, pool))
         return false;
     wide->nodes = alloc_tree(wide->node_count, wide->block_count);
@@ -318,35 +324,77 @@ static void end(struct builder *b)
     bvh8_collapse_free(&b->collapse);
 }
 
-bool bvh8_build(struct bvh8 *wide, const struct world *w, struct pool *pool,
-                struct error *err)
+static bool fail_for(struct bvh8 *wide, const struct world *w,
+                     struct error *err)
+{
+    bvh8_free(wide);
+    return fail(err, "out of memory for the tree of %u triangles",
+                w->settings.tri_count);
+}
+
+static bool build_one(struct bvh8 *wide, const struct world *w,
+                      const struct bvh_leaves *leaves, struct pool *pool,
+                      struct error *err)
 {
     struct bvh bvh = {0};
     struct builder b = {.world = w, .bvh = &bvh, .wide = wide};
     bool ok;
 
-    bvh8_free(wide);
-    if (!bvh_build_nodes(&bvh, w, &bvh8_leaves, pool, err))
+    if (!bvh_build_nodes(&bvh, w, leaves, pool, err))
         return false;
-    ok = bvh.node_count == 0 || build(&b, pool);
+    ok = bvh.node_count == 0 || build(&b, leaves->most, pool);
     end(&b);
     bvh_free(&bvh);
-    if (!ok) {
+    return ok || fail_for(wide, w, err);
+}
+
+static bool build_all(struct bvh8 *wide, const struct instance_trees *t,
+                      struct pool *pool, struct error *err)
+{
+    wide->meshes = alloc_array(t->mesh_count, sizeof *wide->meshes);
+    if (wide->meshes == NULL)
+        return fail_for(wide, &t->stand_ins, err);
+    wide->mesh_count = t->mesh_count;
+    for (uint32_t i = 0; i < t->mesh_count; i++)
+        if (!build_one(&wide->meshes[i], &t->meshes[i], &bvh8_leaves, pool,
+                       err))
+            return false;
+    return build_one(wide, &t->stand_ins, &stand_in_leaves, pool, err);
+}
+
+bool bvh8_build(struct bvh8 *wide, const struct world *w, struct pool *pool,
+                struct error *err)
+{
+    struct instance_trees trees;
+    bool ok;
+
+    bvh8_free(wide);
+    if (w->settings.instance_count == 0)
+        return build_one(wide, w, &bvh8_leaves, pool, err);
+    if (!instance_trees_init(&trees, w, pool))
+        return fail_for(wide, w, err);
+    ok = build_all(wide, &trees, pool, err);
+    instance_trees_free(&trees);
+    if (!ok)
         bvh8_free(wide);
-        return fail(err, "out of memory for the tree of %u triangles",
-                    w->settings.tri_count);
-    }
-    return true;
+    return ok;
 }
 
 uint64_t bvh8_bytes(const struct bvh8 *wide)
 {
-    return wide->node_count * (uint64_t)sizeof *wide->nodes +
-           wide->block_count * (uint64_t)sizeof *wide->blocks;
+    uint64_t sum = wide->node_count * (uint64_t)sizeof *wide->nodes +
+                   wide->block_count * (uint64_t)sizeof *wide->blocks;
+
+    for (uint32_t i = 0; i < wide->mesh_count; i++)
+        sum += bvh8_bytes(&wide->meshes[i]);
+    return sum;
 }
 
 void bvh8_free(struct bvh8 *wide)
 {
+    for (uint32_t i = 0; i < wide->mesh_count; i++)
+        free(wide->meshes[i].nodes);
+    free(wide->meshes);
     free(wide->nodes);
-    *wide = (struct bvh8){NULL, 0, NULL, 0};
+    *wide = (struct bvh8){.nodes = NULL};
 }

@@ -65,6 +65,10 @@ struct bvh8 {
     uint32_t node_count;
     struct tri_block *blocks; /* in the same allocation */
     uint32_t block_count;     /* with the empty one */
+    /* With instances the tree above has the stand-ins of instance_trees.h, one
+     * in a leaf, and these are the trees that they lead to; otherwise NULL. */
+    struct bvh8 *meshes;
+    uint32_t mesh_count;
 };
 
 /* The world of the CPU's ray queries, which get a pointer to its first member.
@@ -82,7 +86,8 @@ extern const struct bvh_leaves bvh8_leaves;
 #define BVH8_BLOCK_COST 0.7f
 
 /* Builds the tree of least expected cost among those with the boxes of the
- * binary tree. Without a pool the calling thread builds. */
+ * binary tree, or with instances such trees of all meshes. Without a pool the
+ * calling thread builds. */
 bool bvh8_build(struct bvh8 *wide, const struct world *world, struct pool *pool,
                 struct error *err);
 uint64_t bvh8_bytes(const struct bvh8 *wide);

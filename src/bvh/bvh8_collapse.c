@@ -35,7 +35,7 @@ static float leaf_cost(const struct bvh8_collapse *f, uint32_t node)
 {
     uint32_t tri_count = f->costs[node].tri_count;
 
-    if (tri_count > BVH8_LEAF_TRIS)
+    if (tri_count > f->leaf_tris)
         return INFINITY;
     return BVH8_BLOCK_COST * area_of(&f->bvh->nodes[node]) *
            (float)bvh8_blocks(tri_count);
@@ -119,14 +119,16 @@ static void cost_above_spans(const struct bvh8_collapse *f, struct span s)
 }
 
 bool bvh8_collapse_init(struct bvh8_collapse *f, const struct bvh *bvh,
-                        struct pool *pool)
+                        uint32_t leaf_tris, struct pool *pool)
 {
     const struct span all = {0, bvh->node_count};
     struct cost_job job = {.collapse = f};
     bool ok;
 
-    *f = (struct bvh8_collapse){bvh, alloc_aligned(bvh->node_count,
-                                                   sizeof *f->costs)};
+    *f =
+        (struct bvh8_collapse){bvh,
+                               alloc_aligned(bvh->node_count, sizeof *f->costs),
+                               leaf_tris};
     ok = f->costs != NULL && find_spans(&job, all);
     if (ok) {
         pool_each(pool, job.span_count, cost_span, &job);

@@ -30,6 +30,7 @@ struct bvh8_cost {
 struct bvh8_collapse {
     const struct bvh *bvh;
     struct bvh8_cost *costs; /* of each node */
+    uint32_t leaf_tris;      /* most triangles of a leaf */
 };
 
 static inline uint32_t bvh8_blocks(uint32_t tri_count)
@@ -37,10 +38,10 @@ static inline uint32_t bvh8_blocks(uint32_t tri_count)
     return (tri_count + BLOCK_TRIS - 1) / BLOCK_TRIS;
 }
 
-/* Computes the costs for a tree with at least one node. Returns false if memory
- * is out. */
+/* Computes the costs for a tree with at least one node, whose leaves may have
+ * so many triangles. Returns false if memory is out. */
 bool bvh8_collapse_init(struct bvh8_collapse *f, const struct bvh *bvh,
-                        struct pool *pool);
+                        uint32_t leaf_tris, struct pool *pool);
 
 /* Returns true if the node is to be a leaf. */
 bool bvh8_collapse_leaf(const struct bvh8_collapse *f, uint32_t node);

@@ -109,9 +109,9 @@ bvh8_enter(const struct bvh8_node *n, const struct bvh8_ray *first,
 
 /* Distance beyond which no child is entered, for a hit at t. Finite, as the
  * boxes of missing children are at infinity. */
-static inline float bvh8_far(float t)
+static inline float bvh8_far(float t, float widen)
 {
-    return f_min(t * WIDEN, FLOAT_MAX);
+    return f_min(t * widen, FLOAT_MAX);
 }
 
 static inline const struct bvh8_node *bvh8_node_at(const struct bvh8_node *root,
@@ -208,18 +208,18 @@ static inline uint32_t bvh8_push_children(const struct bvh8_node *nodes,
 typedef float bvh8_leaf(void *query, const struct tri_block *block,
                         uint32_t more);
 
-/* Visits the leaves that are entered before t_max, nearest first; see
- * bvh8_enter(). Every node is visited at most once, also for invalid rays, as
- * missing children name the empty block. So BVH8_STACK is enough for trees
- * within the depth that bvh.h promises. */
+/* Visits the leaves that are entered before t_max, which is multiplied by
+ * `widen`, nearest first; see bvh8_enter(). Every node is visited at most once,
+ * also for invalid rays, as missing children name the empty block. So
+ * BVH8_STACK is enough for trees within the depth that bvh.h promises. */
 static inline __attribute__((always_inline)) void
 bvh8_walk(const struct bvh8_node *nodes, const struct bvh8_ray *first,
-          const struct bvh8_ray *last, float t_max, bvh8_leaf *leaf,
-          void *query)
+          const struct bvh8_ray *last, float t_max, float widen,
+          bvh8_leaf *leaf, void *query)
 {
     uint64_t stack[BVH8_STACK];
     uint64_t *top = stack;
-    float t_far = bvh8_far(t_max);
+    float t_far = bvh8_far(t_max, widen);
     uint32_t at = 0;
 
     for (;;) {
@@ -236,7 +236,8 @@ bvh8_walk(const struct bvh8_node *nodes, const struct bvh8_ray *first,
             }
         } else {
             t_far =
-                bvh8_far(leaf(query, bvh8_block_at(nodes, at), at & BVH8_MORE));
+                bvh8_far(leaf(query, bvh8_block_at(nodes, at), at & BVH8_MORE),
+                         widen);
         }
         do {
             if (top == stack)
@@ -246,6 +247,48 @@ bvh8_walk(const struct bvh8_node *nodes, const struct bvh8_ray *first,
         at = (uint32_t)*top;
     }
 }
+
+/* Callback of a traversal for any hit. Returns true if the ray is occluded. */
+typedef bool bvh8_any_leaf(void *query, const struct tri_block *block,
+                           uint32_t more);
+
+/* Visits the leaves that are entered before t_max, in any order, until one
+ * occludes the ray. */
+static inline __attribute__((always_inline)) bool
+bvh8_any(const struct bvh8_node *nodes, const struct bvh8_ray *first,
+         const struct bvh8_ray *last, float t_max, float widen,
+         bvh8_any_leaf *leaf, void *query)
+{
+    float t_far = bvh8_far(t_max, widen);
+    uint32_t stack[BVH8_STACK];
+    uint32_t *top = stack;
+    uint32_t at = 0;
+
+    for (;;) {
+        if ((at & BVH8_LEAF) == 0) {
+            const struct bvh8_node *n = bvh8_node_at(nodes, at);
+            f8 enter;
+            uint32_t mask = bvh8_enter(n, first, last, t_far, &enter);
+
+            if (mask != 0) {
+                for (; (mask & (mask - 1)) != 0; mask &= mask - 1) {
+                    *top = n->child[lowest_bit(mask)];
+                    bvh8_prefetch(nodes, *top);
+                    top++;
+                }
+                at = n->child[lowest_bit(mask)];
+                continue;
+            }
+        } else if (leaf(query, bvh8_block_at(nodes, at), at & BVH8_MORE)) {
+            return true;
+        }
+        if (top == stack)
+            return false;
+        at = *--top;
+    }
+}
+
+#include "bvh/bvh8_instances.h"
 
 struct bvh8_query {
     const struct world *world;
@@ -271,8 +314,12 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     struct bvh8_ray ray = bvh8_ray_of(r);
 
     *hit = no_hit(r);
-    if (nodes != NULL && ray_is_finite(r))
-        bvh8_walk(nodes, &ray, &ray, r.t_max, intersect_blocks, &query);
+    if (nodes == NULL || !ray_is_finite(r))
+        return false;
+    if (has_instances(w))
+        instances_closest(w, bvh8_of(w), r, hit);
+    else
+        bvh8_walk(nodes, &ray, &ray, r.t_max, WIDEN, intersect_blocks, &query);
     return hit->tri != NO_INDEX;
 }
 
@@ -326,7 +373,7 @@ static inline bool packet_closest(const struct world *w, const struct ray *rays,
     struct bvh8_ray first, last;
     struct ray_packet g;
 
-    if (nodes == NULL || count < PACKET_MIN)
+    if (nodes == NULL || count < PACKET_MIN || has_instances(w))
         return false;
     packet_begin(&g, w, rays, count, hits);
     if (!packet_is_finite(&g) || !bvh8_bound(&first, &last, 0, &g) ||
@@ -335,7 +382,7 @@ static inline bool packet_closest(const struct world *w, const struct ray *rays,
         return false;
     for (uint32_t i = 0; i < count; i++)
         hits[i] = no_hit(rays[i]);
-    bvh8_walk(nodes, &first, &last, g.t_max, intersect_packet, &g);
+    bvh8_walk(nodes, &first, &last, g.t_max, WIDEN, intersect_packet, &g);
     return true;
 }
 
@@ -350,43 +397,27 @@ static inline void hits_closest(const struct world *w, const struct ray *rays,
         hit_closest(w, rays[i], &hits[i]);
 }
 
+static inline __attribute__((always_inline)) bool
+meets_blocks(void *query, const struct tri_block *block, uint32_t more)
+{
+    struct bvh8_query *q = query;
+
+    return blocks_hit(q->world, &q->ray, block, more, q->hit);
+}
+
 /* hit_any() of kernels/traverse.h. */
 static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
     const struct bvh8_node *nodes = bvh8_of(w)->nodes;
-    struct bvh8_ray ray = bvh8_ray_of(r);
-    struct block_ray block_ray = block_ray_of(r, tri);
-    float t_far = bvh8_far(r.t_max);
     struct hit h = {r.t_max, 0.0f, 0.0f, 0.0f, tri};
-    uint32_t stack[BVH8_STACK];
-    uint32_t *top = stack;
-    uint32_t at = 0;
+    struct bvh8_query query = {w, block_ray_of(r, tri), &h};
+    struct bvh8_ray ray = bvh8_ray_of(r);
 
     if (nodes == NULL || !ray_is_finite(r))
         return false;
-    for (;;) {
-        if ((at & BVH8_LEAF) == 0) {
-            const struct bvh8_node *n = bvh8_node_at(nodes, at);
-            f8 enter;
-            uint32_t mask = bvh8_enter(n, &ray, &ray, t_far, &enter);
-
-            if (mask != 0) {
-                for (; (mask & (mask - 1)) != 0; mask &= mask - 1) {
-                    *top = n->child[lowest_bit(mask)];
-                    bvh8_prefetch(nodes, *top);
-                    top++;
-                }
-                at = n->child[lowest_bit(mask)];
-                continue;
-            }
-        } else if (blocks_hit(w, &block_ray, bvh8_block_at(nodes, at),
-                              at & BVH8_MORE, &h)) {
-            return true;
-        }
-        if (top == stack)
-            return false;
-        at = *--top;
-    }
+    if (has_instances(w))
+        return instances_any(w, bvh8_of(w), r, tri);
+    return bvh8_any(nodes, &ray, &ray, r.t_max, WIDEN, meets_blocks, &query);
 }
 
 #endif

@@ -7,7 +7,7 @@
 #include "base/geometry.h"
 #include "base/text_width.h"
 
-#include "kernels/vec.h"
+#include "kernels/instance.h"
 
 #define MATERIAL_COLS  10
 #define LOBES_COLS     40 /* width of the material's name on its line */
@@ -19,7 +19,9 @@
 /* Returns the name of a triangle's material, or words for none. */
 static const char *material_of(const struct overlay_names *names, uint32_t tri)
 {
-    const char *name = names->materials[names->tris[tri].material];
+    const struct world *w = names->world;
+    const char *name =
+        names->materials[tri_material(w, tri, instance_of(w, tri))];
 
     return *name ? name : "no material";
 }

@@ -24,9 +24,9 @@ struct overlay_text {
     int count;
 };
 
-/* Names of the materials, and the material of each triangle. */
+/* Names of the materials of a world's triangles. */
 struct overlay_names {
-    const struct tri *tris;
+    const struct world *world;
     char *const *materials;
 };
 

@@ -11,14 +11,13 @@
 
 static struct vec3 end_of(const struct world *w, struct ray r, struct hit h)
 {
-    const struct tri *t;
+    struct placed_tri t;
     struct vec3 error;
 
     if (h.tri == NO_INDEX)
         return v3_add(r.o, v3_scale(r.d, SKY_DISTANCE));
-    t = &w->tris[h.tri];
-    return hit_point(h, w->positions[t->v[0]], w->positions[t->v[1]],
-                     w->positions[t->v[2]], &error);
+    t = tri_placed(w, h.tri);
+    return hit_point(h, t.p[0], t.p[1], t.p[2], &error);
 }
 
 static bool is_same(struct vec3 a, struct vec3 b)
@@ -30,7 +29,7 @@ static bool is_same(struct vec3 a, struct vec3 b)
 static enum path_record_way side_of(const struct world *w, struct hit h,
                                     struct vec3 before, struct vec3 after)
 {
-    struct vec3 ng = w->tris[h.tri].ng;
+    struct vec3 ng = tri_placed(w, h.tri).t.ng;
 
     return v3_dot(before, ng) * v3_dot(after, ng) < 0.0f
                ? PATH_RECORD_REFLECTED
@@ -110,7 +109,7 @@ bool path_record_scatter(struct path_record_lobes *l, const struct world *w,
     *l = (struct path_record_lobes){0};
     if (!hit_closest(w, r, &h))
         return false;
-    m = w->materials[w->tris[h.tri].material];
+    m = w->materials[tri_material(w, h.tri, instance_of(w, h.tri))];
     if (!surface_at(w, &m, r, h, &v))
         return false;
     b = bsdf_at(w, &m, &v);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "kernels/instance.h"
 #include "bvh/sah_bins.h"
 #include "light/triangle_cdf.h"
 #include "kernels/vec.h"
@@ -20,10 +21,10 @@ static uint32_t cubes_along(float length, const struct guide_grid *g)
 
 double guide_grid_init(struct guide_grid *g, const struct world *w)
 {
-    struct vec3 lo = w->positions[w->tris[0].v[0]], hi = lo, size;
+    struct vec3 lo = tri_placed(w, 0).p[0], hi = lo, size;
     struct box box;
 
-    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
+    for (uint32_t i = 0; i < all_tri_count(w); i++) {
         struct vec3 p[3];
 
         tri_corners(w, i, p);

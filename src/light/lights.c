@@ -296,7 +296,7 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
         l->tri_lights == NULL || l->point_lights == NULL)
         return fail(err, "out of memory for %u lights",
                     candidate_count + point_count);
-    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
+    for (uint32_t i = 0; i < plain_tri_count(w); i++) {
         struct emitter e;
 
         l->tri_lights[i] = NO_INDEX;
@@ -334,7 +334,7 @@ static uint32_t count_materials(const struct world *w)
 {
     uint32_t count = 0;
 
-    for (uint32_t i = 0; i < w->settings.tri_count; i++)
+    for (uint32_t i = 0; i < plain_tri_count(w); i++)
         if (w->tris[i].material >= count)
             count = w->tris[i].material + 1;
     return count;
@@ -357,7 +357,7 @@ bool lights_build(struct lights *lights, const struct world *w,
              material_count);
         goto out;
     }
-    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
+    for (uint32_t i = 0; i < plain_tri_count(w); i++) {
         uint32_t material = w->tris[i].material;
 
         is_used[material] = material_shines(&w->materials[material]);

@@ -78,6 +78,11 @@ static bool has_lights(const struct world *w, enum photon_source source)
     return has;
 }
 
+static uint32_t material_of(const struct world *w, uint32_t tri)
+{
+    return tri_material(w, tri, instance_of(w, tri));
+}
+
 /* Looks through the triangles only if there is a material that casts. */
 bool photons_possible(const struct world *w, enum photon_source source)
 {
@@ -85,8 +90,10 @@ bool photons_possible(const struct world *w, enum photon_source source)
 
     for (uint32_t i = 0; i < w->settings.material_count && !may; i++)
         may = has_lights(w, source) && photons_cast(&w->materials[i]);
-    for (uint32_t i = 0; may && i < w->settings.tri_count && !found; i++)
+    for (uint32_t i = 0; may && i < plain_tri_count(w) && !found; i++)
         found = photons_cast(&w->materials[w->tris[i].material]);
+    for (uint32_t i = 0; may && i < w->settings.instance_count && !found; i++)
+        found = photons_cast(&w->materials[w->instances[i].material]);
     return found;
 }
 
@@ -129,14 +136,14 @@ static bool find_lists(struct search *s, const struct lights *lights)
     if (!triangle_cdf_init(&s->lights, s->source == PHOTONS_OF_LAMPS
                                            ? lamps
                                            : 2 * w->settings.light_count) ||
-        !triangle_cdf_init(&s->casters, w->settings.tri_count))
+        !triangle_cdf_init(&s->casters, listed_tri_count(w)))
         return false;
     if (s->source == PHOTONS_OF_LAMPS)
         add_lamps(s);
     else
         add_triangles(s, lights);
-    for (uint32_t i = 0; i < w->settings.tri_count; i++)
-        if (photons_cast(&w->materials[w->tris[i].material]))
+    for (uint32_t i = 0; i < listed_tri_count(w); i++)
+        if (photons_cast(&w->materials[material_of(w, i)]))
             triangle_cdf_add(&s->casters, i, tri_area(w, i));
     return true;
 }
@@ -236,10 +243,10 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
     density = leave_light(s, light, to, photon_2d(i, 1, 1), p);
     if (!(density > 0.0f))
         return false;
-    cosine = v3_dot(w->tris[p->aim].ng, p->ray.d);
+    cosine = v3_dot(tri_placed(w, p->aim).t.ng, p->ray.d);
     p->flux = fabsf(p->flux * cosine) / density;
     return !(cosine > 0.0f &&
-             w->materials[w->tris[p->aim].material].kind == MATERIAL_GLASS);
+             w->materials[material_of(w, p->aim)].kind == MATERIAL_GLASS);
 }
 
 /* Reflectance of smooth glass, or 0 for other surfaces. */
@@ -314,7 +321,7 @@ static void photon_follow(const struct search *s, struct photon p, uint32_t i)
         p.ray.t_max = FLOAT_MAX;
         if (!hit_closest(w, p.ray, &h) || (vertex == 1 && h.tri != p.aim))
             return;
-        material = w->tris[h.tri].material;
+        material = material_of(w, h.tri);
         m = photons_material(w->materials[material]);
         if (!surface_at(w, &m, p.ray, h, &v))
             return;
@@ -345,9 +352,10 @@ static void photon_send(void *context, uint32_t i, int worker)
 /* Returns twice the diagonal of the box around the triangles, or more. */
 static float far_away(const struct world *w)
 {
-    float most = 0.0f;
+    float most = has_instances(w) ? 1.7320508f : 0.0f;
 
-    for (uint32_t i = 0; i < w->settings.position_count; i++)
+    for (uint32_t i = 0; !has_instances(w) && i < w->settings.position_count;
+         i++)
         most = f_max(most, v3_length(w->positions[i]));
     return 4.0f * most;
 }

@@ -114,12 +114,12 @@ static struct vec2 probe_2d(uint32_t i, enum decision decision)
 static struct vec3 leave_surface(const struct world *w, struct hit h,
                                  struct vec3 side, struct ray *r)
 {
-    struct vec3 n = w->tris[h.tri].ng, p[3], at, error;
+    struct placed_tri t = tri_placed(w, h.tri);
+    struct vec3 n = t.t.ng, at, error;
 
     if (v3_dot(n, side) < 0.0f)
         n = v3_neg(n);
-    tri_corners(w, h.tri, p);
-    at = hit_point_inset(h, p[0], p[1], p[2], &error);
+    at = hit_point_inset(h, t.p[0], t.p[1], t.p[2], &error);
     r->o = offset_ray_origin(at, error, n);
     r->from = h.tri + 1;
     return n;
@@ -138,7 +138,7 @@ static int panes_to_sky(const struct world *w, struct ray r, struct hit *h)
     for (int i = 0; i <= PANES; i++) {
         if (!hit_closest(w, r, h))
             return i;
-        if (!is_glass(&w->materials[w->tris[h->tri].material]))
+        if (!is_glass(&w->materials[tri_placed(w, h->tri).t.material]))
             return HIDDEN;
         leave_surface(w, *h, r.d, &r);
     }
@@ -380,12 +380,12 @@ static bool search_init(struct search *s)
     s->enclosed = alloc_array(count, sizeof *s->enclosed);
     s->bounces = alloc_array(count, sizeof *s->bounces);
     s->lit = alloc_array(count, sizeof *s->lit);
-    if (!triangle_cdf_init(&s->surfaces, w->settings.tri_count) ||
+    if (!triangle_cdf_init(&s->surfaces, listed_tri_count(w)) ||
         s->probes == NULL || s->points == NULL || s->portals == NULL ||
         s->portal_rays == NULL || s->probe_counts == NULL ||
         s->enclosed == NULL || s->bounces == NULL || s->lit == NULL)
         return false;
-    for (uint32_t i = 0; i < w->settings.tri_count; i++)
+    for (uint32_t i = 0; i < listed_tri_count(w); i++)
         triangle_cdf_add(&s->surfaces, i, tri_area(w, i));
     return true;
 }
@@ -425,7 +425,7 @@ bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
 
 static double color_at(const struct world *w, struct hit h)
 {
-    struct tri t = w->tris[h.tri];
+    struct tri t = tri_at(w, h.tri, instance_of(w, h.tri));
     const struct material *m = &w->materials[t.material];
     struct vec3 c = m->color;
 

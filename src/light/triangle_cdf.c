@@ -4,7 +4,10 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "kernels/vec.h"
+#include "kernels/instance.h"
+
+/* A list of so many takes 200 MB. */
+#define LISTED_MOST (1u << 24)
 
 bool triangle_cdf_init(struct triangle_cdf *l, uint32_t capacity)
 {
@@ -50,10 +53,19 @@ void triangle_cdf_free(struct triangle_cdf *l)
     *l = (struct triangle_cdf){.tris = NULL};
 }
 
+uint32_t listed_tri_count(const struct world *w)
+{
+    uint32_t all = all_tri_count(w);
+
+    return has_instances(w) && all > LISTED_MOST ? LISTED_MOST : all;
+}
+
 void tri_corners(const struct world *w, uint32_t tri, struct vec3 p[3])
 {
+    struct placed_tri placed = tri_placed(w, tri);
+
     for (uint32_t k = 0; k < 3; k++)
-        p[k] = w->positions[w->tris[tri].v[k]];
+        p[k] = placed.p[k];
 }
 
 double tri_area(const struct world *w, uint32_t tri)

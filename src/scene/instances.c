@@ -8,6 +8,13 @@
 #include "base/memory.h"
 #include "scene/scene.h"
 
+/* About 60 MB with their part of the tree. */
+#define COPIED_TRIS 250000
+
+/* Condition number up to which a matrix has an inverse that is good enough for
+ * boxes in floats: with it a box grows by 2^-8 of the mesh at most. */
+#define CONDITION_MOST 65536
+
 /* ---- lists ---- */
 
 static bool out_of_memory(const struct scene *scene, struct error *err)
@@ -20,6 +27,8 @@ bool scene_begin_mesh(struct scene *scene, struct error *err)
     struct scene_instances *s = &scene->instances;
     void *meshes = s->meshes;
 
+    if (s->mesh_count == 0)
+        s->copied_tris = COPIED_TRIS;
     if (!grow_array(&meshes, &s->mesh_capacity, (size_t)s->mesh_count + 1,
                     sizeof *s->meshes))
         return out_of_memory(scene, err);
@@ -71,6 +80,14 @@ void scene_instances_free(struct scene_instances *s)
 /* Counts of what a scene has with all copies. */
 struct totals {
     uint64_t tris, positions, normals;
+};
+
+/* What becomes of a mesh. */
+struct plan {
+    uint64_t use_count;
+    bool is_kept;       /* some instances stay, and use the mesh itself */
+    uint32_t copy_left; /* copies that are not made yet */
+    uint32_t index;     /* of the mesh among those that are kept */
 };
 
 /* A scene's arrays while they are made anew, and how much of them is used. */
@@ -167,18 +184,18 @@ static bool move_vertices(struct scene *s, const struct affine *matrix,
     return is_mirror;
 }
 
-/* Adds the triangles of an instance. The last one of a mesh takes the mesh's
- * own vertices, and the others copies. */
+/* Adds the triangles of an instance. The last copy of a mesh that is not kept
+ * takes the mesh's own vertices. */
 static void flatten_instance(struct flattening *f,
                              const struct scene_instance *instance,
-                             bool is_last)
+                             struct plan *plan)
 {
     const struct scene_mesh *mesh = &f->scene->instances.meshes[instance->mesh];
     uint32_t first_position = mesh->first_position;
     uint32_t first_normal = mesh->first_normal;
     bool is_mirror;
 
-    if (!is_last) {
+    if (--plan->copy_left > 0 || plan->is_kept) {
         first_position = f->position_count;
         first_normal = f->normal_count;
         copy_vertices(f, mesh);
@@ -209,26 +226,142 @@ static void append_others(struct flattening *f)
     }
 }
 
-/* Counts the instances of each mesh, and what the scene has with all copies. */
-static struct totals count_all(const struct scene *scene, uint32_t *uses)
+/* Appends the triangles of the meshes that are kept, and renumbers these. */
+static void append_kept(struct flattening *f, struct plan *plans)
+{
+    struct scene_instances *s = &f->scene->instances;
+    uint32_t kept = 0;
+
+    for (uint32_t i = 0; i < s->mesh_count; i++) {
+        struct scene_mesh mesh = s->meshes[i];
+
+        if (!plans[i].is_kept)
+            continue;
+        append_tris(f, &mesh, 0, mesh.first_position, mesh.first_normal, false);
+        mesh.first_tri = f->tri_count - mesh.tri_count;
+        plans[i].index = kept;
+        s->meshes[kept++] = mesh;
+    }
+    s->mesh_count = kept;
+    for (uint32_t i = 0; i < s->count; i++)
+        s->items[i].mesh = plans[s->items[i].mesh].index;
+}
+
+/* ---- plans ---- */
+
+/* Returns the largest sum of magnitudes in a row. */
+static double row_norm(double m[3][3])
+{
+    double most = 0;
+
+    for (int i = 0; i < 3; i++)
+        most = fmax(most, fabs(m[i][0]) + fabs(m[i][1]) + fabs(m[i][2]));
+    return most;
+}
+
+/* Returns true if the matrix has an inverse that rays can use. */
+static bool is_regular(const struct affine *a)
+{
+    double rows[3][3], linear[3][3];
+    double most = 0, determinant;
+
+    for (int i = 0; i < 9; i++)
+        most = fmax(most, fabs(a->m[i / 3][i % 3]));
+    if (!(most > 1e-100 && most < 1e100))
+        return false;
+    affine_normals(a, rows);
+    for (int i = 0; i < 3; i++)
+        memcpy(linear[i], a->m[i], sizeof linear[i]);
+    determinant = fabs(vec3d_dot(linear[0], rows[0]));
+    /* the transposed inverse is rows / determinant; a factor of 3 bounds the
+     * difference between its norm and that of the inverse */
+    return 3 * row_norm(linear) * row_norm(rows) <=
+           CONDITION_MOST * determinant;
+}
+
+/* Returns true if the triangles of a mesh share a material without emission. */
+static bool may_be_kept(const struct scene *scene,
+                        const struct scene_mesh *mesh)
+{
+    const struct tri *tris = scene->tris + mesh->first_tri;
+    struct vec3 emission;
+
+    if (mesh->tri_count == 0)
+        return false;
+    for (uint32_t i = 1; i < mesh->tri_count; i++)
+        if (tris[i].material != tris[0].material)
+            return false;
+    emission = scene->materials[tris[0].material].emission;
+    return emission.x == 0 && emission.y == 0 && emission.z == 0;
+}
+
+/* Triangles of the copies that a mesh saves, and its index. */
+struct saving {
+    uint64_t tris;
+    uint32_t mesh;
+};
+
+static int compare_savings(const void *a, const void *b)
+{
+    const struct saving *x = a, *y = b;
+
+    if (x->tris != y->tris)
+        return x->tris < y->tris ? -1 : 1;
+    return x->mesh < y->mesh ? -1 : 1;
+}
+
+/* Keeps the meshes that save most. */
+static void choose_kept(const struct scene *scene, struct plan *plans,
+                        struct saving *savings)
+{
+    const struct scene_instances *s = &scene->instances;
+    uint64_t copied = 0;
+    uint32_t count = 0;
+
+    for (uint32_t i = 0; i < s->mesh_count; i++)
+        if (plans[i].use_count > 1 && may_be_kept(scene, &s->meshes[i]))
+            savings[count++] = (struct saving){(plans[i].use_count - 1) *
+                                                   s->meshes[i].tri_count,
+                                               i};
+    qsort(savings, count, sizeof *savings, compare_savings);
+    for (uint32_t i = 0; i < count; i++) {
+        copied += savings[i].tris;
+        plans[savings[i].mesh].is_kept = copied > s->copied_tris;
+    }
+}
+
+static bool is_copied(const struct plan *plans,
+                      const struct scene_instance *instance)
+{
+    return !plans[instance->mesh].is_kept || !is_regular(&instance->matrix);
+}
+
+/* Counts what the scene has with all copies. */
+static struct totals count_all(const struct scene *scene, struct plan *plans)
 {
     const struct scene_instances *s = &scene->instances;
     struct totals all = {scene->tri_count, scene->position_count,
                          scene->normal_count};
 
     for (uint32_t i = 0; i < s->mesh_count; i++)
-        all.tris -= s->meshes[i].tri_count;
+        if (!plans[i].is_kept)
+            all.tris -= s->meshes[i].tri_count;
     for (uint32_t i = 0; i < s->count; i++) {
         const struct scene_mesh *mesh = &s->meshes[s->items[i].mesh];
+        struct plan *plan = &plans[s->items[i].mesh];
 
+        if (!is_copied(plans, &s->items[i]))
+            continue;
         all.tris += mesh->tri_count;
-        if (uses[s->items[i].mesh]++ == 0)
+        if (plan->copy_left++ == 0 && !plan->is_kept)
             continue;
         all.positions += mesh->position_count;
         all.normals += mesh->normal_count;
     }
     return all;
 }
+
+/* ---- the whole ---- */
 
 static bool grow_to(void **array, uint64_t count, size_t size_bytes)
 {
@@ -281,23 +414,17 @@ static void give_arrays(struct flattening *f)
         s->color_count = f->position_count;
 }
 
-bool scene_flatten(struct scene *scene, struct error *err)
+/* Makes the copies, with the plans made. */
+static bool flatten(struct scene *scene, struct plan *plans, struct error *err)
 {
     struct scene_instances *s = &scene->instances;
     struct flattening f = {.scene = scene,
                            .position_count = scene->position_count,
                            .normal_count = scene->normal_count};
-    uint32_t *uses;
-    struct totals all;
+    struct totals all = count_all(scene, plans);
+    uint32_t count = s->count;
 
-    if (s->mesh_count == 0)
-        return true;
-    uses = alloc_array(s->mesh_count, sizeof *uses);
-    if (uses == NULL)
-        return out_of_memory(scene, err);
-    all = count_all(scene, uses);
     if (!grow_all(&f, &all)) {
-        free(uses);
         free(f.tris);
         free(f.faces);
         free(f.objects);
@@ -305,10 +432,33 @@ bool scene_flatten(struct scene *scene, struct error *err)
                     scene->path, (unsigned long long)all.tris);
     }
     append_others(&f);
-    for (uint32_t i = 0; i < s->count; i++)
-        flatten_instance(&f, &s->items[i], --uses[s->items[i].mesh] == 0);
+    s->count = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (is_copied(plans, &s->items[i]))
+            flatten_instance(&f, &s->items[i], &plans[s->items[i].mesh]);
+        else
+            s->items[s->count++] = s->items[i];
+    append_kept(&f, plans);
     give_arrays(&f);
-    free(uses);
-    scene_instances_free(s);
     return true;
+}
+
+bool scene_flatten(struct scene *scene, struct error *err)
+{
+    struct scene_instances *s = &scene->instances;
+    struct plan *plans = alloc_array(s->mesh_count, sizeof *plans);
+    struct saving *savings = alloc_array(s->mesh_count, sizeof *savings);
+    bool ok = plans != NULL && savings != NULL;
+
+    for (uint32_t i = 0; ok && i < s->count; i++)
+        plans[s->items[i].mesh].use_count++;
+    if (ok && s->mesh_count > 0) {
+        choose_kept(scene, plans, savings);
+        ok = flatten(scene, plans, err);
+    } else if (!ok) {
+        out_of_memory(scene, err);
+    }
+    free(plans);
+    free(savings);
+    return ok;
 }

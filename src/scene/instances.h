@@ -8,6 +8,11 @@
  * scene_add_instance() places it. Triangles outside of meshes are seen where
  * they are.
  *
+ * scene_flatten() replaces instances by copies where these take little memory,
+ * since rays through copies take less time. It must copy meshes that shine,
+ * because lights are triangles of the scene, and matrices that hardly have an
+ * inverse.
+ *
  * Units:     file units
  * Ownership: the lists belong to the scene
  * Threads:   one thread while loading
@@ -30,6 +35,8 @@ struct scene_mesh {
     uint32_t first_tri, tri_count;
     uint32_t first_position, position_count;
     uint32_t first_normal, normal_count;
+    /* from scene_finish() on: normalised = (mesh - center) * scale */
+    double lo[3], hi[3], center[3], scale;
 };
 
 struct scene_instance {
@@ -45,6 +52,9 @@ struct scene_instances {
     struct scene_instance *items;
     uint32_t count;
     size_t capacity;
+    /* most triangles that are copied where nothing else asks for copies;
+     * scene_begin_mesh() sets it */
+    uint64_t copied_tris;
 };
 
 /* Begins a mesh: what the reader adds from here on belongs to it. */
@@ -59,9 +69,9 @@ bool scene_add_instance(struct scene *scene, uint32_t mesh,
                         const struct affine *matrix, uint32_t object,
                         struct error *err);
 
-/* Replaces the instances by copies of their meshes, of which the first is the
- * mesh itself, and removes meshes without instances. Called by scene_finish().
- */
+/* Replaces instances by copies of their meshes, removes meshes that have no
+ * other instance, and puts the others behind all other triangles. Called by
+ * scene_finish(). */
 bool scene_flatten(struct scene *scene, struct error *err);
 
 void scene_instances_free(struct scene_instances *instances);

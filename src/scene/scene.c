@@ -7,7 +7,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "kernels/hit.h"
+#include "scene/instance_build.h"
+#include "kernels/instance.h"
 
 /* Fewest triangles that are worth the start of threads, about 0.1 ms. */
 #define POOL_TRIS_MIN 50000
@@ -153,6 +154,26 @@ static void keep_tris(struct scene *scene, const bool *is_usable,
     scene->tri_count = kept;
 }
 
+/* Takes triangles that are dropped out of the ranges of meshes, which are
+ * behind all others. */
+static void shrink_meshes(struct scene *scene, const bool *is_usable)
+{
+    struct scene_mesh *mesh = scene->instances.meshes;
+    struct scene_mesh *end = mesh + scene->instances.mesh_count;
+    uint32_t kept = 0, i = 0;
+
+    for (; mesh < end; mesh++) {
+        uint32_t last = mesh->first_tri + mesh->tri_count;
+
+        for (; i < mesh->first_tri; i++)
+            kept += is_usable[i] ? 1 : 0;
+        mesh->first_tri = kept;
+        for (; i < last; i++)
+            kept += is_usable[i] ? 1 : 0;
+        mesh->tri_count = kept - mesh->first_tri;
+    }
+}
+
 static bool drop_tris(struct scene *scene, struct pool *pool,
                       struct warnings *report,
                       bool (*is_usable)(const struct scene *, struct tri *),
@@ -165,18 +186,29 @@ static bool drop_tris(struct scene *scene, struct pool *pool,
         return fail(err, "%s: out of memory for %" PRIu32 " triangles",
                     scene->path, scene->tri_count);
     pool_each(pool, scene->tri_count / BLOCK_TRIS + 1, test_block, &test);
+    shrink_meshes(scene, test.results);
     keep_tris(scene, test.results, report);
     free(test.results);
     return true;
 }
 
-/* Computes the bounds of the vertices that triangles use. */
-static void find_bounds(struct scene *scene)
+/* Returns the number of triangles outside of meshes. */
+static uint32_t plain_count(const struct scene *scene)
 {
-    double lo[3] = {INFINITY, INFINITY, INFINITY};
-    double hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    return scene->instances.mesh_count > 0
+               ? scene->instances.meshes[0].first_tri
+               : scene->tri_count;
+}
 
-    for (uint32_t i = 0; i < scene->tri_count; i++) {
+/* Computes the bounds of the vertices that triangles use: 0 without any. */
+static void tri_bounds(const struct scene *scene, uint32_t first,
+                       uint32_t count, double lo[3], double hi[3])
+{
+    for (int k = 0; k < 3; k++) {
+        lo[k] = count > 0 ? INFINITY : 0;
+        hi[k] = count > 0 ? -INFINITY : 0;
+    }
+    for (uint32_t i = first; i < first + count; i++) {
         for (int c = 0; c < 3; c++) {
             size_t v = scene->tris[i].v[c];
 
@@ -188,31 +220,41 @@ static void find_bounds(struct scene *scene)
             }
         }
     }
-    for (int k = 0; k < 3; k++) {
-        scene->bounds_lo[k] = scene->tri_count > 0 ? lo[k] : 0;
-        scene->bounds_hi[k] = scene->tri_count > 0 ? hi[k] : 0;
-    }
 }
 
 /* Computes the centre, and the scale that brings the largest extent into [1,
  * 2). Halves are subtracted because full extents may overflow. */
-static void find_scale(struct scene *scene)
+static void find_scale(const double lo[3], const double hi[3], double center[3],
+                       double *scale)
 {
-    double half = 0;
+    double most = 0;
     int exponent;
 
     for (int k = 0; k < 3; k++) {
-        double lo = scene->bounds_lo[k] / 2;
-        double hi = scene->bounds_hi[k] / 2;
+        center[k] = lo[k] / 2 + hi[k] / 2;
+        most = fmax(most, hi[k] / 2 - lo[k] / 2);
+    }
+    *scale = 1;
+    if (most > 0) {
+        frexp(most, &exponent);
+        *scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
+    }
+}
 
-        scene->center[k] = lo + hi;
-        half = fmax(half, hi - lo);
+static void find_bounds(struct scene *scene)
+{
+    uint32_t plain = plain_count(scene);
+
+    tri_bounds(scene, 0, plain, scene->bounds_lo, scene->bounds_hi);
+    for (uint32_t i = 0; i < scene->instances.mesh_count; i++) {
+        struct scene_mesh *m = &scene->instances.meshes[i];
+
+        tri_bounds(scene, m->first_tri, m->tri_count, m->lo, m->hi);
+        find_scale(m->lo, m->hi, m->center, &m->scale);
     }
-    scene->scale = 1;
-    if (half > 0) {
-        frexp(half, &exponent);
-        scene->scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
-    }
+    instances_join_bounds(scene, plain > 0);
+    find_scale(scene->bounds_lo, scene->bounds_hi, scene->center,
+               &scene->scale);
 }
 
 /* Vertices that no triangle uses may be anywhere. */
@@ -223,6 +265,20 @@ static float normalized(double x, double center, double scale)
     return isfinite(y) ? y : 0;
 }
 
+static void normalize_range(struct scene *scene, uint32_t first, uint32_t count,
+                            const double center[3], double scale)
+{
+    for (size_t i = first; i < (size_t)first + count; i++) {
+        const double *p = scene->file_positions + 3 * i;
+
+        scene->positions[i] = (struct vec3){
+            normalized(p[0], center[0], scale),
+            normalized(p[1], center[1], scale),
+            normalized(p[2], center[2], scale),
+        };
+    }
+}
+
 static bool fill_positions(struct scene *scene, struct error *err)
 {
     free(scene->positions);
@@ -231,14 +287,13 @@ static bool fill_positions(struct scene *scene, struct error *err)
     if (scene->positions == NULL)
         return fail(err, "%s: out of memory for %" PRIu32 " vertices",
                     scene->path, scene->position_count);
-    for (size_t i = 0; i < scene->position_count; i++) {
-        const double *p = scene->file_positions + 3 * i;
+    normalize_range(scene, 0, scene->position_count, scene->center,
+                    scene->scale);
+    for (uint32_t i = 0; i < scene->instances.mesh_count; i++) {
+        const struct scene_mesh *m = &scene->instances.meshes[i];
 
-        scene->positions[i] = (struct vec3){
-            normalized(p[0], scene->center[0], scene->scale),
-            normalized(p[1], scene->center[1], scene->scale),
-            normalized(p[2], scene->center[2], scene->scale),
-        };
+        normalize_range(scene, m->first_position, m->position_count, m->center,
+                        m->scale);
     }
     free(scene->file_positions);
     scene->file_positions = NULL;
@@ -251,6 +306,42 @@ uint32_t scene_find_object(const struct scene *scene, const char *name)
         if (strcmp(scene->object_names[i], name) == 0)
             return i;
     return NO_INDEX;
+}
+
+uint32_t scene_tri_total(const struct scene *s)
+{
+    const struct instance *last = s->placed + s->placed_count - 1;
+
+    return s->placed_count > 0 ? last->first_tri + last->tri_count
+                               : s->tri_count;
+}
+
+struct world scene_shape(const struct scene *s)
+{
+    return (struct world){.positions = s->positions,
+                          .tris = s->tris,
+                          .instances = s->placed,
+                          .settings.tri_count = s->tri_count,
+                          .settings.instance_count = s->placed_count};
+}
+
+uint32_t scene_tri_object(const struct scene *s, uint32_t tri)
+{
+    struct world w = scene_shape(s);
+    uint32_t instance = instance_of(&w, tri);
+
+    return instance == NO_INDEX ? s->tri_objects[tri]
+                                : s->placed_objects[instance];
+}
+
+uint32_t scene_tri_index(const struct scene *s, uint32_t tri)
+{
+    struct world w = scene_shape(s);
+    uint32_t instance = instance_of(&w, tri);
+
+    return instance == NO_INDEX ? tri
+                                : s->placed[instance].mesh_tri +
+                                      (tri - s->placed[instance].first_tri);
 }
 
 uint64_t scene_geometry_bytes(const struct scene *s)
@@ -270,10 +361,10 @@ static bool finish(struct scene *scene, struct pool *pool,
     if (!drop_tris(scene, pool, report, file_tri_is_usable, err))
         return false;
     find_bounds(scene);
-    find_scale(scene);
     if (!fill_positions(scene, err))
         return false;
-    return drop_tris(scene, pool, report, tri_gets_normal, err);
+    return drop_tris(scene, pool, report, tri_gets_normal, err) &&
+           instances_build(scene, report, err);
 }
 
 bool scene_finish(struct scene *scene, struct warnings *report,
@@ -306,8 +397,16 @@ static bool is_same_place(const struct scene *a, const struct scene *b)
 
 bool scene_has_same_shape(const struct scene *a, const struct scene *b)
 {
-    if (a->tri_count != b->tri_count || !is_same_place(a, b))
+    if (a->tri_count != b->tri_count || !is_same_place(a, b) ||
+        a->placed_count != b->placed_count)
         return false;
+    for (uint32_t i = 0; i < a->placed_count; i++) {
+        struct instance other = b->placed[i];
+
+        other.material = a->placed[i].material;
+        if (memcmp(&a->placed[i], &other, sizeof other) != 0)
+            return false;
+    }
     for (uint32_t i = 0; i < a->tri_count; i++) {
         if (memcmp(a->tris[i].v, b->tris[i].v, sizeof a->tris[i].v) != 0)
             return false;
@@ -341,6 +440,8 @@ void scene_free(struct scene *scene)
     free(scene->tri_faces);
     free(scene->tri_objects);
     lamps_free(&scene->lamps);
+    free(scene->placed);
+    free(scene->placed_objects);
     free_strings(scene->object_names, scene->object_count);
     for (uint32_t i = 0; i < scene->camera_count; i++)
         free(scene->cameras[i].name);

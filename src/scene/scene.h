@@ -68,8 +68,8 @@ struct scene {
     bool up_is_z; /* axis of the file, as its format and its writer have it */
 
     /* only while loading; freed by scene_finish() */
-    double *file_positions; /* 3 coordinates for each vertex */
-    struct scene_instances instances;
+    double *file_positions;           /* 3 coordinates for each vertex */
+    struct scene_instances instances; /* its meshes stay: the kept ones */
 
     struct vec3 *positions;
     uint32_t position_count;
@@ -82,10 +82,15 @@ struct scene {
     uint32_t color_count;
 
     struct tri *tris;
-    uint32_t *tri_faces;   /* number of the triangle's face, from 0 */
-    uint32_t *tri_objects; /* index into object_names */
-    uint32_t tri_count;
+    uint32_t *tri_faces;    /* number of the triangle's face, from 0 */
+    uint32_t *tri_objects;  /* index into object_names */
+    uint32_t tri_count;     /* each mesh once, behind all others */
     uint32_t dropped_count; /* triangles of the file that were dropped */
+
+    /* from scene_finish() on; see kernels/instance.h */
+    struct instance *placed;
+    uint32_t *placed_objects; /* index into object_names */
+    uint32_t placed_count;
 
     char **object_names; /* 0 is "": faces before the first o line */
     uint32_t object_count;
@@ -128,6 +133,18 @@ bool scene_finish(struct scene *scene, struct warnings *report,
 /* Returns the memory of vertices, normals, texture coordinates and triangles,
  * in bytes. */
 uint64_t scene_geometry_bytes(const struct scene *scene);
+
+/* Returns the number of triangles with those of all instances. */
+uint32_t scene_tri_total(const struct scene *scene);
+
+/* Returns a world with the triangles and instances of a finished scene only. */
+struct world scene_shape(const struct scene *scene);
+
+/* Returns the object of a triangle, by its number. */
+uint32_t scene_tri_object(const struct scene *scene, uint32_t tri);
+
+/* Returns the index of a triangle in `tris`, by its number. */
+uint32_t scene_tri_index(const struct scene *scene, uint32_t tri);
 
 /* Returns the index of the object with this name, or NO_INDEX. */
 uint32_t scene_find_object(const struct scene *scene, const char *name);

@@ -14,6 +14,7 @@
 #include "light/sun_sky.h"
 #include "scene/material_features.h"
 #include "scene/textures.h"
+#include "kernels/instance.h"
 #include "kernels/light.h"
 
 /* Elevation of the camera that frames a scene, its azimuth before a model, of
@@ -37,27 +38,42 @@ static double narrow_angle_rad(const struct view *view)
     return half;
 }
 
+/* Returns how far before the middle of the scene the eye must be to see all
+ * triangles, in normalised units. `up` and `side` are the tangents of half the
+ * fields of view. */
+static double least_distance(const struct scene *scene, const struct axes *axes,
+                             double up, double side)
+{
+    const struct world w = scene_shape(scene);
+    double distance = 0;
+
+    for (uint32_t i = 0; i < all_tri_count(&w); i++) {
+        struct placed_tri t = tri_placed(&w, i);
+
+        for (int k = 0; k < 3; k++) {
+            const double p[3] = {(double)t.p[k].x, (double)t.p[k].y,
+                                 (double)t.p[k].z};
+            double along = vec3d_dot(p, axes->forward);
+            double x = fabs(vec3d_dot(p, axes->right)) / side;
+            double y = fabs(vec3d_dot(p, axes->up)) / up;
+
+            distance = fmax(distance, fmax(x, y) - along);
+        }
+    }
+    return distance;
+}
+
 /* Moves the eye as near as all triangles allow, since a sphere around a model
  * has more room than the model needs. */
 static void come_near(const struct scene *scene, struct view *view)
 {
     double up = tan(angle_rad(view->pose.fovy_deg) / 2) / MODEL_MARGIN;
     double side = up * view->width_px / view->height_px;
-    double distance = 0, reach;
+    double distance, reach;
     struct axes axes;
 
     pose_axes(&view->pose, &axes);
-    for (uint32_t i = 0; i < scene->tri_count; i++) {
-        for (int k = 0; k < 3; k++) {
-            struct vec3 v = scene->positions[scene->tris[i].v[k]];
-            const double p[3] = {(double)v.x, (double)v.y, (double)v.z};
-            double along = vec3d_dot(p, axes.forward);
-            double x = fabs(vec3d_dot(p, axes.right)) / side;
-            double y = fabs(vec3d_dot(p, axes.up)) / up;
-
-            distance = fmax(distance, fmax(x, y) - along);
-        }
-    }
+    distance = least_distance(scene, &axes, up, side);
     reach = pose_reach(&view->pose);
     for (int k = 0; distance > 0 && k < 3; k++)
         view->pose.eye[k] =
@@ -148,6 +164,8 @@ static bool find_used_materials(struct host_world *host,
         return fail(err, "%s: out of memory for its materials", scene->path);
     for (uint32_t i = 0; i < scene->tri_count; i++)
         host->material_is_used[scene->tris[i].material] = true;
+    for (uint32_t i = 0; i < scene->placed_count; i++)
+        host->material_is_used[scene->placed[i].material] = true;
     return true;
 }
 
@@ -186,6 +204,7 @@ bool world_init(struct host_world *host, const struct scene *scene,
     for (int i = 0; i < 256; i++)
         host->linear_of_srgb[i] = (float)color_decoded(i / 255.0);
     host->has_vertex_colors = scene->color_count > 0;
+    host->has_instances = scene->placed_count > 0;
     if (!find_used_materials(host, scene, err) ||
         !copy_materials(host, scene, err) ||
         !textures_load(host, scene, report, err))
@@ -290,6 +309,12 @@ const struct tri *world_tris(const struct host_world *host,
     return host->tris != NULL ? host->tris : scene->tris;
 }
 
+const struct instance *world_instances(const struct host_world *host,
+                                       const struct scene *scene)
+{
+    return host->instances != NULL ? host->instances : scene->placed;
+}
+
 struct world world_arrays(const struct host_world *host,
                           const struct scene *scene)
 {
@@ -300,6 +325,7 @@ struct world world_arrays(const struct host_world *host,
         .uvs2 = scene->uvs2,
         .colors = scene->colors,
         .tris = world_tris(host, scene),
+        .instances = world_instances(host, scene),
         .materials = host->materials,
         .textures = host->textures,
         .texels = host->texels,
@@ -311,6 +337,7 @@ struct world world_arrays(const struct host_world *host,
         .settings =
             {
                 .tri_count = scene->tri_count,
+                .instance_count = scene->placed_count,
                 .position_count = scene->position_count,
                 .normal_count = scene->normal_count,
                 .uv_count = scene->uv_count,
@@ -340,6 +367,8 @@ uint32_t world_features(const struct host_world *host)
         features |= FEATURE_DIRECTIONAL_LIGHTS;
     if (host->has_vertex_colors)
         features |= FEATURE_VERTEX_COLORS;
+    if (host->has_instances)
+        features |= FEATURE_INSTANCES;
     for (uint32_t i = 0; i < host->material_count; i++)
         if (host->material_is_used[i])
             features |= material_features(&host->materials[i], host->textures);
@@ -474,6 +503,7 @@ void world_free(struct host_world *host)
 {
     free(host->sky_path);
     free(host->tris);
+    free(host->instances);
     free(host->assigned);
     free(host->materials);
     free(host->sources);

@@ -55,6 +55,7 @@ struct host_world {
     /* Triangles with the materials of assigned objects, or NULL if no object
      * was assigned a material: then the scene's triangles are used. */
     struct tri *tris;
+    struct instance *instances; /* likewise, with their materials */
     /* for each object the assigned material, or NO_INDEX for that of the file;
      * NULL without tris */
     uint32_t *assigned;
@@ -63,6 +64,7 @@ struct host_world {
     struct mtl_source *sources; /* statements of the materials */
     bool *material_is_used;     /* true if a triangle uses the material */
     bool has_vertex_colors;
+    bool has_instances;
     uint32_t material_count; /* materials of the scene and of edits */
 
     struct texture *textures; /* textures of the scene, with texels */
@@ -147,6 +149,10 @@ struct material world_material(const struct scene *scene, struct material m);
 /* Returns the triangles with the materials that are rendered. */
 const struct tri *world_tris(const struct host_world *host,
                              const struct scene *scene);
+
+/* Returns the instances with the materials that are rendered. */
+const struct instance *world_instances(const struct host_world *host,
+                                       const struct scene *scene);
 
 /* Returns a world with the arrays and counts that do not depend on the view. */
 struct world world_arrays(const struct host_world *host,

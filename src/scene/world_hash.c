@@ -13,6 +13,7 @@ static const enum film_part film_parts[WORLD_LIST_COUNT] = {
     [WORLD_LIST_uvs2] = FILM_GEOMETRY,
     [WORLD_LIST_colors] = FILM_GEOMETRY,
     [WORLD_LIST_tris] = FILM_GEOMETRY,
+    [WORLD_LIST_instances] = FILM_GEOMETRY,
     [WORLD_LIST_materials] = FILM_MATERIALS,
     [WORLD_LIST_textures] = FILM_TEXTURES,
     [WORLD_LIST_texels] = FILM_TEXTURES,

@@ -23,6 +23,7 @@
     X(uvs2, s->uv2_count, WORLD_FIXED)                                  \
     X(colors, s->color_count, WORLD_FIXED)                              \
     X(tris, s->tri_count, WORLD_TRIS)                                   \
+    X(instances, s->instance_count, WORLD_TRIS)                         \
     X(materials, s->material_count, WORLD_MATERIALS)                    \
     X(textures, s->texture_count, WORLD_TEXTURES)                       \
     X(texels, s->texel_count, WORLD_TEXELS)                             \

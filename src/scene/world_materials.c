@@ -10,6 +10,7 @@
 /* New arrays to be swapped in. NULL keeps the world's array. */
 struct new_arrays {
     struct tri *tris;
+    struct instance *instances;
     uint32_t *assigned;
     struct material *materials;
     struct mtl_source *sources;
@@ -66,15 +67,23 @@ static bool make_tris(struct material_change *c)
     if (!needs_tris(c->host, scene, c->assigned))
         return true;
     next->tris = copy_array(scene->tris, scene->tri_count, sizeof *next->tris);
+    next->instances =
+        copy_array(scene->placed, scene->placed_count, sizeof *next->instances);
     next->assigned =
         copy_array(c->assigned, scene->object_count, sizeof *next->assigned);
-    if (next->tris == NULL || next->assigned == NULL)
+    if (next->tris == NULL || next->instances == NULL || next->assigned == NULL)
         return false;
     for (uint32_t i = 0; i < scene->tri_count; i++) {
         uint32_t assigned = next->assigned[scene->tri_objects[i]];
 
         if (assigned != NO_INDEX)
             next->tris[i].material = assigned;
+    }
+    for (uint32_t i = 0; i < scene->placed_count; i++) {
+        uint32_t assigned = next->assigned[scene->placed_objects[i]];
+
+        if (assigned != NO_INDEX)
+            next->instances[i].material = assigned;
     }
     return true;
 }
@@ -88,9 +97,12 @@ static bool *find_used(const struct material_change *c)
     if (is_used != NULL && c->next.tris == NULL)
         memcpy(is_used, c->host->material_is_used,
                c->host->material_count * sizeof *is_used);
-    else if (is_used != NULL)
+    else if (is_used != NULL) {
         for (uint32_t i = 0; i < c->scene->tri_count; i++)
             is_used[c->next.tris[i].material] = true;
+        for (uint32_t i = 0; i < c->scene->placed_count; i++)
+            is_used[c->next.instances[i].material] = true;
+    }
     return is_used;
 }
 
@@ -173,6 +185,7 @@ static bool any_differs(const struct material_change *c,
     const struct host_world *host = c->host;
     const struct new_arrays *next = &c->next;
     const struct tri *tris = world_tris(host, c->scene);
+    const struct instance *instances = world_instances(host, c->scene);
 
     for (uint32_t i = 0; i < host->material_count; i++)
         if (host->material_is_used[i] &&
@@ -181,6 +194,10 @@ static bool any_differs(const struct material_change *c,
     for (uint32_t i = 0; next->tris != NULL && i < c->scene->tri_count; i++)
         if (differ(&host->materials[tris[i].material],
                    &next->materials[next->tris[i].material]))
+            return true;
+    for (uint32_t i = 0; next->tris != NULL && i < c->scene->placed_count; i++)
+        if (differ(&host->materials[instances[i].material],
+                   &next->materials[next->instances[i].material]))
             return true;
     return false;
 }
@@ -191,8 +208,10 @@ static struct world next_arrays(const struct material_change *c)
 
     arrays.materials = c->next.materials;
     arrays.settings.material_count = c->count;
-    if (c->next.tris != NULL)
+    if (c->next.tris != NULL) {
         arrays.tris = c->next.tris;
+        arrays.instances = c->next.instances;
+    }
     if (c->next.textures != NULL)
         arrays.textures = c->next.textures;
     return arrays;
@@ -232,6 +251,8 @@ static void swap_in(struct material_change *c)
     if (next->tris != NULL) {
         free(host->tris);
         host->tris = next->tris;
+        free(host->instances);
+        host->instances = next->instances;
         free(host->assigned);
         host->assigned = next->assigned;
         world_renew(host, WORLD_TRIS);
@@ -254,6 +275,7 @@ static void free_arrays(struct new_arrays *next)
     free(next->sources);
     free(next->material_is_used);
     free(next->tris);
+    free(next->instances);
     free(next->assigned);
     free(next->textures);
     lights_free(&next->lights);

@@ -102,7 +102,8 @@ static uint32_t unused_materials(const struct host_world *host)
 static void write_scene(FILE *to, const struct scene *scene,
                         const struct host_world *host)
 {
-    write_number(to, "triangles", scene->tri_count);
+    write_number(to, "triangles", scene_tri_total(scene));
+    write_number(to, "instances", scene->placed_count);
     write_number(to, "dropped_triangles", scene->dropped_count);
     write_number(to, "materials", scene->material_count - 1);
     write_number(to, "unused_materials", unused_materials(host));

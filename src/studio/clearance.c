@@ -85,7 +85,7 @@ static void trace_around(struct clearance *c, const struct scene *scene,
         if (!trace(scene, host, ray, &hit))
             continue;
         hits++;
-        within += scene->tri_objects[hit.tri] == c->passed ? 1 : 0;
+        within += scene_tri_object(scene, hit.tri) == c->passed ? 1 : 0;
         insert(nearest, NEAR_RAY + 1, (double)hit.t / scene->scale);
     }
     c->near = nearest[NEAR_RAY];
@@ -108,7 +108,7 @@ static uint32_t object_between(const struct scene *scene,
     struct ray ray = {.o = o,
                       .d = v3_scale(way, 1.0f / length),
                       .t_max = length};
-    return trace(scene, host, ray, &hit) ? scene->tri_objects[hit.tri]
+    return trace(scene, host, ray, &hit) ? scene_tri_object(scene, hit.tri)
                                          : NO_INDEX;
 }
 

@@ -61,8 +61,8 @@ void inspector_close_table(struct inspector *inspector)
 void inspector_open_table(struct inspector *inspector)
 {
     const struct session *s = session_of(inspector);
-    const struct overlay_names names = {world_tris(&s->world, &s->scene),
-                                        s->edit.names};
+    const struct world world = world_arrays(&s->world, &s->scene);
+    const struct overlay_names names = {&world, s->edit.names};
     const char *lines[OVERLAY_TEXT_LINES];
     struct overlay_text legend;
     char title[TEXT_BYTES];

@@ -5,6 +5,7 @@
 
 #include "kernels/camera.h"
 #include "kernels/hit.h"
+#include "kernels/instance.h"
 #include "kernels/texture.h"
 
 /* Least opacity that counts as opaque. */
@@ -18,12 +19,11 @@ static bool closest_hit(const struct world *w, struct ray ray, struct hit *best)
 
     best->t = ray.t_max;
     best->tri = NO_INDEX;
-    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
-        const uint32_t *v = w->tris[i].v;
+    for (uint32_t i = 0; i < all_tri_count(w); i++) {
+        struct placed_tri t = tri_placed(w, i);
         struct hit h = {.tri = i};
 
-        if (triangle_hit(ray, shear, w->positions[v[0]], w->positions[v[1]],
-                         w->positions[v[2]], best->t, &h) &&
+        if (triangle_hit(ray, shear, t.p[0], t.p[1], t.p[2], best->t, &h) &&
             h.t < best->t && coverage_at(w, h) >= SOLID)
             *best = h;
     }
@@ -32,11 +32,10 @@ static bool closest_hit(const struct world *w, struct ray ray, struct hit *best)
 
 static struct vec3 point_of(const struct world *w, struct hit h)
 {
-    const uint32_t *v = w->tris[h.tri].v;
+    struct placed_tri t = tri_placed(w, h.tri);
     struct vec3 error;
 
-    return hit_point(h, w->positions[v[0]], w->positions[v[1]],
-                     w->positions[v[2]], &error);
+    return hit_point(h, t.p[0], t.p[1], t.p[2], &error);
 }
 
 static void file_point(const struct scene *scene, struct vec3 p,
@@ -67,32 +66,53 @@ bool pick_at(const struct scene *scene, const struct host_world *host,
         return false;
     *pick = (struct pick){
         .tri = hit.tri,
-        .face = scene->tri_faces[hit.tri],
-        .object = scene->tri_objects[hit.tri],
-        .material = world.tris[hit.tri].material,
+        .face = scene->tri_faces[scene_tri_index(scene, hit.tri)],
+        .object = scene_tri_object(scene, hit.tri),
+        .material = tri_placed(&world, hit.tri).t.material,
         .distance = hit.t / scene->scale,
     };
     file_point(scene, point_of(&world, hit), pick->position);
     return true;
 }
 
+/* Joins a box, which is empty until *has_points is true, with the corners of a
+ * triangle. */
+static void join_tri(const struct scene *scene, const struct placed_tri *t,
+                     double lo[3], double hi[3], bool *has_points)
+{
+    for (int c = 0; c < 3; c++) {
+        double point[3];
+
+        file_point(scene, t->p[c], point);
+        for (int k = 0; k < 3; k++) {
+            lo[k] = *has_points ? fmin(lo[k], point[k]) : point[k];
+            hi[k] = *has_points ? fmax(hi[k], point[k]) : point[k];
+        }
+        *has_points = true;
+    }
+}
+
 void pick_bounds(const struct scene *scene, uint32_t object, double lo[3],
                  double hi[3])
 {
-    bool is_first = true;
+    const struct world w = scene_shape(scene);
+    bool has_points = false;
 
-    for (uint32_t i = 0; i < scene->tri_count; i++) {
-        for (int c = 0; c < 3 && scene->tri_objects[i] == object; c++) {
-            double point[3];
+    for (uint32_t i = 0; i < plain_tri_count(&w); i++)
+        if (scene->tri_objects[i] == object) {
+            struct placed_tri t = tri_placed(&w, i);
 
-            file_point(scene, scene->positions[scene->tris[i].v[c]], point);
-            for (int k = 0; k < 3; k++) {
-                lo[k] = is_first ? point[k] : fmin(lo[k], point[k]);
-                hi[k] = is_first ? point[k] : fmax(hi[k], point[k]);
-            }
-            is_first = false;
+            join_tri(scene, &t, lo, hi, &has_points);
         }
-    }
+    for (uint32_t i = 0; i < scene->placed_count; i++)
+        for (uint32_t k = 0; scene->placed_objects[i] == object &&
+                             k < scene->placed[i].tri_count;
+             k++) {
+            struct placed_tri t =
+                tri_placed(&w, scene->placed[i].first_tri + k);
+
+            join_tri(scene, &t, lo, hi, &has_points);
+        }
 }
 
 bool pick_point_of_cell(const struct cells_rect *fit, int width_px,

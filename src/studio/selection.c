@@ -15,7 +15,11 @@ static void find_first_tris(struct selection *s)
     s->first_tris = xcalloc(scene->object_count + 1, sizeof *s->first_tris);
     for (uint32_t i = 0; i < scene->object_count; i++)
         s->first_tris[i] = NO_INDEX;
-    for (uint32_t i = scene->tri_count; i-- > 0;)
+    for (uint32_t i = scene->placed_count; i-- > 0;)
+        s->first_tris[scene->placed_objects[i]] = scene->placed[i].mesh_tri;
+    for (uint32_t i = scene->placed_count > 0 ? scene->placed[0].first_tri
+                                              : scene->tri_count;
+         i-- > 0;)
         s->first_tris[scene->tri_objects[i]] = i;
 }
 

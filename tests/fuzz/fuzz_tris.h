@@ -47,6 +47,27 @@ static inline void fuzz_check_tris(const struct scene *scene)
     }
 }
 
+static inline void fuzz_check_instances(const struct scene *scene)
+{
+    for (uint32_t i = 0; i < scene->placed_count; i++) {
+        const struct instance *at = &scene->placed[i];
+
+        require(at->material < scene->material_count, "a material");
+        require(scene->placed_objects[i] < scene->object_count, "an object");
+        require(at->tri_count > 0 && at->mesh_tri < scene->tri_count &&
+                    at->tri_count <= scene->tri_count - at->mesh_tri,
+                "triangles of a mesh");
+        require(at->first_tri == (i == 0 ? at[0].first_tri
+                                         : at[-1].first_tri + at[-1].tri_count),
+                "numbers");
+        for (int k = 0; k < 3; k++)
+            require(fuzz_is_finite(at->rows[k]) &&
+                        fuzz_is_finite(at->inverse[k]),
+                    "a matrix");
+        require(fuzz_is_finite(at->origin), "a place");
+    }
+}
+
 /* Parses bytes as a file of this name: they give a scene that can be rendered,
  * or one line. */
 static inline void fuzz_check_scene(scene_parse *parse, const char *path,
@@ -57,9 +78,10 @@ static inline void fuzz_check_scene(scene_parse *parse, const char *path,
     struct error err = {""};
 
     if (parse(&scene, (const char *)data, size, path, &report, &err) &&
-        scene_finish(&scene, &report, &err))
+        scene_finish(&scene, &report, &err)) {
         fuzz_check_tris(&scene);
-    else
+        fuzz_check_instances(&scene);
+    } else
         fuzz_check_message(err.text);
     fuzz_check_report(&report);
     warnings_free(&report);

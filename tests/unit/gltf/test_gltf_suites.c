@@ -152,7 +152,7 @@ static void check_scene(const struct scene *s, const json_t *file)
 
     /* triangles without area are dropped, and counted by the readers */
     assert_non_null(count);
-    assert_int_equal(s->tri_count + s->dropped_count,
+    assert_int_equal(scene_tri_total(s) + s->dropped_count,
                      json_integer_value(count));
     check_box(s, file);
     check_view(s, file);

@@ -12,7 +12,8 @@
 static char none[] = "", red_paint[] = "red paint";
 static char *materials[] = {none, red_paint};
 static struct tri tris[] = {{.material = 0}, {.material = 1}};
-static const struct overlay_names names = {tris, materials};
+static const struct world world = {.tris = tris};
+static const struct overlay_names names = {&world, materials};
 static const struct scene scene = {.scale = 0.25, .center = {1, 2, 3}};
 
 static void paths_show_their_last_steps(void **state)

@@ -52,6 +52,10 @@
     S(camera) M(camera, eye) M(camera, width) M(camera, forward)              \
       M(camera, height) M(camera, right) M(camera, lens_radius)               \
       M(camera, up) M(camera, focus) M(camera, left) M(camera, top)           \
+    S(instance) M(instance, rows) M(instance, origin) M(instance, inverse)    \
+      M(instance, pad) M(instance, inverse_error) M(instance, first_tri)      \
+      M(instance, tri_count) M(instance, mesh_tri) M(instance, mesh)          \
+      M(instance, material) M(instance, is_mirror)                            \
     S(node) M(node, lo) M(node, next) M(node, hi) M(node, count)              \
     S(leaf_tri) M(leaf_tri, p0) M(leaf_tri, p1) M(leaf_tri, p2)               \
       M(leaf_tri, tri)                                                        \
@@ -81,7 +85,8 @@
       M(settings, sky_power) M(settings, point_light_count)                   \
       M(settings, sphere_count) M(settings, directional_light_count)          \
       M(settings, profile_value_count)                                        \
-      M(settings, tri_count) M(settings, position_count)                      \
+      M(settings, tri_count) M(settings, instance_count)                      \
+      M(settings, position_count)                                             \
       M(settings, normal_count) M(settings, uv_count)                         \
       M(settings, uv2_count) M(settings, color_count)                         \
       M(settings, material_count) M(settings, texture_count)                  \

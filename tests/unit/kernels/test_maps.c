@@ -508,8 +508,8 @@ static struct vec3 bumped(const struct loaded *l, float u, float v,
 {
     struct uv_pair uv = {{u, v}, {u, v}};
 
-    return bumped_normal(&l->world, &l->material, l->scene.tris[0], uv, up, up,
-                         wo);
+    return bumped_normal(&l->world, &l->material, l->scene.tris[0], NO_INDEX,
+                         uv, up, up, wo);
 }
 
 static void check_direction(struct vec3 n, double x, double y, double z)

@@ -89,6 +89,7 @@ static void instances_place_their_mesh(void **state)
 
     (void)state;
     instanced_parse(&s, "", faces);
+    s.instances.copied_tris = 1000;
     assert_int_equal(s.instances.mesh_count, 2);
     for (int i = 0; i < PLACES; i++) {
         at[i] = random_affine(&seed, 1, i % 2 == 0);
@@ -121,6 +122,7 @@ static void matrices_may_be_singular(void **state)
 
     (void)state;
     instanced_parse(&s, "", faces);
+    s.instances.copied_tris = 1000;
     instanced_place(&s, 0, &flat);
     instanced_place(&s, 0, &nowhere);
     check_or_say(scene_finish(&s, &report, &err), err.text);
@@ -140,6 +142,7 @@ static void too_many_triangles_are_an_error(void **state)
 
     (void)state;
     instanced_parse(&s, "", faces);
+    s.instances.copied_tris = 1000;
     s.instances.meshes[0].tri_count = 1u << 31; /* not read */
     for (int i = 0; i < 3; i++)
         instanced_place(&s, 0, &same);

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "bvh/instance_trees.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "kernels/instance.h"
+
+struct bounds {
+    struct vec3 lo, hi;
+};
+
+struct bounds_job {
+    const struct instance_trees *trees;
+    struct bounds *bounds;
+};
+
+static void find_bounds(void *context, uint32_t mesh, int worker)
+{
+    const struct bounds_job *job = context;
+    const struct world *w = &job->trees->meshes[mesh];
+    struct bounds b = {{FLT_MAX, FLT_MAX, FLT_MAX},
+                       {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
+
+    (void)worker;
+    for (uint32_t i = 0; i < w->settings.tri_count; i++)
+        for (int k = 0; k < 3; k++) {
+            struct vec3 p = w->positions[w->tris[i].v[k]];
+
+            b.lo = v3_min(b.lo, p);
+            b.hi = v3_max(b.hi, p);
+        }
+    job->bounds[mesh] = b;
+}
+
+/* Sets the coordinates of a stand-in's box along an axis. Half an ulp of the
+ * moved corners is within BOX_PAD. */
+static void set_slab(float *lo, float *hi, const struct instance *at, int axis,
+                     const struct bounds *b)
+{
+    const struct vec3 *row = &at->rows[axis];
+    const double m[3] = {(double)row->x, (double)row->y, (double)row->z};
+    const float *low = &b->lo.x, *high = &b->hi.x;
+    double from = (double)(&at->origin.x)[axis], to = from;
+
+    for (int k = 0; k < 3; k++) {
+        from += fmin(m[k] * (double)low[k], m[k] * (double)high[k]);
+        to += fmax(m[k] * (double)low[k], m[k] * (double)high[k]);
+    }
+    *lo = (float)from;
+    *hi = (float)to;
+}
+
+static void add_stand_in(struct instance_trees *t, struct bounds box)
+{
+    uint32_t i = t->stand_ins.settings.tri_count++;
+
+    t->corners[2 * i] = box.lo;
+    t->corners[2 * i + 1] = box.hi;
+    t->tris[i].v[0] = t->tris[i].v[2] = 2 * i;
+    t->tris[i].v[1] = 2 * i + 1;
+}
+
+static void add_stand_ins(struct instance_trees *t, const struct world *w,
+                          const struct bounds *bounds)
+{
+    for (uint32_t i = 0; i < w->settings.instance_count; i++) {
+        const struct instance *at = &w->instances[i];
+        struct bounds box;
+
+        for (int axis = 0; axis < 3; axis++)
+            set_slab(&box.lo.x + axis, &box.hi.x + axis, at, axis,
+                     &bounds[at->mesh]);
+        add_stand_in(t, box);
+    }
+    if (plain_tri_count(w) > 0)
+        add_stand_in(t, bounds[t->mesh_count - 1]);
+}
+
+static bool set_meshes(struct instance_trees *t, const struct world *w)
+{
+    for (uint32_t i = 0; i < w->settings.instance_count; i++)
+        if (w->instances[i].mesh >= t->mesh_count)
+            t->mesh_count = w->instances[i].mesh + 1;
+    t->mesh_count++;
+    t->meshes = alloc_array(t->mesh_count, sizeof *t->meshes);
+    if (t->meshes == NULL)
+        return false;
+    for (uint32_t i = 0; i < w->settings.instance_count; i++) {
+        const struct instance *at = &w->instances[i];
+        struct world *mesh = &t->meshes[at->mesh];
+
+        *mesh = *w;
+        mesh->tris += at->mesh_tri;
+        mesh->settings.tri_count = at->tri_count;
+        mesh->settings.instance_count = 0;
+    }
+    t->meshes[t->mesh_count - 1] = *w;
+    t->meshes[t->mesh_count - 1].settings.tri_count = plain_tri_count(w);
+    t->meshes[t->mesh_count - 1].settings.instance_count = 0;
+    return true;
+}
+
+bool instance_trees_init(struct instance_trees *t, const struct world *w,
+                         struct pool *pool)
+{
+    size_t count = (size_t)w->settings.instance_count + 1;
+    struct bounds *bounds;
+
+    *t = (struct instance_trees){.mesh_count = 0};
+    if (!set_meshes(t, w))
+        return false;
+    t->tris = alloc_array(count, sizeof *t->tris);
+    t->corners = alloc_array(2 * count, sizeof *t->corners);
+    t->stand_ins = (struct world){.tris = t->tris, .positions = t->corners};
+    bounds = alloc_array(t->mesh_count, sizeof *bounds);
+    if (t->tris != NULL && t->corners != NULL && bounds != NULL) {
+        pool_each(pool, t->mesh_count, find_bounds,
+                  &(struct bounds_job){t, bounds});
+        add_stand_ins(t, w, bounds);
+        free(bounds);
+        return true;
+    }
+    free(bounds);
+    instance_trees_free(t);
+    return false;
+}
+
+void instance_trees_free(struct instance_trees *t)
+{
+    free(t->meshes);
+    free(t->tris);
+    free(t->corners);
+    *t = (struct instance_trees){.meshes = NULL};
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+/*
+ * instance_trees.h - the worlds from which the trees of a world with instances
+ * are built: one of each mesh, one of the triangles outside of meshes, and one
+ * of stand-ins
+ *
+ * A stand-in is a triangle with the box of an instance. Its number is that of
+ * the instance. The last one stands for the triangles outside of meshes, if
+ * there are any.
+ *
+ * Units:     normalised scene units
+ * Ownership: instance_trees_free() frees; a zeroed struct has no trees. The
+ *            arrays of the world stay the caller's
+ * Threads:   instance_trees_init() uses those of its pool; read only after
+ * Errors:    memory
+ */
+#ifndef GLIM_INSTANCE_TREES_H
+#define GLIM_INSTANCE_TREES_H
+
+#include <stdbool.h>
+
+#include "base/thread_pool.h"
+#include "kernels/types.h"
+
+struct instance_trees {
+    struct world stand_ins;
+    struct world *meshes; /* the last one has the other triangles */
+    uint32_t mesh_count;
+    struct tri *tris;
+    struct vec3 *corners;
+};
+
+/* Prepares for a world with instances. Returns false if memory is out. */
+bool instance_trees_init(struct instance_trees *t, const struct world *world,
+                         struct pool *pool);
+
+void instance_trees_free(struct instance_trees *t);
+
+#endif
