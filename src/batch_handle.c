@@ -40,6 +40,7 @@ struct glim *batch_handle_open(const struct options *o, struct error *err)
         .camera = o->camera,
         .scene = o->choice.scene,
         .animation = o->choice.animation,
+        .variant = o->choice.variant,
         .has_anim_time = o->choice.has_time,
         .anim_time_s = o->choice.time_s,
         .view_lines = o->view_lines,

@@ -134,6 +134,7 @@ struct glim_open_options {
      * the file's default and the first one */
     const char *scene;
     const char *animation;
+    const char *variant; /* of its materials; NULL means none */
     /* pose as the animation has it after anim_time_s seconds; without both, the
      * file is at rest */
     bool has_anim_time;

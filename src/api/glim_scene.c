@@ -94,6 +94,7 @@ static bool open_all(struct glim *g, const char *path,
                                 .camera = o->camera,
                                 .choice = {.scene = o->scene,
                                            .animation = o->animation,
+                                           .variant = o->variant,
                                            .has_time = o->has_anim_time,
                                            .time_s = o->anim_time_s},
                                 .view_lines = o->view_lines};

@@ -26,6 +26,7 @@ struct builder {
     struct warnings *report;
     struct error *err;
     struct pool *pool;
+    uint32_t variant;  /* of materials, or NO_INDEX */
     struct made *made; /* for each mesh of the document */
     struct name_table objects;
     size_t position_capacity, normal_capacity, color_capacity;
@@ -198,7 +199,8 @@ static bool make(struct builder *b, uint32_t node,
                  const struct gltf_value *weighted, struct made *made)
 {
     const struct gltf_node *n = &b->nodes->items[node];
-    struct gltf_shape shape = {.weights = n->weights,
+    struct gltf_shape shape = {.variant = b->variant,
+                               .weights = n->weights,
                                .weight_count = n->weight_count};
     struct affine *joints = NULL;
     double *weights = NULL;
@@ -301,6 +303,11 @@ static bool begin(struct builder *b)
 {
     size_t count = gltf_entry_count(b->document, "meshes");
 
+    b->variant = NO_INDEX;
+    if (b->scene->choice.variant != NULL &&
+        !gltf_find(b->document, "variants", "variant of materials",
+                   b->scene->choice.variant, &b->variant, b->err))
+        return false;
     /* finishing the scene needs as much again, and its tree too */
     b->memory_bytes = cgroup_quota_memory("").size_bytes / 4;
     b->made = alloc_array(count, sizeof *b->made);

@@ -129,13 +129,50 @@ static bool open_indices(const struct gltf_value *value,
                      a->component_count, component);
 }
 
-static bool read_mode(const struct gltf_value *value, struct gltf_primitive *p,
-                      struct error *err)
+/* Returns true if the mapping of KHR_materials_variants lists the variant. */
+static bool maps_variant(const struct gltf_value *mapping, uint32_t variant,
+                         bool *does, struct error *err)
+{
+    struct gltf_value list;
+    uint32_t number;
+
+    if (!gltf_array(mapping, "variants", &list, err))
+        return false;
+    for (size_t i = 0; i < gltf_count(&list) && !*does; i++) {
+        if (!gltf_item_index(&list, i, "variants", &number, err))
+            return false;
+        *does = number == variant;
+    }
+    return true;
+}
+
+/* Replaces the material by that of the variant, if the primitive has one. */
+static bool read_variant(const struct gltf_value *value, uint32_t variant,
+                         uint32_t *material, struct error *err)
+{
+    struct gltf_value extension, list, mapping;
+    bool does = false;
+
+    if (!gltf_extension(value, "KHR_materials_variants", &extension, err) ||
+        !gltf_array(&extension, "mappings", &list, err))
+        return false;
+    for (size_t i = 0; i < gltf_count(&list) && !does; i++)
+        if (!gltf_item_object(&list, i, &mapping, err) ||
+            !maps_variant(&mapping, variant, &does, err))
+            return false;
+    return !does ||
+           gltf_index(&mapping, "material", "materials", material, err);
+}
+
+static bool read_mode(const struct gltf_value *value, uint32_t variant,
+                      struct gltf_primitive *p, struct error *err)
 {
     uint64_t mode = MODE_TRIANGLES;
 
     if (!gltf_integer(value, "mode", MODE_FAN, &mode, err) ||
-        !gltf_index(value, "material", "materials", &p->material, err))
+        !gltf_index(value, "material", "materials", &p->material, err) ||
+        (variant != NO_INDEX &&
+         !read_variant(value, variant, &p->material, err)))
         return false;
     p->material = p->material == NO_INDEX ? 0 : p->material + 1;
     p->mode = (uint32_t)mode;
@@ -169,7 +206,7 @@ bool gltf_primitive_open(const struct gltf_value *value,
     bool has_positions;
     uint32_t count;
 
-    if (!read_mode(value, p, err) ||
+    if (!read_mode(value, shape->variant, p, err) ||
         !gltf_object(value, "attributes", &attributes, err) ||
         !open_attribute(&attributes, "POSITION", &p->positions, &has_positions,
                         err))

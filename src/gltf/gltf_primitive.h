@@ -38,10 +38,11 @@ struct gltf_primitive {
     uint32_t target_count;
 };
 
-/* What bends the vertices of a mesh. Zeroed: nothing. */
+/* What bends the vertices of a mesh and selects its materials. */
 struct gltf_shape {
     const struct affine *joints; /* matrices from the mesh to the scene */
     uint32_t joint_count;
+    uint32_t variant;      /* of materials; NO_INDEX: none */
     const double *weights; /* of morph targets */
     uint32_t weight_count;
 };

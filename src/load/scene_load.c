@@ -96,10 +96,11 @@ static bool read_file(struct scene *scene, const char *path,
         return false;
     f = scene_format_of(path, bytes, size_bytes);
     scene->has_choices = f->has_choices;
-    if (!f->has_choices && (c->scene || c->animation || c->has_time))
+    if (!f->has_choices &&
+        (c->scene || c->animation || c->variant || c->has_time))
         warnings_add(report, "choices without effect",
-                     "%s: found no scenes or animations, which %s does not "
-                     "have: the options for them have no effect",
+                     "%s: found no scenes, variants or animations, which "
+                     "%s does not have: the options for them have no effect",
                      path, f->name);
     ok = f->parse(scene, bytes, size_bytes, path, report, err);
     free(bytes);

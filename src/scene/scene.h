@@ -41,6 +41,7 @@ struct material_origin {
 struct scene_choice {
     const char *scene;
     const char *animation; /* NULL: the first one */
+    const char *variant;   /* of materials */
     bool has_time;         /* else the pose is that at rest */
     double time_s;         /* of the animation */
 };

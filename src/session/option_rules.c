@@ -44,6 +44,8 @@ static const struct option_rule picture[] = {
      "a numbered view of the view file, or a camera of the scene file"},
     {"scene", OPTION_SCENE_PART, "the number or name of a scene", "N|NAME",
      "one of several scenes of a glTF file (default: the file's own)"},
+    {"variant", OPTION_VARIANT, "the number or name of a variant", "N|NAME",
+     "variant of the materials of a glTF file (default: none)"},
     {"animation", OPTION_ANIMATION, "the number or name of an animation",
      "N|NAME", "animation of a glTF file that poses it (default: 1)"},
     {"anim-time", OPTION_ANIM_TIME, "a time in seconds", "SECONDS",

@@ -464,6 +464,7 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_CAMERA: return given_text(g, &o->camera, err);
     case OPTION_SCENE_PART: return given_text(g, &o->choice.scene, err);
     case OPTION_ANIMATION: return given_text(g, &o->choice.animation, err);
+    case OPTION_VARIANT: return given_text(g, &o->choice.variant, err);
     case OPTION_ANIM_TIME:
         o->choice.has_time = true;
         return set_decimal(g, 0, 1e9, &o->choice.time_s, err);

@@ -91,6 +91,7 @@ bool sub_command_takes(enum sub_command command, enum option_id id)
     case OPTION_FOV:
     case OPTION_CAMERA:
     case OPTION_SCENE_PART:
+    case OPTION_VARIANT:
     case OPTION_ANIMATION:
     case OPTION_ANIM_TIME:
     case OPTION_SKY:
