@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/mtl.h"
+#include "formats/mtl_save.h"
 #include "gltf/gltf_material.h"
 #include "tests/unit/files.h"
 
@@ -405,6 +406,68 @@ static void factors_become_values(void **state)
     unload(&l);
 }
 
+#define TRANSFORMED                                                           \
+    "{\"index\":1,\"texCoord\":1,\"extensions\":{\"KHR_texture_transform\":{" \
+    "\"offset\":[0.1,0.7],\"rotation\":1.3,\"scale\":[2,-3]}}}"
+
+/* A material of all extensions and textures, with a name. */
+static const char all_of_it[] =
+    "{\"name\":\"all of it\",\"alphaMode\":\"MASK\",\"pbrMetallicRoughness\":"
+    "{\"baseColorFactor\":[0.1,0.2,0.3,0.9],\"metallicFactor\":0.3,"
+    "\"baseColorTexture\":" TRANSFORMED ",\"metallicRoughnessTexture\":"
+    "{\"index\":0}},\"normalTexture\":{\"index\":0,\"scale\":0.7},"
+    "\"emissiveFactor\":[1,0.5,0.2],\"emissiveTexture\":" TRANSFORMED
+    ",\"extensions\":{\"KHR_materials_emissive_strength\":{"
+    "\"emissiveStrength\":7},\"KHR_materials_ior\":{\"ior\":2.4},"
+    "\"KHR_materials_specular\":{\"specularFactor\":0.8,"
+    "\"specularColorFactor\":[1,0.5,0.3],\"specularTexture\":" TRANSFORMED
+    ",\"specularColorTexture\":{\"index\":0}},\"KHR_materials_transmission\":"
+    "{\"transmissionFactor\":0.6,\"transmissionTexture\":{\"index\":1}},"
+    "\"KHR_materials_volume\":{\"thicknessFactor\":1,"
+    "\"attenuationDistance\":0.3,\"attenuationColor\":[0.3,0.6,0.9]},"
+    "\"KHR_materials_clearcoat\":{\"clearcoatFactor\":0.4,"
+    "\"clearcoatRoughnessFactor\":0.2,\"clearcoatTexture\":{\"index\":0},"
+    "\"clearcoatRoughnessTexture\":{\"index\":1}},\"KHR_materials_sheen\":{"
+    "\"sheenColorFactor\":[0.2,0.4,0.1],\"sheenRoughnessFactor\":0.6,"
+    "\"sheenColorTexture\":{\"index\":1},\"sheenRoughnessTexture\":{"
+    "\"index\":1}},\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.5,"
+    "\"anisotropyRotation\":0.9},\"KHR_materials_iridescence\":{"
+    "\"iridescenceFactor\":0.7,\"iridescenceTexture\":{\"index\":1},"
+    "\"iridescenceThicknessTexture\":{\"index\":1}}}}";
+
+/* What the panel saves in the MTL file beside the scene gives the same material
+ * with the same textures. */
+static void saved_materials_are_the_same(void **state)
+{
+    struct loaded l;
+    struct mtl_change change = {.copied_from = NULL};
+    struct material before;
+    uint32_t texture_count;
+    size_t size_bytes;
+    char *text;
+
+    (void)state;
+    load_text(&l, all_of_it);
+    if (!l.ok)
+        print_error("%s\n", l.err.text);
+    assert_true(l.ok);
+    assert_int_equal(l.report.entry_count, 0);
+    before = l.scene.materials[1];
+    texture_count = l.scene.texture_count;
+    change.name = "all of it";
+    change.before = change.after = &l.scene.material_origins[1].source;
+    assert_true(mtl_rewrite(&l.scene, "a.gltf.mtl", "", 0, &change, 1, &text,
+                            &size_bytes, &l.err));
+    assert_true(
+        mtl_parse(&l.scene, text, size_bytes, "a.gltf.mtl", &l.report, &l.err));
+    assert_int_equal(l.scene.texture_count, texture_count);
+    assert_memory_equal(&l.scene.materials[1], &before, sizeof before);
+    for (int i = 0; i < l.report.entry_count; i++)
+        assert_non_null(strstr(l.report.entries[i].text, "again"));
+    free(text);
+    unload(&l);
+}
+
 static void wrong_values_have_messages(void **state)
 {
     static const struct {
@@ -443,6 +506,7 @@ int main(void)
         cmocka_unit_test(transforms_are_those_of_the_extension),
         cmocka_unit_test(images_are_listed_once),
         cmocka_unit_test(factors_become_values),
+        cmocka_unit_test(saved_materials_are_the_same),
         cmocka_unit_test(wrong_values_have_messages),
     };
 
