@@ -17,22 +17,45 @@ struct bounds_job {
     struct bounds *bounds;
 };
 
-static void find_bounds(void *context, uint32_t mesh, int worker)
+static struct bounds bounds_of(const struct world *w, uint32_t first,
+                               uint32_t count)
 {
-    const struct bounds_job *job = context;
-    const struct world *w = &job->trees->meshes[mesh];
     struct bounds b = {{FLT_MAX, FLT_MAX, FLT_MAX},
                        {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
 
-    (void)worker;
-    for (uint32_t i = 0; i < w->settings.tri_count; i++)
+    for (uint32_t i = first; i < first + count; i++)
         for (int k = 0; k < 3; k++) {
             struct vec3 p = w->positions[w->tris[i].v[k]];
 
             b.lo = v3_min(b.lo, p);
             b.hi = v3_max(b.hi, p);
         }
-    job->bounds[mesh] = b;
+    return b;
+}
+
+static void find_bounds(void *context, uint32_t mesh, int worker)
+{
+    const struct bounds_job *job = context;
+    const struct world *w = &job->trees->meshes[mesh];
+
+    (void)worker;
+    job->bounds[mesh] = bounds_of(w, 0, w->settings.tri_count);
+}
+
+void instance_box_corners(const struct world *w, uint32_t instance,
+                          struct mesh_box *box, struct vec3 corners[8])
+{
+    const struct instance *at = &w->instances[instance];
+
+    if (box->mesh != at->mesh) {
+        struct bounds b = bounds_of(w, at->mesh_tri, at->tri_count);
+
+        *box = (struct mesh_box){at->mesh, b.lo, b.hi};
+    }
+    for (int i = 0; i < 8; i++)
+        corners[i] = instance_point(*at, v3(i & 1 ? box->hi.x : box->lo.x,
+                                            i & 2 ? box->hi.y : box->lo.y,
+                                            i & 4 ? box->hi.z : box->lo.z));
 }
 
 /* Sets the coordinates of a stand-in's box along an axis. Half an ulp of the

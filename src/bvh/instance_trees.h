@@ -36,4 +36,15 @@ bool instance_trees_init(struct instance_trees *t, const struct world *world,
 
 void instance_trees_free(struct instance_trees *t);
 
+/* The box around a mesh: that of the last call of instance_box_corners(). */
+struct mesh_box {
+    uint32_t mesh; /* at first NO_INDEX */
+    struct vec3 lo, hi;
+};
+
+/* Fills the corners of the box around the mesh of an instance, moved to their
+ * places. Reads the whole mesh, unless *box has it. */
+void instance_box_corners(const struct world *world, uint32_t instance,
+                          struct mesh_box *box, struct vec3 corners[8]);
+
 #endif

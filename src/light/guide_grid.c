@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "kernels/instance.h"
+#include "bvh/instance_trees.h"
 #include "bvh/sah_bins.h"
 #include "light/triangle_cdf.h"
 #include "kernels/vec.h"
@@ -19,19 +20,52 @@ static uint32_t cubes_along(float length, const struct guide_grid *g)
     return (uint32_t)f_max(ceilf(length * g->cells_per_unit), 1.0f);
 }
 
+/* Corners of boxes that are nearer to the bounds may be beyond them by
+ * rounding. */
+#define NEAR_BOUNDS 0x1p-20f
+
+static bool is_inside(struct vec3 lo, struct vec3 hi, const struct vec3 p[8])
+{
+    for (int i = 0; i < 8; i++)
+        if (!(p[i].x > lo.x + NEAR_BOUNDS && p[i].x < hi.x - NEAR_BOUNDS &&
+              p[i].y > lo.y + NEAR_BOUNDS && p[i].y < hi.y - NEAR_BOUNDS &&
+              p[i].z > lo.z + NEAR_BOUNDS && p[i].z < hi.z - NEAR_BOUNDS))
+            return false;
+    return true;
+}
+
+/* Joins bounds with those of consecutive triangles. */
+static void join_tris(const struct world *w, uint32_t first, uint32_t count,
+                      struct vec3 *lo, struct vec3 *hi)
+{
+    uint32_t instance = count > 0 ? instance_of(w, first) : NO_INDEX;
+
+    for (uint32_t i = first; i < first + count; i++) {
+        struct tri t = tri_at(w, i, instance);
+
+        for (int k = 0; k < 3; k++) {
+            struct vec3 p = position_at(w, t.v[k], instance);
+
+            *lo = v3_min(*lo, p);
+            *hi = v3_max(*hi, p);
+        }
+    }
+}
+
 double guide_grid_init(struct guide_grid *g, const struct world *w)
 {
     struct vec3 lo = tri_placed(w, 0).p[0], hi = lo, size;
+    struct mesh_box mesh = {.mesh = NO_INDEX};
     struct box box;
 
-    for (uint32_t i = 0; i < all_tri_count(w); i++) {
-        struct vec3 p[3];
+    join_tris(w, 0, plain_tri_count(w), &lo, &hi);
+    for (uint32_t i = 0; i < w->settings.instance_count; i++) {
+        struct vec3 corners[8];
 
-        tri_corners(w, i, p);
-        for (int k = 0; k < 3; k++) {
-            lo = v3_min(lo, p[k]);
-            hi = v3_max(hi, p[k]);
-        }
+        instance_box_corners(w, i, &mesh, corners);
+        if (!is_inside(lo, hi, corners))
+            join_tris(w, w->instances[i].first_tri, w->instances[i].tri_count,
+                      &lo, &hi);
     }
     size = v3_sub(hi, lo);
     g->lo = lo;

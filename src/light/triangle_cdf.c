@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "kernels/instance.h"
 
-/* A list of so many takes 200 MB. */
-#define LISTED_MOST (1u << 24)
+/* A list of so many takes 50 MB and half a second. */
+#define LISTED_MOST (1u << 22)
 
 bool triangle_cdf_init(struct triangle_cdf *l, uint32_t capacity)
 {
@@ -62,10 +62,11 @@ uint32_t listed_tri_count(const struct world *w)
 
 void tri_corners(const struct world *w, uint32_t tri, struct vec3 p[3])
 {
-    struct placed_tri placed = tri_placed(w, tri);
+    uint32_t instance = instance_of(w, tri);
+    struct tri t = tri_at(w, tri, instance);
 
     for (uint32_t k = 0; k < 3; k++)
-        p[k] = placed.p[k];
+        p[k] = position_at(w, t.v[k], instance);
 }
 
 double tri_area(const struct world *w, uint32_t tri)

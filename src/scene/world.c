@@ -9,6 +9,7 @@
 
 #include "base/geometry.h"
 #include "base/memory.h"
+#include "bvh/instance_trees.h"
 #include "picture/color.h"
 #include "picture/image_read.h"
 #include "light/sun_sky.h"
@@ -38,27 +39,60 @@ static double narrow_angle_rad(const struct view *view)
     return half;
 }
 
-/* Returns how far before the middle of the scene the eye must be to see all
- * triangles, in normalised units. `up` and `side` are the tangents of half the
- * fields of view. */
-static double least_distance(const struct scene *scene, const struct axes *axes,
-                             double up, double side)
+/* What a picture shows: tangents of half its fields of view. */
+struct frustum {
+    struct axes axes;
+    double up, side;
+};
+
+/* Returns how far before the middle of the scene the eye must be to see a
+ * point, in normalised units. */
+static double point_distance(const struct frustum *f, struct vec3 v)
 {
-    const struct world w = scene_shape(scene);
+    const double p[3] = {(double)v.x, (double)v.y, (double)v.z};
+    double along = vec3d_dot(p, f->axes.forward);
+    double x = fabs(vec3d_dot(p, f->axes.right)) / f->side;
+    double y = fabs(vec3d_dot(p, f->axes.up)) / f->up;
+
+    return fmax(x, y) - along;
+}
+
+/* The same for consecutive triangles. */
+static double tris_distance(const struct frustum *f, const struct world *w,
+                            uint32_t first, uint32_t count)
+{
+    uint32_t instance = count > 0 ? instance_of(w, first) : NO_INDEX;
     double distance = 0;
 
-    for (uint32_t i = 0; i < all_tri_count(&w); i++) {
-        struct placed_tri t = tri_placed(&w, i);
+    for (uint32_t i = first; i < first + count; i++) {
+        struct tri t = tri_at(w, i, instance);
 
-        for (int k = 0; k < 3; k++) {
-            const double p[3] = {(double)t.p[k].x, (double)t.p[k].y,
-                                 (double)t.p[k].z};
-            double along = vec3d_dot(p, axes->forward);
-            double x = fabs(vec3d_dot(p, axes->right)) / side;
-            double y = fabs(vec3d_dot(p, axes->up)) / up;
+        for (int k = 0; k < 3; k++)
+            distance =
+                fmax(distance,
+                     point_distance(f, position_at(w, t.v[k], instance)));
+    }
+    return distance;
+}
 
-            distance = fmax(distance, fmax(x, y) - along);
-        }
+/* The same for the scene. Most instances are before others. */
+static double scene_distance(const struct frustum *f, const struct scene *scene)
+{
+    const struct world w = scene_shape(scene);
+    double distance = tris_distance(f, &w, 0, plain_tri_count(&w));
+    struct mesh_box box = {.mesh = NO_INDEX};
+
+    for (uint32_t i = 0; i < scene->placed_count; i++) {
+        const struct instance *at = &scene->placed[i];
+        struct vec3 corners[8];
+        double most = 0;
+
+        instance_box_corners(&w, i, &box, corners);
+        for (int k = 0; k < 8; k++)
+            most = fmax(most, point_distance(f, corners[k]));
+        if (most > distance)
+            distance = fmax(distance,
+                            tris_distance(f, &w, at->first_tri, at->tri_count));
     }
     return distance;
 }
@@ -67,13 +101,13 @@ static double least_distance(const struct scene *scene, const struct axes *axes,
  * has more room than the model needs. */
 static void come_near(const struct scene *scene, struct view *view)
 {
-    double up = tan(angle_rad(view->pose.fovy_deg) / 2) / MODEL_MARGIN;
-    double side = up * view->width_px / view->height_px;
+    struct frustum f;
     double distance, reach;
-    struct axes axes;
 
-    pose_axes(&view->pose, &axes);
-    distance = least_distance(scene, &axes, up, side);
+    f.up = tan(angle_rad(view->pose.fovy_deg) / 2) / MODEL_MARGIN;
+    f.side = f.up * view->width_px / view->height_px;
+    pose_axes(&view->pose, &f.axes);
+    distance = scene_distance(&f, scene);
     reach = pose_reach(&view->pose);
     for (int k = 0; distance > 0 && k < 3; k++)
         view->pose.eye[k] =
