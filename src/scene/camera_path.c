@@ -277,6 +277,8 @@ struct pose camera_path_at(const struct pose *keys, int count, double u)
     reach = between_numbers(&s, keys, &pose);
     between_vectors(&s, keys, offsetof(struct pose, eye), pose.eye);
     between_vectors(&s, keys, offsetof(struct pose, up), pose.up);
+    if (!(vec3d_length(pose.up) > SAME)) /* between opposite ones */
+        memcpy(pose.up, keys[s.key].up, sizeof pose.up);
     between_directions(&s, keys, direction);
     for (int k = 0; k < 3; k++)
         pose.at[k] = pose.eye[k] + reach * direction[k];

@@ -163,6 +163,19 @@ static void the_horizon_stays_level(void **state)
     }
 }
 
+/* Between opposite ups there is none, so that of a key stays. */
+static void opposite_ups_leave_a_direction(void **state)
+{
+    struct pose keys[2] = {pose_of(0, 0, 0, 0), pose_of(1, 0, 0, 0)};
+    struct error err;
+    struct pose p;
+
+    (void)state;
+    keys[1].up[1] = -1;
+    p = camera_path_at(keys, 2, 0.5);
+    assert_true(pose_check(&p, "half way", &err));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -172,6 +185,7 @@ int main(void)
         cmocka_unit_test(two_keys_give_even_motion),
         cmocka_unit_test(even_keys_give_even_motion),
         cmocka_unit_test(the_horizon_stays_level),
+        cmocka_unit_test(opposite_ups_leave_a_direction),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
