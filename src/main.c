@@ -349,7 +349,7 @@ static int print_version(void)
 
 int main(int argc, char **argv)
 {
-    struct options options;
+    static struct options options; /* as its strings, until the end */
     struct session session = {0};
     struct error err, config_err;
     char *chosen = NULL;

@@ -355,6 +355,7 @@ static bool set_word(struct options *o, const struct option_given *g,
                                          "lower",   "quadrant", "sextant",
                                          "braille", "space",    "ascii",
                                          "sixel",   "kitty",    NULL};
+    const char *tones[TONES + 1] = {NULL}; /* ends with NULL */
     int index = 0;
 
     switch (g->rule->id) {
@@ -373,7 +374,8 @@ static bool set_word(struct options *o, const struct option_given *g,
         o->has_color = true;
         return true;
     case OPTION_TONE:
-        if (!choice(g, view_tones, &index, err))
+        memcpy(tones, view_tones, sizeof view_tones);
+        if (!choice(g, tones, &index, err))
             return false;
         o->tone = (uint32_t)index;
         o->has_tone = true;
