@@ -15,6 +15,9 @@ enum { FILTER_NEAREST = 9728, WRAP_CLAMP = 33071, WRAP_MIRROR = 33648 };
  * left. */
 #define TRANSFORM_MAX 1e6
 
+/* Greatest size of all images that are views, in sizes of the buffers. */
+#define OVERLAP_MAX 2
+
 static bool out_of_memory(const struct gltf_textures *t, struct error *err)
 {
     return fail(err, "%s: out of memory for the textures", t->document->path);
@@ -33,10 +36,11 @@ bool gltf_textures_begin(struct gltf_textures *t,
         .report = report,
         .paths = alloc_array(count, sizeof *t->paths),
         .is_tried = alloc_array(count, sizeof *t->is_tried),
+        .views = alloc_array(count, sizeof *t->views),
         .image_count = count,
     };
     return (texture_table_init(&t->table, scene) && t->paths != NULL &&
-            t->is_tried != NULL) ||
+            t->is_tried != NULL && t->views != NULL) ||
            out_of_memory(t, err);
 }
 
@@ -46,6 +50,7 @@ void gltf_textures_end(struct gltf_textures *t)
         free(t->paths[i]);
     free(t->paths);
     free(t->is_tried);
+    free(t->views);
     texture_table_free(&t->table);
 }
 
@@ -80,6 +85,29 @@ static bool add_image(struct gltf_textures *t, size_t image,
     return true;
 }
 
+/* Lists a view as an image. Images of one view are one; views that overlap too
+ * much would fill the memory. */
+static bool add_view(struct gltf_textures *t, const struct gltf_value *v,
+                     size_t image, uint32_t view, struct error *err)
+{
+    struct gltf_bytes data = t->document->views[view].data;
+
+    data.owned = NULL;
+    for (size_t i = 0; i < t->image_count; i++)
+        if (t->paths[i] != NULL && t->views[i].bytes == data.bytes &&
+            t->views[i].size_bytes == data.size_bytes) {
+            t->paths[image] = strdup(t->paths[i]);
+            return t->paths[image] != NULL || out_of_memory(t, err);
+        }
+    t->copied_bytes += data.size_bytes;
+    if (t->copied_bytes > OVERLAP_MAX * t->document->buffer_bytes)
+        return gltf_fail(v, err,
+                         "found images that overlap, expected one view for "
+                         "each");
+    t->views[image] = data;
+    return add_image(t, image, &data, err);
+}
+
 /* Finds the file that a URI names. A missing one is a warning. */
 static bool find_file(struct gltf_textures *t, const struct gltf_value *v,
                       const char *uri, size_t image)
@@ -110,11 +138,8 @@ static bool read_image(struct gltf_textures *t, size_t image, struct error *err)
         return gltf_fail(&v, err,
                          "found an image without data, expected a uri or a "
                          "bufferView");
-    if (uri == NULL) {
-        data = t->document->views[view].data;
-        data.owned = NULL;
-        return add_image(t, image, &data, err);
-    }
+    if (uri == NULL)
+        return add_view(t, &v, image, view, err);
     ok = gltf_uri_read(&v, uri, &data, err) && add_image(t, image, &data, err);
     free(data.owned);
     return ok;

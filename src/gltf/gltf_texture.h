@@ -24,6 +24,8 @@ struct gltf_textures {
     struct texture_table table;
     char **paths;   /* of the images; NULL: not needed so far, or unusable */
     bool *is_tried; /* for each image */
+    struct gltf_bytes *views; /* of images that are views of a buffer */
+    uint64_t copied_bytes;    /* of these views */
     size_t image_count;
 };
 
