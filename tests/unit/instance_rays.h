@@ -28,7 +28,7 @@ struct instance_test {
     struct bvh bvh;
     struct bvh8_world w;
     struct world copies;
-    struct vec3 *positions;
+    struct vec3 *positions, *normals;
     struct tri *tris;
 };
 
@@ -64,7 +64,8 @@ static inline void make_copies(struct instance_test *t)
 
     t->positions = calloc(3 * (size_t)count, sizeof *t->positions);
     t->tris = calloc(count, sizeof *t->tris);
-    assert_true(t->positions != NULL && t->tris != NULL);
+    t->normals = calloc(3 * (size_t)count, sizeof *t->normals);
+    assert_true(t->positions != NULL && t->tris != NULL && t->normals != NULL);
     for (uint32_t i = 0; i < count; i++) {
         struct placed_tri placed = tri_placed(&t->w.world, i);
 
@@ -72,14 +73,21 @@ static inline void make_copies(struct instance_test *t)
         for (uint32_t k = 0; k < 3; k++) {
             t->positions[3 * i + k] = placed.p[k];
             t->tris[i].v[k] = 3 * i + k;
+            if (placed.t.vn[k] == NO_INDEX)
+                continue;
+            t->normals[3 * i + k] = normal_at(&t->w.world, placed.t.vn[k],
+                                              instance_of(&t->w.world, i));
+            t->tris[i].vn[k] = 3 * i + k;
         }
     }
     t->copies = t->w.world;
     t->copies.positions = t->positions;
+    t->copies.normals = t->normals;
     t->copies.tris = t->tris;
     t->copies.instances = NULL;
     t->copies.settings.tri_count = count;
     t->copies.settings.instance_count = 0;
+    t->copies.settings.features &= ~(uint32_t)FEATURE_INSTANCES;
 }
 
 /* Finishes a parsed scene, all of whose meshes are kept. */
@@ -92,6 +100,8 @@ static inline void instance_test_finish(struct instance_test *t)
     t->scene.instances.copied_tris = 0;
     view_init(&view);
     view.pose.eye[2] = 5;
+    view.width_px = 320;
+    view.height_px = 240;
     check_or_say(scene_finish(&t->scene, &report, &err) &&
                      world_init(&t->host, &t->scene, 1, &report, &err) &&
                      world_lend(&t->host, &t->scene, &view, 1, &t->w.world,
@@ -114,6 +124,7 @@ static inline void instance_test_free(struct instance_test *t)
     world_free(&t->host);
     scene_free(&t->scene);
     free(t->positions);
+    free(t->normals);
     free(t->tris);
 }
 

@@ -1,18 +1,77 @@
 // SPDX-License-Identifier: MIT
-/* This file is built for several instruction sets; ISA is the name of the
- * set. */
 #include "bvh/bvh8_traverse.h"
 #include "render/cpu_dispatch.h"
 
 #include "tests/unit/instance_rays.h"
 
-#ifndef ISA
-#define ISA "plain"
-#endif
+#define SAMPLES 20000
+
+/* A room with a lamp, and a mesh with vertex normals, of glossy metal. */
+static const char materials[] = "newmtl lamp\nKe 5 5 4\n"
+                                "newmtl metal\nKd .9 .7 .5\nPm 1\nPr .4\n";
+static const char room[] =
+    "v -1 -1 -1\nv 1 -1 -1\nv 1 -1 1\nv -1 -1 1\n"
+    "v -.3 1 -.3\nv .3 1 -.3\nv .3 1 .3\nv -.3 1 .3\n"
+    "f 1 2 3 4\nusemtl lamp\nf 5 6 7 8\no mesh\nusemtl metal\n"
+    "v 0 .4 0\nv -.4 -.2 -.3\nv .4 -.2 -.3\nv 0 -.2 .4\n"
+    "vn 0 1 0\nvn -.8 -.2 -.5\nvn .8 -.2 -.5\nvn 0 -.2 .9\n"
+    "f 9//1 11//3 10//2\nf 9//1 10//2 12//4\nf 9//1 12//4 11//3\n"
+    "f 10//2 11//3 12//4\n";
+
+/* Compares samples of both worlds with this kernel. */
+static void compare_samples(const struct cpu_kernel *kernel,
+                            const struct instance_test *t,
+                            const struct bvh8_world *copies)
+{
+    uint32_t features = t->w.world.settings.features;
+    const struct cpu_kernel *full = cpu_kernel_fit(kernel, features);
+    const struct cpu_kernel *part =
+        cpu_kernel_fit(kernel, copies->world.settings.features);
+    double light = 0;
+
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        struct sample_id id = {i * 7919u % 320u, i * 104729u % 240u, i % 16};
+        struct path_sample a = {.rays = 0}, b = {.rays = 0};
+        struct first_surface surface;
+
+        full->samples(&t->w.world, &id, 1, &a, &surface);
+        part->samples(&copies->world, &id, 1, &b, &surface);
+        assert_memory_equal(&a, &b, sizeof a);
+        light += (double)a.radiance.x;
+    }
+    assert_true(light > SAMPLES * 1e-3);
+}
+
+static void samples_are_those_of_copies(void **state)
+{
+    struct instance_test t = {.positions = NULL};
+    struct bvh8 tree = {0};
+    struct bvh8_world copies;
+    const struct cpu_kernel *kernel;
+    uint64_t seed = 12;
+    struct error err;
+
+    (void)state;
+    instanced_parse(&t.scene, materials, room);
+    for (int k = 0; k < 16; k++) {
+        struct affine a = random_affine(&seed, 0.8, k % 2 == 0);
+
+        instanced_place(&t.scene, 0, &a);
+    }
+    instance_test_finish(&t);
+    assert_true(bvh8_build(&tree, &t.copies, NULL, &err));
+    copies = (struct bvh8_world){t.copies, &tree};
+    for (int i = 0; (kernel = cpu_kernel_at(i)) != NULL; i++)
+        compare_samples(kernel, &t, &copies);
+    bvh8_free(&tree);
+    instance_test_free(&t);
+}
 
 int main(void)
 {
-    struct error err;
+    const struct CMUnitTest pictures[] = {
+        cmocka_unit_test(samples_are_those_of_copies),
+    };
 
-    return cpu_kernel_named(ISA, &err) != NULL ? run_instance_rays() : 0;
+    return run_instance_rays() + cmocka_run_group_tests(pictures, NULL, NULL);
 }
