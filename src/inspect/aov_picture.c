@@ -71,12 +71,14 @@ static void set_surface(const struct aov_picture *a, struct ray r,
     struct material m;
     struct bsdf b;
     struct hit h;
+    uint32_t material;
 
     path_set_key(w, sampler, 1, &r);
     set_all(0, to);
     if (!hit_closest(w, r, &h))
         return;
-    m = w->materials[w->tris[h.tri].material];
+    material = tri_material(w, h.tri, instance_of(w, h.tri));
+    m = w->materials[material];
     if (!surface_at(w, &m, r, h, &v))
         return;
     switch (a->kind) {
@@ -90,8 +92,10 @@ static void set_surface(const struct aov_picture *a, struct ray r,
     case AOV_UV:
         set_vector(v3(v.uv.first.x, v.uv.first.y, v.has_uv ? 1.0f : 0.0f), to);
         break;
-    case AOV_OBJECT: set_all(1.0 + a->scene->tri_objects[h.tri], to); break;
-    default: set_all(1.0 + w->tris[h.tri].material, to); break;
+    case AOV_OBJECT:
+        set_all(1.0 + scene_tri_object(a->scene, h.tri), to);
+        break;
+    default: set_all(1.0 + material, to); break;
     }
 }
 

@@ -6,10 +6,12 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
+#include "bvh/bvh.h"
 #include "inspect/aov_picture.h"
 #include "inspect/view_modes.h"
 #include "tests/unit/files.h"
 #include "tests/unit/folder.h"
+#include "tests/unit/instanced.h"
 
 #define SIDE 16
 
@@ -211,12 +213,78 @@ static void a_sphere_has_its_normals_and_depth(void **state)
     }
 }
 
+/* A plain triangle behind the eye, and two halves of a wall of one mesh: the
+ * left one shows object 0, the right one object 1. */
+static void make_halves(struct scene *s)
+{
+    static const struct affine left = {
+        {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    static const struct affine right = {
+        {{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    struct warnings report = {0};
+    struct error err;
+
+    *s = (struct scene){.path = strdup("test.obj")};
+    instanced_parse(s, "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0.25 0.5 0.75\n",
+                    "usemtl a\nv 0 0 9\nv 1 0 9\nv 0 1 9\nf 1 2 3\n"
+                    "o mesh\nusemtl b\nv -2 -2 0\nv 0 -2 0\nv 0 2 0\n"
+                    "v -2 2 0\nf 4 5 6 7\n");
+    assert_true(scene_add_instance(s, 0, &left, 0, &err));
+    assert_true(scene_add_instance(s, 0, &right, 1, &err));
+    s->instances.copied_tris = 0;
+    check_or_say(scene_finish(s, &report, &err), err.text);
+    assert_int_equal(s->placed_count, 2);
+    warnings_free(&report);
+}
+
+static void instances_have_their_object_and_material(void **state)
+{
+    struct host_world host = {0};
+    struct warnings report = {0};
+    struct bvh bvh = {0};
+    struct world world;
+    struct scene scene;
+    struct view view;
+    struct error err;
+    struct aov_picture a = {AOV_OBJECT, &scene, &world, {0, 0, SIDE, SIDE}};
+
+    (void)state;
+    make_halves(&scene);
+    view_init(&view);
+    view.pose.eye[2] = 4;
+    view.pose.fovy_deg = 40;
+    view_set_size(&view, SIDE, SIDE);
+    check_or_say(world_init(&host, &scene, 1, &report, &err) &&
+                     world_lend(&host, &scene, &view, 0, &world, &err) &&
+                     bvh_build(&bvh, &world, NULL, &err),
+                 err.text);
+    world.nodes = bvh.nodes;
+    world.leaf_tris = bvh.leaf_tris;
+    aov_picture_render(&a, NULL, numbers);
+    for (int i = 0; i < SIDE * SIDE; i++)
+        assert_int_equal(numbers[3 * i], i % SIDE < SIDE / 2 ? 1 : 2);
+    a.kind = AOV_MATERIAL;
+    aov_picture_render(&a, NULL, numbers);
+    for (int i = 0; i < SIDE * SIDE; i++)
+        assert_int_equal(numbers[3 * i], 3);
+    a.kind = AOV_ALBEDO;
+    aov_picture_render(&a, NULL, numbers);
+    for (int i = 0; i < SIDE * SIDE; i++)
+        check_pixel(numbers + 3 * i, 0.25, 0.5, 0.75, 1e-6);
+    bvh_free(&bvh);
+    world_free(&host);
+    view_free(&view);
+    scene_free(&scene);
+    warnings_free(&report);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_wall_has_its_closed_forms),
         cmocka_unit_test(a_part_has_the_pixels_of_the_whole),
         cmocka_unit_test(a_sphere_has_its_normals_and_depth),
+        cmocka_unit_test(instances_have_their_object_and_material),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
