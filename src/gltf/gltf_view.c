@@ -9,6 +9,9 @@
 #include "kernels/types.h"
 #include "scene/lamp.h"
 
+/* Luminous efficacy in Blender's files, lm/W: that of green light. */
+#define LUMENS_OF_WATT 683.0
+
 /* Least and greatest vertical field of view that glim's cameras have. */
 #define YFOV_MIN 1e-6
 #define YFOV_MAX 3.14
@@ -159,10 +162,26 @@ static void place_lamp(struct lamp *lamp, const struct affine *a)
     lamp_set_direction(lamp, backward);
 }
 
+/* Returns the factor of the intensities of lights. Blender's exporter takes a
+ * watt as 683 lumens, and its importer back; surfaces that glow are not scaled
+ * so. */
+static bool light_unit(const struct gltf_document *d, double *unit,
+                       struct error *err)
+{
+    struct gltf_value root = gltf_root(d), asset;
+    const char *generator = "";
+
+    if (!gltf_object(&root, "asset", &asset, err) ||
+        !gltf_string(&asset, "generator", &generator, err))
+        return false;
+    *unit = strstr(generator, "Blender") != NULL ? 1 / LUMENS_OF_WATT : 1;
+    return true;
+}
+
 static bool read_light(const struct gltf_value *node, const struct gltf_node *n,
                        struct scene *scene, struct error *err)
 {
-    double color[3] = {1, 1, 1}, intensity = 1;
+    double color[3] = {1, 1, 1}, intensity = 1, unit;
     struct gltf_value v;
     struct lamp lamp;
 
@@ -170,13 +189,14 @@ static bool read_light(const struct gltf_value *node, const struct gltf_node *n,
         !read_kind(&v, &lamp, err) ||
         !gltf_numbers(&v, "color", 3, color, err) ||
         !gltf_number(&v, "intensity", 0, FLT_MAX, &intensity, err) ||
+        !light_unit(node->document, &unit, err) ||
         (lamp.kind == LAMP_SPOT && !read_cone(&v, &lamp, err)))
         return false;
     for (int i = 0; i < 3; i++) {
         if (!(color[i] >= 0 && color[i] <= FLT_MAX))
             return gltf_fail(&v, err, "found a color of %g, expected 0 to 1",
                              color[i]);
-        lamp.rgb[i] = fmin(color[i] * intensity, FLT_MAX);
+        lamp.rgb[i] = fmin(color[i] * intensity * unit, FLT_MAX);
     }
     place_lamp(&lamp, &n->world);
     return lamps_add(&scene->lamps, &lamp) ||

@@ -177,8 +177,10 @@ static void keep_sheet(struct mtl_source *s)
 static void set_kind(struct owner *o, const struct value *v)
 {
     uint32_t bits = kind_bits[(size_t)v->number];
-    static const enum mtl_map kind_maps[] = {MTL_MAP_KS, MTL_MAP_PM, MTL_MAP_TF,
-                                             MTL_MAP_PC, MTL_MAP_PS};
+    static const enum mtl_map kind_maps[] = {MTL_MAP_KS, MTL_MAP_PM,
+                                             MTL_MAP_TF, MTL_MAP_PC,
+                                             MTL_MAP_PS, MTL_MAP_PS_COLOR,
+                                             MTL_MAP_PF};
     struct mtl_source *s = &o->source;
     struct value color;
 

@@ -32,6 +32,11 @@ static const uint32_t *const *maps_of(const struct material *m)
     maps[9] = &m->coat_texture;
     maps[10] = &m->coat_alpha_texture;
     maps[11] = &m->sheen_texture;
+    maps[12] = &m->specular_weight_texture;
+    maps[13] = &m->sheen_alpha_texture;
+    maps[14] = &m->film_texture;
+    maps[15] = &m->film_thickness_texture;
+    _Static_assert(MAPS == 16, "one for each map");
     return maps;
 }
 

@@ -76,3 +76,20 @@ echo '{"asset": {"version": "2.0"},' >bad.gltf
 run $b -o x.pfm bad.gltf
 echo '{"asset": {"version": "2.0"}, "extensionsRequired": ["ACME_x"]}' >bad.gltf
 run $b -o x.pfm bad.gltf
+# A directional light of 2 lx, and one of 2 W/m2 as Blender writes it.
+lit() # LUX GENERATOR
+{
+    light='"KHR_lights_punctual": {"light": 0}'
+    lights='"KHR_lights_punctual": {"lights": [{"type": "directional",'
+    gltf 0 0 | sed "s|\"version\"|\"generator\": \"$2\", &|
+        s|^ \"extensions\": {|&$lights \"intensity\": $1}]}, |
+        s|\[1, 1, 6\]|&, \"extensions\": {$light}|"
+}
+lit 2 "a tool" >lit.gltf
+lit 1366 "Khronos glTF Blender I/O v3.6.27" >watts.gltf
+lit 1366 "a tool" >lumens.gltf
+for name in lit watts lumens; do
+    glim $b -o $name.pfm $name.gltf 2>/dev/null
+done
+same lit.pfm watts.pfm
+same lit.pfm lumens.pfm

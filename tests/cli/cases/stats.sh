@@ -6,7 +6,7 @@ glim -b -w 20 -h 10 -s 3 -t 2 --seed 7 -o out.png --stats run.json box.obj \
     2>/dev/null
 sed -n 's/^  \("[a-z_]*"\).*/\1/p' run.json | tr '\n' ' '
 echo
-grep -E '"(width|height|spp|threads|samples|seed|triangles|non_finite)":' run.json
+grep -E '"(width|height|spp|threads|samples|seed|triangles|instances|non_finite)":' run.json
 grep -E '"(backend|scene|stopped|stopped_by|resolved)":' run.json
 awk -F '[:,]' '/(load|build|picture|render|total|span)_s"/ { t[$1] = $2 + 0; if ($2 !~ /^ [0-9]+\.[0-9]+$/) bad = 1 }
     /"rays"/ { rays = $2 }
@@ -54,4 +54,4 @@ chmod u+w box.mtl
 printf 'newmtl nobody\nmap_Kd no-such-file.png\n' >> box.mtl
 glim -b -w 2 -h 2 -s 1 -o out.png --stats run.json thin.obj 2>&1 |
     grep warning
-grep -E '"(triangles|dropped_triangles|materials|unused_materials)"' run.json
+grep -E '"(triangles|instances|dropped_triangles|materials|unused_materials)"' run.json
