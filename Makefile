@@ -52,7 +52,8 @@ ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno \
 ALL_LDFLAGS = -pthread -pie -Wl,-z,relro,-z,now $(LDFLAGS) \
 	$(if $(SAN),-fsanitize=$(SAN))
 # WebP images are read if libwebp is there.
-WEBP := $(shell pkg-config --exists libwebp 2>/dev/null && echo 1)
+WEBP := $(shell echo '\#include <webp/decode.h>' | $(CC) -E -x c - >/dev/null 2>&1 \
+	&& echo 1)
 LIB_LIBS = -ljansson -lmeshoptimizer $(if $(WEBP),-lwebp) -lz -lm -ldl
 LIBS = -lncursesw -ltinfo $(LIB_LIBS)
 FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
