@@ -115,11 +115,11 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     v->has_uv = t.vt[0] != NO_INDEX;
     v->uv.first = v2(0.0f, 0.0f);
     if (v->has_uv)
-        v->uv.first = uv_at(w, t, h);
+        v->uv.first = uv_of(w->uvs, t, h);
     if (HAS(FEATURE_TEXTURE_OPTIONS))
         v->uv.second = v->uv.first;
     if (v->has_uv && has_second_uvs(w))
-        v->uv.second = uv2_at(w, t, h);
+        v->uv.second = uv_of(w->uvs2, t, h);
     if (has_vertex_colors(w))
         v->color = vertex_color(w, t, h);
     if (HAS(FEATURE_BUMPS) && v->has_uv && has_bumps(m))

@@ -177,24 +177,12 @@ static inline struct rgba texture_at(const struct world *w, uint32_t index,
 }
 
 /* Interpolated texture coordinates of a hit. Its triangle has some. */
-static inline struct vec2 uv_at(const struct world *w, struct tri t,
+static inline struct vec2 uv_of(GLOBAL const struct vec2 *uvs, struct tri t,
                                 struct hit h)
 {
-    struct vec2 a = w->uvs[t.vt[0]];
-    struct vec2 b = w->uvs[t.vt[1]];
-    struct vec2 c = w->uvs[t.vt[2]];
-
-    return v2(h.b0 * a.x + h.b1 * b.x + h.b2 * c.x,
-              h.b0 * a.y + h.b1 * b.y + h.b2 * c.y);
-}
-
-/* The same of the second texture coordinates. */
-static inline struct vec2 uv2_at(const struct world *w, struct tri t,
-                                 struct hit h)
-{
-    struct vec2 a = w->uvs2[t.vt[0]];
-    struct vec2 b = w->uvs2[t.vt[1]];
-    struct vec2 c = w->uvs2[t.vt[2]];
+    struct vec2 a = uvs[t.vt[0]];
+    struct vec2 b = uvs[t.vt[1]];
+    struct vec2 c = uvs[t.vt[2]];
 
     return v2(h.b0 * a.x + h.b1 * b.x + h.b2 * c.x,
               h.b0 * a.y + h.b1 * b.y + h.b2 * c.y);
@@ -216,7 +204,8 @@ static inline bool uses_second_uvs(const struct world *w, uint32_t texture)
 static inline struct vec2 texture_uv_at(const struct world *w, uint32_t texture,
                                         struct tri t, struct hit h)
 {
-    return uses_second_uvs(w, texture) ? uv2_at(w, t, h) : uv_at(w, t, h);
+    return uses_second_uvs(w, texture) ? uv_of(w->uvs2, t, h)
+                                       : uv_of(w->uvs, t, h);
 }
 
 /* Returns the alpha of a texture at a hit with uv, 1 if there is none. */
@@ -226,7 +215,7 @@ static inline float alpha_at(const struct world *w, uint32_t texture,
     if (texture == NO_INDEX || w->textures[texture].has_alpha == 0)
         return 1.0f;
     if (uses_second_uvs(w, texture))
-        uv = uv2_at(w, t, h);
+        uv = uv_of(w->uvs2, t, h);
     return texture_at(w, texture, uv).alpha;
 }
 
@@ -244,7 +233,7 @@ static inline float opacity_at(const struct world *w, struct material m,
 {
     if (HAS(FEATURE_TEXTURES) && t.vt[0] != NO_INDEX &&
         (m.color_texture != NO_INDEX || m.opacity_texture != NO_INDEX)) {
-        struct vec2 uv = uv_at(w, t, h);
+        struct vec2 uv = uv_of(w->uvs, t, h);
 
         return m.opacity * alpha_at(w, m.color_texture, t, h, uv) *
                alpha_at(w, m.opacity_texture, t, h, uv);

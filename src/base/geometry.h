@@ -76,6 +76,19 @@ static inline void affine_point(const struct affine *a, const double p[3],
         to[i] = vec3d_dot(a->m[i], p) + a->m[i][3];
 }
 
+/* Returns the map that applies b, then a. */
+static inline struct affine affine_join(const struct affine *a,
+                                        const struct affine *b)
+{
+    struct affine c;
+
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 4; k++)
+            c.m[i][k] = a->m[i][0] * b->m[0][k] + a->m[i][1] * b->m[1][k] +
+                        a->m[i][2] * b->m[2][k] + (k == 3 ? a->m[i][3] : 0);
+    return c;
+}
+
 /* Fills the rows of the matrix that moves normals, up to a factor above 0.
  * Returns true if the map mirrors. */
 static inline bool affine_normals(const struct affine *a, double rows[3][3])

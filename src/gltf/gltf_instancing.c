@@ -80,7 +80,7 @@ bool gltf_instances_add(const struct gltf_value *node, struct scene *scene,
     for (uint32_t i = 0; i < in.count; i++) {
         struct affine own = matrix_of(&in, i);
 
-        own = gltf_matrix_join(matrix, &own);
+        own = affine_join(matrix, &own);
         if (!scene_add_instance(scene, mesh, &own, object, err))
             return false;
     }

@@ -37,17 +37,6 @@ struct affine gltf_matrix(const double translation[3], const double rotation[4],
     return a;
 }
 
-struct affine gltf_matrix_join(const struct affine *a, const struct affine *b)
-{
-    struct affine c;
-
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 4; k++)
-            c.m[i][k] = a->m[i][0] * b->m[0][k] + a->m[i][1] * b->m[1][k] +
-                        a->m[i][2] * b->m[2][k] + (k == 3 ? a->m[i][3] : 0);
-    return c;
-}
-
 /* ---- reading ---- */
 
 static bool read_matrix(const struct gltf_value *v, struct gltf_node *n,
@@ -170,7 +159,7 @@ static void place_node(struct gltf_nodes *nodes, uint32_t node)
     if (n->parent == NO_INDEX)
         return;
     parent = &nodes->items[n->parent];
-    n->world = gltf_matrix_join(&parent->world, &n->world);
+    n->world = affine_join(&parent->world, &n->world);
     n->is_hidden |= parent->is_hidden;
 }
 

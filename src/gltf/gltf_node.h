@@ -53,9 +53,6 @@ bool gltf_nodes_place(const struct gltf_document *document, uint32_t scene,
 struct affine gltf_matrix(const double translation[3], const double rotation[4],
                           const double scale[3]);
 
-/* Returns a(b(p)). */
-struct affine gltf_matrix_join(const struct affine *a, const struct affine *b);
-
 void gltf_nodes_free(struct gltf_nodes *nodes);
 
 #endif

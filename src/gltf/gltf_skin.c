@@ -58,7 +58,7 @@ static bool fill_joints(const struct gltf_value *list,
         if (inverses == NULL)
             continue;
         inverse = read_inverse(inverses, i);
-        joints[i] = gltf_matrix_join(&joints[i], &inverse);
+        joints[i] = affine_join(&joints[i], &inverse);
     }
     return true;
 }

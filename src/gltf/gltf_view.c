@@ -179,9 +179,9 @@ static bool light_unit(const struct gltf_document *d, double *unit,
 }
 
 static bool read_light(const struct gltf_value *node, const struct gltf_node *n,
-                       struct scene *scene, struct error *err)
+                       double unit, struct scene *scene, struct error *err)
 {
-    double color[3] = {1, 1, 1}, intensity = 1, unit;
+    double color[3] = {1, 1, 1}, intensity = 1;
     struct gltf_value v;
     struct lamp lamp;
 
@@ -189,7 +189,6 @@ static bool read_light(const struct gltf_value *node, const struct gltf_node *n,
         !read_kind(&v, &lamp, err) ||
         !gltf_numbers(&v, "color", 3, color, err) ||
         !gltf_number(&v, "intensity", 0, FLT_MAX, &intensity, err) ||
-        !light_unit(node->document, &unit, err) ||
         (lamp.kind == LAMP_SPOT && !read_cone(&v, &lamp, err)))
         return false;
     for (int i = 0; i < 3; i++) {
@@ -208,7 +207,10 @@ bool gltf_view_read(const struct gltf_document *document,
                     struct warnings *report, struct error *err)
 {
     size_t capacity = 0;
+    double unit;
 
+    if (!light_unit(document, &unit, err))
+        return false;
     for (uint32_t i = 0; i < nodes->visible_count; i++) {
         const struct gltf_node *n = &nodes->items[nodes->visible[i]];
         struct gltf_value v;
@@ -218,7 +220,7 @@ bool gltf_view_read(const struct gltf_document *document,
         if (!gltf_entry(document, "nodes", nodes->visible[i], &v, err) ||
             (n->camera != NO_INDEX &&
              !read_camera(&v, n, scene, &capacity, report, err)) ||
-            (n->light != NO_INDEX && !read_light(&v, n, scene, err)))
+            (n->light != NO_INDEX && !read_light(&v, n, unit, scene, err)))
             return false;
     }
     return true;

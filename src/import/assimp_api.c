@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "import/assimp_api.h"
 
-#include <dlfcn.h>
 #include <stddef.h>
-#include <string.h>
+
+#include "base/dynamic_library.h"
 
 #if HAS_ASSIMP
 
 #define LIBRARY "libassimp.so.5"
 
-static const struct {
-    const char *name;
-    size_t offset; /* of the pointer in struct assimp_api */
-} functions[] = {
+static const struct library_function functions[] = {
 #define ROW(name) {"ai" #name, offsetof(struct assimp_api, name)},
     ASSIMP_FUNCTIONS(ROW)
 #undef ROW
@@ -21,25 +18,18 @@ static const struct {
 const struct assimp_api *assimp_api_open(struct error *err)
 {
     static struct assimp_api api;
-    void *library = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
+    const char *missing;
 
-    if (library == NULL) {
+    if (dynamic_library_load(LIBRARY, functions,
+                             sizeof functions / sizeof functions[0], &api,
+                             &missing))
+        return &api;
+    if (missing == NULL)
         fail(err, "found no %s (Debian's package: %s)", LIBRARY,
              ASSIMP_PACKAGE);
-        return NULL;
-    }
-    for (size_t i = 0; i < sizeof functions / sizeof functions[0]; i++) {
-        void *function = dlsym(library, functions[i].name);
-
-        if (function == NULL) {
-            fail(err, "%s has no %s", LIBRARY, functions[i].name);
-            return NULL;
-        }
-        /* ISO C does not allow a cast from object pointer to function
-         * pointer */
-        memcpy((char *)&api + functions[i].offset, &function, sizeof function);
-    }
-    return &api;
+    else
+        fail(err, "%s has no %s", LIBRARY, missing);
+    return NULL;
 }
 
 #else

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/geometry.h"
 #include "base/name_table.h"
 #include "import/import_material.h"
 #include "import/import_stream.h"
@@ -21,7 +22,7 @@
  * counted, or an array of it is written. */
 struct sender;
 typedef void take_mesh(struct sender *s, const struct aiNode *node,
-                       const struct aiMesh *mesh, const double matrix[12]);
+                       const struct aiMesh *mesh, const struct affine *matrix);
 
 struct sender {
     const struct aiScene *scene;
@@ -31,36 +32,12 @@ struct sender {
     take_mesh *take;
 };
 
-/* ---- matrices: three rows of four numbers ---- */
-
-static void matrix_multiply(const double a[12], const struct aiMatrix4x4 *m,
-                            double to[12])
+static struct affine matrix_of(const struct aiMatrix4x4 *m)
 {
-    const double b[4][4] = {
-        {(double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4},
-        {(double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4},
-        {(double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4},
-        {0, 0, 0, 1},
-    };
-
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 4; k++)
-            to[4 * i + k] = a[4 * i] * b[0][k] + a[4 * i + 1] * b[1][k] +
-                            a[4 * i + 2] * b[2][k] + a[4 * i + 3] * b[3][k];
-}
-
-/* Fills the cofactors of the left three columns, which are the transposed
- * inverse times the determinant, and returns that. */
-static double cofactors(const double m[12], double to[9])
-{
-    for (int i = 0; i < 3; i++) {
-        const double *a = m + 4 * ((i + 1) % 3), *b = m + 4 * ((i + 2) % 3);
-
-        for (int k = 0; k < 3; k++)
-            to[3 * i + k] = a[(k + 1) % 3] * b[(k + 2) % 3] -
-                            a[(k + 2) % 3] * b[(k + 1) % 3];
-    }
-    return m[0] * to[0] + m[1] * to[1] + m[2] * to[2];
+    return (struct affine){
+        {{(double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4},
+         {(double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4},
+         {(double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4}}};
 }
 
 /* ---- visits ---- */
@@ -72,28 +49,29 @@ static bool is_drawn(const struct aiMesh *mesh)
 }
 
 static void visit_nodes(struct sender *s, const struct aiNode *node,
-                        const double parent[12])
+                        const struct affine *parent)
 {
-    double matrix[12];
+    struct affine matrix = matrix_of(&node->mTransformation);
 
-    matrix_multiply(parent, &node->mTransformation, matrix);
+    matrix = affine_join(parent, &matrix);
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
         const struct aiMesh *mesh = s->scene->mMeshes[node->mMeshes[i]];
 
         if (is_drawn(mesh))
-            s->take(s, node, mesh, matrix);
+            s->take(s, node, mesh, &matrix);
     }
     for (unsigned i = 0; i < node->mNumChildren; i++)
-        visit_nodes(s, node->mChildren[i], matrix);
+        visit_nodes(s, node->mChildren[i], &matrix);
 }
 
 static void visit_all(struct sender *s, take_mesh *take)
 {
-    static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    static const struct affine identity = {
+        {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
     s->vertex_count = s->tri_count = s->object_count = s->name_bytes = 0;
     s->take = take;
-    visit_nodes(s, s->scene->mRootNode, identity);
+    visit_nodes(s, s->scene->mRootNode, &identity);
 }
 
 static uint32_t count_tris(const struct aiMesh *mesh)
@@ -106,7 +84,7 @@ static uint32_t count_tris(const struct aiMesh *mesh)
 }
 
 static void count(struct sender *s, const struct aiNode *node,
-                  const struct aiMesh *mesh, const double matrix[12])
+                  const struct aiMesh *mesh, const struct affine *matrix)
 {
     (void)matrix;
     s->vertex_count += mesh->mNumVertices;
@@ -122,45 +100,43 @@ static void count(struct sender *s, const struct aiNode *node,
 }
 
 static void send_positions(struct sender *s, const struct aiNode *node,
-                           const struct aiMesh *mesh, const double m[12])
+                           const struct aiMesh *mesh,
+                           const struct affine *matrix)
 {
     (void)node;
     for (unsigned i = 0; i < mesh->mNumVertices; i++) {
         const struct aiVector3D *v = &mesh->mVertices[i];
-        const double x = (double)v->x, y = (double)v->y, z = (double)v->z;
+        const double from[3] = {(double)v->x, (double)v->y, (double)v->z};
         double p[3];
 
-        for (int k = 0; k < 3; k++)
-            p[k] = m[4 * k] * x + m[4 * k + 1] * y + m[4 * k + 2] * z +
-                   m[4 * k + 3];
+        affine_point(matrix, from, p);
         fwrite(p, sizeof p, 1, s->to);
     }
 }
 
 static void send_normals(struct sender *s, const struct aiNode *node,
-                         const struct aiMesh *mesh, const double matrix[12])
+                         const struct aiMesh *mesh, const struct affine *matrix)
 {
-    double m[9];
-    double sign = cofactors(matrix, m) < 0 ? -1 : 1;
+    double rows[3][3];
 
     (void)node;
+    affine_normals(matrix, rows);
     for (unsigned i = 0; i < mesh->mNumVertices; i++) {
         float n[3] = {0, 0, 0};
 
         if (mesh->mNormals != NULL) {
             const struct aiVector3D *v = &mesh->mNormals[i];
+            const double from[3] = {(double)v->x, (double)v->y, (double)v->z};
 
             for (int k = 0; k < 3; k++)
-                n[k] = (float)(sign * (m[3 * k] * (double)v->x +
-                                       m[3 * k + 1] * (double)v->y +
-                                       m[3 * k + 2] * (double)v->z));
+                n[k] = (float)vec3d_dot(rows[k], from);
         }
         fwrite(n, sizeof n, 1, s->to);
     }
 }
 
 static void send_uvs(struct sender *s, const struct aiNode *node,
-                     const struct aiMesh *mesh, const double matrix[12])
+                     const struct aiMesh *mesh, const struct affine *matrix)
 {
     (void)node;
     (void)matrix;
@@ -173,7 +149,7 @@ static void send_uvs(struct sender *s, const struct aiNode *node,
 }
 
 static void send_colors(struct sender *s, const struct aiNode *node,
-                        const struct aiMesh *mesh, const double matrix[12])
+                        const struct aiMesh *mesh, const struct affine *matrix)
 {
     (void)node;
     (void)matrix;
@@ -188,10 +164,10 @@ static void send_colors(struct sender *s, const struct aiNode *node,
 
 /* Sends the triangles of a mesh. A mirror turns their winding. */
 static void send_tris(struct sender *s, const struct aiNode *node,
-                      const struct aiMesh *mesh, const double matrix[12])
+                      const struct aiMesh *mesh, const struct affine *matrix)
 {
-    double unused[9];
-    bool is_mirrored = cofactors(matrix, unused) < 0;
+    double unused[3][3];
+    bool is_mirrored = affine_normals(matrix, unused);
     uint32_t first = (uint32_t)s->vertex_count;
 
     (void)node;
@@ -211,7 +187,7 @@ static void send_tris(struct sender *s, const struct aiNode *node,
 }
 
 static void send_names(struct sender *s, const struct aiNode *node,
-                       const struct aiMesh *mesh, const double matrix[12])
+                       const struct aiMesh *mesh, const struct affine *matrix)
 {
     (void)mesh;
     (void)matrix;

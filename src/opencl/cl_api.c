@@ -5,16 +5,15 @@
 #include <pthread.h>
 #include <string.h>
 
+#include "base/dynamic_library.h"
+
 #define LIBRARY "libOpenCL.so.1"
 
 static struct cl_api api;
 static bool is_loaded;
 static struct error load_error;
 
-static const struct {
-    const char *name;
-    size_t offset; /* of the pointer in struct cl_api */
-} functions[] = {
+static const struct library_function functions[] = {
 #define ROW(name) {"cl" #name, offsetof(struct cl_api, name)},
     CL_API_FUNCTIONS(ROW)
 #undef ROW
@@ -23,26 +22,19 @@ static const struct {
 /* Loads the library for good: drivers do not survive being unloaded. */
 static void load(void)
 {
-    void *library = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
+    const char *missing;
 
-    if (!library) {
+    is_loaded = dynamic_library_load(LIBRARY, functions,
+                                     sizeof functions / sizeof functions[0],
+                                     &api, &missing);
+    if (is_loaded)
+        return;
+    if (missing == NULL)
         fail(&load_error, "OpenCL: %s (Debian's package: ocl-icd-libopencl1)",
              dlerror());
-        return;
-    }
-    for (size_t i = 0; i < sizeof functions / sizeof functions[0]; i++) {
-        void *function = dlsym(library, functions[i].name);
-
-        if (!function) {
-            fail(&load_error, "OpenCL: %s has no %s, expected OpenCL 1.2",
-                 LIBRARY, functions[i].name);
-            return;
-        }
-        /* ISO C does not allow a cast from object pointer to function
-         * pointer */
-        memcpy((char *)&api + functions[i].offset, &function, sizeof function);
-    }
-    is_loaded = true;
+    else
+        fail(&load_error, "OpenCL: %s has no %s, expected OpenCL 1.2", LIBRARY,
+             missing);
 }
 
 const struct cl_api *cl_api_open(struct error *err)

@@ -53,28 +53,37 @@ struct material material_default(void)
     return m;
 }
 
-void material_maps(const struct material *m, uint32_t maps[MATERIAL_MAPS])
+uint32_t *material_map(struct material *m, uint32_t number)
 {
-    const uint32_t all[MATERIAL_MAPS] = {
-        m->color_texture,
-        m->emission_texture,
-        m->specular_texture,
-        m->alpha_texture,
-        m->metal_texture,
-        m->opacity_texture,
-        m->normal_texture,
-        m->bump_texture,
-        m->transmission_texture,
-        m->coat_texture,
-        m->coat_alpha_texture,
-        m->sheen_texture,
-        m->specular_weight_texture,
-        m->sheen_alpha_texture,
-        m->film_texture,
-        m->film_thickness_texture,
+    uint32_t *const all[MATERIAL_MAPS] = {
+        &m->color_texture,
+        &m->emission_texture,
+        &m->specular_texture,
+        &m->alpha_texture,
+        &m->metal_texture,
+        &m->opacity_texture,
+        &m->normal_texture,
+        &m->bump_texture,
+        &m->transmission_texture,
+        &m->coat_texture,
+        &m->coat_alpha_texture,
+        &m->sheen_texture,
+        &m->specular_weight_texture,
+        &m->sheen_alpha_texture,
+        &m->film_texture,
+        &m->film_thickness_texture,
     };
 
-    memcpy(maps, all, sizeof all);
+    return all[number];
+}
+
+void material_maps(const struct material *material,
+                   uint32_t maps[MATERIAL_MAPS])
+{
+    struct material m = *material;
+
+    for (uint32_t i = 0; i < MATERIAL_MAPS; i++)
+        maps[i] = *material_map(&m, i);
 }
 
 static bool is_of_blender(const struct mtl_source *s)

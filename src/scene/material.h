@@ -72,6 +72,9 @@
 
 struct material material_default(void);
 
+/* Returns the place of the texture of a map, from 0 to MATERIAL_MAPS - 1. */
+uint32_t *material_map(struct material *material, uint32_t number);
+
 /* Lists the textures of all maps; NO_INDEX for those that are absent. */
 void material_maps(const struct material *material,
                    uint32_t maps[MATERIAL_MAPS]);

@@ -13,33 +13,6 @@
 
 #define EDITS_MAX 16
 
-/* Number of textures in a material. */
-#define MAPS MATERIAL_MAPS
-
-static const uint32_t *const *maps_of(const struct material *m)
-{
-    static const uint32_t *maps[MAPS];
-
-    maps[0] = &m->color_texture;
-    maps[1] = &m->emission_texture;
-    maps[2] = &m->specular_texture;
-    maps[3] = &m->alpha_texture;
-    maps[4] = &m->metal_texture;
-    maps[5] = &m->opacity_texture;
-    maps[6] = &m->normal_texture;
-    maps[7] = &m->bump_texture;
-    maps[8] = &m->transmission_texture;
-    maps[9] = &m->coat_texture;
-    maps[10] = &m->coat_alpha_texture;
-    maps[11] = &m->sheen_texture;
-    maps[12] = &m->specular_weight_texture;
-    maps[13] = &m->sheen_alpha_texture;
-    maps[14] = &m->film_texture;
-    maps[15] = &m->film_thickness_texture;
-    _Static_assert(MAPS == 16, "one for each map");
-    return maps;
-}
-
 static void load(struct session *s, const struct options *options)
 {
     struct error err = {""};
@@ -65,11 +38,12 @@ static struct material material_of(const struct session *s, uint32_t i)
 static void check_maps(const struct session *a, const struct material *m,
                        const struct session *b, const struct material *n)
 {
-    const uint32_t *of_a[MAPS];
+    uint32_t of_a[MATERIAL_MAPS], of_b[MATERIAL_MAPS];
 
-    memcpy(of_a, maps_of(m), sizeof of_a);
-    for (int i = 0; i < MAPS; i++) {
-        uint32_t p = *of_a[i], q = *maps_of(n)[i];
+    material_maps(m, of_a);
+    material_maps(n, of_b);
+    for (int i = 0; i < MATERIAL_MAPS; i++) {
+        uint32_t p = of_a[i], q = of_b[i];
 
         require((p == NO_INDEX) == (q == NO_INDEX), "a map");
         if (p == NO_INDEX)
@@ -92,10 +66,8 @@ static void check_material(const struct session *a, const struct material *m,
     struct material x = *m, y = *n;
 
     check_maps(a, m, b, n);
-    for (int i = 0; i < MAPS; i++) {
-        *(uint32_t *)(uintptr_t)maps_of(&x)[i] = 0;
-        *(uint32_t *)(uintptr_t)maps_of(&y)[i] = 0;
-    }
+    for (uint32_t i = 0; i < MATERIAL_MAPS; i++)
+        *material_map(&x, i) = *material_map(&y, i) = 0;
     require(memcmp(&x, &y, sizeof x) == 0, name);
 }
 
