@@ -87,7 +87,8 @@ void inspector_open_table(struct inspector *inspector)
     }
     for (int i = 0; i < legend.count; i++)
         lines[i] = legend.lines[i];
-    screen_open_left(inspector->screen, title, lines, legend.count);
+    screen_open_window(inspector->screen, WINDOW_BOTTOM_LEFT, title, lines,
+                       legend.count);
     inspector->has_table = true;
 }
 

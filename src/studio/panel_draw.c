@@ -2,12 +2,11 @@
 #include "studio/panel_draw.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/text_width.h"
-#include "terminal/xmalloc.h"
 #include "studio/material_parameters.h"
+#include "kernels/tone.h"
 
 /* Rows besides list and parameters: pages, a title, two hints. */
 #define OTHER_ROWS 4
@@ -22,11 +21,18 @@
 #define VALUE_COLS 20
 #define NAME_BYTES 100
 
-/* Lines of the panel, with a colour swatch at the left of each. */
+/* Column of the colour at the left of a line, and of the text. */
+#define SWATCH_COL  2
+#define SWATCH_COLS 2
+#define TEXT_COL    1
+
+/* Bytes of a line: its columns in characters of several bytes. */
+#define LINE_BYTES 256
+
+/* The panel, filled from the top. */
 struct sheet {
-    struct window_line *lines;
-    int count;
-    struct swatches *swatches;
+    const struct screen *screen;
+    int row;
 };
 
 int panel_parameters(struct editor_panel *p,
@@ -42,12 +48,26 @@ int panel_parameters(struct editor_panel *p,
     return count;
 }
 
-static void add_line(struct sheet *s, enum window_look look, const char *text)
+static void add_line(struct sheet *s, enum text_role role, const char *text)
 {
-    struct window_line *line = &s->lines[s->count++];
+    windows_text(WINDOW_PANEL, s->row++, TEXT_COL,
+                 s->screen->panel_cols - TEXT_COL, role, text);
+}
 
-    line->look = look;
-    snprintf(line->text, sizeof line->text, "%s", text);
+static struct rgb srgb_of(const double linear[3])
+{
+    return (struct rgb){(int)srgb_byte((float)linear[0]),
+                        (int)srgb_byte((float)linear[1]),
+                        (int)srgb_byte((float)linear[2])};
+}
+
+/* Shows a linear colour at the left of the last line. */
+static void add_swatch(const struct sheet *s, const double rgb[3])
+{
+    struct cell cell = cells_of_color(srgb_of(rgb), s->screen->display.palette);
+    struct cell cells[SWATCH_COLS] = {cell, cell};
+
+    windows_paint(WINDOW_PANEL, s->row - 1, SWATCH_COL, cells, SWATCH_COLS);
 }
 
 static void add_pages(struct sheet *s, enum parameter_page page)
@@ -58,7 +78,7 @@ static void add_pages(struct sheet *s, enum parameter_page page)
         [PARAMETER_LIGHT] = " Materials   Objects  [Light]",
     };
 
-    add_line(s, WINDOW_TITLE, titles[page]);
+    add_line(s, ROLE_TITLE, titles[page]);
 }
 
 /* Scrolls, so that the selected row is shown. *top is the first row shown. */
@@ -79,7 +99,7 @@ static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
     uint32_t material = is_object ? selection_material_of(sel, i) : i;
     const struct mtl_source *source =
         &edit_shown(&sel->session->edit)->sources[material];
-    char text[WINDOW_LINE_BYTES], name[NAME_BYTES], other[NAME_BYTES];
+    char text[LINE_BYTES], name[NAME_BYTES], other[NAME_BYTES];
     const char *kind;
     double rgb[3];
 
@@ -92,11 +112,12 @@ static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
                    OTHER_COLS);
     snprintf(text, sizeof text, "%s    %s %s", is_selected ? ">" : " ", name,
              other);
-    swatches_set(s->swatches, s->count, rgb);
     add_line(s,
-             is_selected && !p->is_in_parameters ? WINDOW_SELECTED
-                                                 : WINDOW_PLAIN,
+             !is_selected          ? ROLE_TEXT
+             : p->is_in_parameters ? ROLE_PICKED
+                                   : ROLE_SELECTED,
              text);
+    add_swatch(s, rgb);
 }
 
 static void add_list(struct editor_panel *p, struct sheet *s, int rows)
@@ -108,7 +129,7 @@ static void add_list(struct editor_panel *p, struct sheet *s, int rows)
         if (row < sel->listed_count)
             add_item(p, s, sel->listed[row]);
         else
-            add_line(s, WINDOW_PLAIN, "");
+            add_line(s, ROLE_TEXT, "");
     }
 }
 
@@ -117,7 +138,7 @@ static void add_title(const struct editor_panel *p, struct sheet *s)
     const struct selection *sel = &p->selection;
     const struct edit *e = &sel->session->edit;
     uint32_t i = sel->index[sel->page];
-    char text[WINDOW_LINE_BYTES], name[NAME_BYTES];
+    char text[LINE_BYTES], name[NAME_BYTES];
 
     if (e->is_comparing) {
         snprintf(text, sizeof text, " as saved: x goes back");
@@ -133,7 +154,7 @@ static void add_title(const struct editor_panel *p, struct sheet *s)
                  sel->page == PARAMETER_MATERIAL && !edit_is_saved(e, i) ? " *"
                                                                          : "");
     }
-    add_line(s, WINDOW_TITLE, text);
+    add_line(s, ROLE_TITLE, text);
 }
 
 static void format_bar(char bar[BAR_COLS + 1], double fraction)
@@ -149,7 +170,7 @@ static void add_parameter(struct editor_panel *p, struct sheet *s,
                           const struct parameter *v, bool is_selected)
 {
     char bar[BAR_COLS + 1];
-    char text[WINDOW_LINE_BYTES], value[NAME_BYTES];
+    char text[LINE_BYTES], value[NAME_BYTES];
     size_t length = strlen(p->typed);
 
     format_bar(bar, v->fraction);
@@ -164,9 +185,9 @@ static void add_parameter(struct editor_panel *p, struct sheet *s,
         snprintf(text, sizeof text, "     %-10s %s", v->label, value);
     if (is_selected)
         text[0] = '>';
+    add_line(s, is_selected ? ROLE_SELECTED : ROLE_TEXT, text);
     if (v->has_color)
-        swatches_set(s->swatches, s->count, v->color);
-    add_line(s, is_selected ? WINDOW_SELECTED : WINDOW_PLAIN, text);
+        add_swatch(s, v->color);
 }
 
 static void add_parameters(struct editor_panel *p, struct sheet *s, int rows)
@@ -180,7 +201,7 @@ static void add_parameters(struct editor_panel *p, struct sheet *s, int rows)
             add_parameter(p, s, &list[row],
                           p->is_in_parameters && row == p->parameter);
         else
-            add_line(s, WINDOW_PLAIN, "");
+            add_line(s, ROLE_TEXT, "");
     }
 }
 
@@ -189,28 +210,28 @@ static void add_hints(const struct editor_panel *p, struct sheet *s)
     char text[64];
 
     if (!p->control->is_live) {
-        add_line(s, WINDOW_TITLE, " Normal mode: only to look at");
+        add_line(s, ROLE_TITLE, " Normal mode: only to look at");
         snprintf(text, sizeof text, " %s goes to live mode to edit",
                  render_control_key(p->control, ACTION_MODE).text);
-        add_line(s, WINDOW_TITLE, text);
+        add_line(s, ROLE_TITLE, text);
     } else if (p->is_typing) {
-        add_line(s, WINDOW_HINT, " number, #rrggbb, r g b or 3000K");
-        add_line(s, WINDOW_HINT, " Enter takes it   Esc leaves it");
+        add_line(s, ROLE_FAINT, " number, #rrggbb, r g b or 3000K");
+        add_line(s, ROLE_FAINT, " Enter takes it   Esc leaves it");
     } else if (p->is_in_parameters) {
-        add_line(s, WINDOW_HINT,
+        add_line(s, ROLE_FAINT,
                  p->selection.page == PARAMETER_LIGHT
                      ? " Left Right change  n new  N remove"
                      : " Left Right change  [ ] tenfold  Esc");
-        add_line(s, WINDOW_HINT, " type a value  h HSV  u undo  ^S save");
+        add_line(s, ROLE_FAINT, " type a value  h HSV  u undo  ^S save");
     } else {
-        add_line(s, WINDOW_HINT, " Enter values  n copy  x compare");
-        add_line(s, WINDOW_HINT, " Tab page  u undo  ^S save  Esc close");
+        add_line(s, ROLE_FAINT, " Enter values  n copy  x compare");
+        add_line(s, ROLE_FAINT, " Tab page  u undo  ^S save  Esc close");
     }
 }
 
 void panel_draw(struct editor_panel *p)
 {
-    struct sheet s = {.swatches = &p->screen->swatches};
+    struct sheet s = {p->screen, 0};
     struct parameter list[PARAMETERS_MAX];
     int rows = term_size().rows - 1 - OTHER_ROWS;
 
@@ -223,13 +244,10 @@ void panel_draw(struct editor_panel *p)
     if (p->selection.page == PARAMETER_LIGHT)
         p->parameter_rows = rows;
     p->list_rows = rows - p->parameter_rows;
-    s.lines = xcalloc((size_t)rows + OTHER_ROWS, sizeof *s.lines);
-    swatches_clear(s.swatches);
+    screen_begin_panel(p->screen);
     add_pages(&s, p->selection.page);
     add_list(p, &s, p->list_rows);
     add_title(p, &s);
     add_parameters(p, &s, p->parameter_rows);
     add_hints(p, &s);
-    screen_show_panel(p->screen, s.lines, s.count);
-    free(s.lines);
 }

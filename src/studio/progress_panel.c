@@ -78,9 +78,10 @@ void progress_panel_draw(struct progress_panel *panel,
     for (int i = 0; i < row_count; i++)
         lines[i] = texts[i];
     if (screen->window.cols == 0)
-        screen_open_corner(screen, " progress ", lines, row_count);
+        screen_open_window(screen, WINDOW_TOP_RIGHT, " progress ", lines,
+                           row_count);
     else
-        screen_set_corner(screen, lines, row_count);
+        screen_set_window(screen, lines, row_count);
     panel->due_ns = now_ns + UPDATE_NS;
 }
 

@@ -185,7 +185,8 @@ static void open_help_page(struct workspace *workspace, int number)
     if (workspace->help_left > 0 || workspace->progress_panel.is_on)
         screen_close_window(&workspace->screen);
     inspector_close_table(&workspace->inspector);
-    screen_open_window(&workspace->screen, title, lines, page.line_count);
+    screen_open_window(&workspace->screen, WINDOW_MIDDLE, title, lines,
+                       page.line_count);
     workspace->help_number = number;
     workspace->help_left = page.page_count - number;
     workspace->is_settled = false;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "terminal/sgr.h"
 
 /* Most bytes of a cell: a jump of 10, two 24-bit colours of 38 together, a
  * glyph of 4. */
@@ -86,39 +87,15 @@ static void put_char(struct ansi_diff *a, char c)
 
 static void put_number(struct ansi_diff *a, uint32_t n)
 {
-    char digits[10];
-    int count = 0;
-
-    do {
-        digits[count++] = (char)('0' + n % 10);
-        n /= 10;
-    } while (n);
-    while (count)
-        put_char(a, digits[--count]);
+    a->length = (size_t)(sgr_number(a->bytes + a->length, n) - a->bytes);
 }
 
-/* Writes 38;2;r;g;b for a foreground (base 30) or 48;2;r;g;b for a background
- * (base 40). All terminals parse the form with semicolons alike. */
 static void put_color(struct ansi_diff *a, uint32_t color, enum palette palette,
-                      uint32_t base)
+                      enum sgr_ground ground)
 {
-    if (color == CELL_DEFAULT) {
-        put_number(a, base + 9);
-    } else if (palette == PALETTE_24BIT) {
-        put_number(a, base + 8);
-        put(a, ";2;", 3);
-        put_number(a, color >> 16 & 255);
-        put_char(a, ';');
-        put_number(a, color >> 8 & 255);
-        put_char(a, ';');
-        put_number(a, color & 255);
-    } else if (palette == PALETTE_256) {
-        put_number(a, base + 8);
-        put(a, ";5;", 3);
-        put_number(a, color);
-    } else {
-        put_number(a, color < 8 ? base + color : base + 60 + color - 8);
-    }
+    char *end = sgr_color(a->bytes + a->length, color, palette, ground);
+
+    a->length = (size_t)(end - a->bytes);
 }
 
 /* Returns true if the foreground must be set. Blanks show none. */
@@ -143,13 +120,13 @@ static void put_colors(struct ansi_diff *a, const struct cell *cell,
         return;
     put(a, "\033[", 2);
     if (new_fg) {
-        put_color(a, cell->fg, palette, 30);
+        put_color(a, cell->fg, palette, SGR_FOREGROUND);
         a->fg = cell->fg;
     }
     if (new_fg && new_bg)
         put_char(a, ';');
     if (new_bg) {
-        put_color(a, cell->bg, palette, 40);
+        put_color(a, cell->bg, palette, SGR_BACKGROUND);
         a->bg = cell->bg;
     }
     put_char(a, 'm');

@@ -286,6 +286,20 @@ void cells_from_frame(struct cells *cells, const struct frame *frame,
     }
 }
 
+struct cell cells_of_color(struct rgb color, enum palette palette)
+{
+    struct cells mono = {.palette = PALETTE_MONO};
+
+    switch (palette) {
+    case PALETTE_24BIT:
+    case PALETTE_16: /* middle threshold, as in ascii_cell() */
+        return solid_cell(dither_color(NULL, color, 1, 3, palette));
+    case PALETTE_256: return solid_cell(dither_nearest_256(color));
+    case PALETTE_MONO: break;
+    }
+    return ascii_cell(&mono, color);
+}
+
 static int within(double cells, int most)
 {
     if (!(cells >= 1.0))

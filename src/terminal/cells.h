@@ -42,6 +42,10 @@ void cells_free(struct cells *cells);
 void cells_from_frame(struct cells *cells, const struct frame *frame,
                       enum palette palette, enum glyphs glyphs);
 
+/* Returns a blank of one colour. Without colours it is a character by
+ * brightness. */
+struct cell cells_of_color(struct rgb color, enum palette palette);
+
 /* Draws a cursor around a cell: [+]. */
 void cells_mark(struct cells *cells, int col, int row);
 

@@ -8,31 +8,51 @@
 #include <string.h>
 
 #include "base/text_width.h"
+#include "terminal/glyphs.h"
+#include "terminal/sgr.h"
 #include "terminal/tty.h"
 #include "terminal/xmalloc.h"
 
 static WINDOW *window;
 static WINDOW *panel;
 
-/* A cell of picture or swatch: blank until that is drawn. */
-static const struct window_cell spared = {WINDOW_CELL_SPARED, L" ", 0};
+/* Colours and attributes of each role. Curses keeps the role of a cell as its
+ * colour pair; no pairs are defined, since curses writes no colours here. */
+static struct text_style styles[ROLES];
+static enum palette palette = PALETTE_MONO;
 
-/* Cells as the terminal shows them. */
+/* A cell of the picture: blank until that is drawn. */
+static const struct window_cell spared = {WINDOW_CELL_SPARED,
+                                          L" ",
+                                          {CELL_DEFAULT, CELL_DEFAULT, 0}};
+
+/* Cells as the terminal shows them, and cells that windows_paint() has put, by
+ * their place on the screen. */
 static struct {
     int cols, rows;
     struct window_cell *cell;
+    struct cell *painted[WINDOW_PARTS];
     bool must_clear;
 } shown;
 
 /* Bytes of a column: a character and some that combine with it. */
 #define COLUMN_BYTES 16
 
-/* Curses attribute that marks cells of picture and swatches. Text never has
- * it. */
-#define SPARED WA_LOW
+/* Attributes of curses that mark cells of the picture and painted cells. Text
+ * never has them. */
+#define SPARED  WA_LOW
+#define PAINTED WA_RIGHT
 
-/* Attributes of text. */
-#define ATTRIBUTES (A_BOLD | A_DIM | A_REVERSE)
+static WINDOW *window_of(enum window_part part)
+{
+    switch (part) {
+    case WINDOW_STATUS: return stdscr;
+    case WINDOW_PANEL: return panel;
+    case WINDOW_OVER: return window;
+    case WINDOW_PARTS: break;
+    }
+    return NULL;
+}
 
 /* Puts text at the cursor, cut or filled with blanks to exactly `cols`
  * columns. */
@@ -48,12 +68,65 @@ static void add_columns(WINDOW *to, const char *text, int cols)
     free(line);
 }
 
+/* Returns the row of the window in which row `row` of the part is. */
+static int window_row(enum window_part part, int row)
+{
+    return part == WINDOW_STATUS ? LINES - 1 + row : row;
+}
+
+void windows_text(enum window_part part, int row, int col, int cols,
+                  enum text_role role, const char *text)
+{
+    WINDOW *to = window_of(part);
+
+    if (!to || wmove(to, window_row(part, row), col) == ERR)
+        return;
+    if (cols > getmaxx(to) - col)
+        cols = getmaxx(to) - col;
+    wattr_set(to, A_NORMAL, (short)role, NULL);
+    add_columns(to, text, cols);
+    wattr_set(to, A_NORMAL, ROLE_OUTSIDE, NULL);
+}
+
+void windows_paint(enum window_part part, int row, int col,
+                   const struct cell *cells, int count)
+{
+    WINDOW *to = window_of(part);
+    cchar_t blank;
+
+    if (!to)
+        return;
+    if (count > getmaxx(to) - col)
+        count = getmaxx(to) - col;
+    row = window_row(part, row);
+    setcchar(&blank, L" ", PAINTED, 0, NULL);
+    if (count <= 0 || mvwhline_set(to, row, col, &blank, count) == ERR)
+        return;
+    memcpy(&shown.painted[part]
+                         [(row + getbegy(to)) * shown.cols + col + getbegx(to)],
+           cells, (size_t)count * sizeof *cells);
+}
+
+void windows_use_theme(enum theme theme, enum palette new_palette)
+{
+    palette = new_palette;
+    for (int role = 0; role < ROLES; role++)
+        styles[role] = theme_style(theme, palette, (enum text_role)role);
+}
+
+static void free_shown(void)
+{
+    free(shown.cell);
+    for (int i = 0; i < WINDOW_PARTS; i++)
+        free(shown.painted[i]);
+    memset(&shown, 0, sizeof shown);
+}
+
 void windows_free(void)
 {
     windows_close();
     windows_hide_panel();
-    free(shown.cell);
-    memset(&shown, 0, sizeof shown);
+    free_shown();
 }
 
 static void leave_to_picture(int (*erase_cells)(WINDOW *))
@@ -69,14 +142,18 @@ static void leave_to_picture(int (*erase_cells)(WINDOW *))
 
 void windows_clear(void)
 {
+    size_t count = (size_t)LINES * (size_t)COLS;
+
     windows_close();
     windows_hide_panel();
     leave_to_picture(werase);
-    free(shown.cell);
-    shown.cell = xcalloc((size_t)LINES * (size_t)COLS, sizeof *shown.cell);
+    free_shown();
+    shown.cell = xcalloc(count, sizeof *shown.cell);
+    for (int i = 0; i < WINDOW_PARTS; i++)
+        shown.painted[i] = xcalloc(count, sizeof *shown.painted[i]);
     shown.cols = COLS;
     shown.rows = LINES;
-    for (int i = 0; i < COLS * LINES; i++)
+    for (size_t i = 0; i < count; i++)
         shown.cell[i] = spared;
     shown.must_clear = true;
 }
@@ -89,16 +166,15 @@ static int shown_columns(const char *text, int cols)
     return all < cols ? all : cols;
 }
 
-void windows_status(const char *text)
+void windows_clear_status(void)
+{
+    windows_text(WINDOW_STATUS, 0, 0, COLS, ROLE_STATUS, "");
+}
+
+void windows_hide_status(void)
 {
     move(LINES - 1, 0);
-    if (!text) {
-        leave_to_picture(wclrtoeol);
-        return;
-    }
-    attron(A_REVERSE);
-    add_columns(stdscr, text, COLS);
-    attroff(A_REVERSE);
+    leave_to_picture(wclrtoeol);
 }
 
 void windows_set(const char *const *texts, int text_count)
@@ -108,10 +184,8 @@ void windows_set(const char *const *texts, int text_count)
     if (!window)
         return;
     getmaxyx(window, rows, cols);
-    for (int i = 0; i < text_count && i < rows - 2; i++) {
-        wmove(window, i + 1, 2);
-        add_columns(window, texts[i], cols - 4);
-    }
+    for (int i = 0; i < text_count && i < rows - 2; i++)
+        windows_text(WINDOW_OVER, i + 1, 2, cols - 4, ROLE_TEXT, texts[i]);
 }
 
 static struct window_rect window_size(const char *title,
@@ -129,45 +203,40 @@ static struct window_rect window_size(const char *title,
     return r;
 }
 
-static struct window_rect open_window(struct window_rect r, const char *title,
-                                      const char *const *texts, int text_count)
+/* Returns a new window whose blanks have the colours of text. */
+static WINDOW *new_window(struct window_rect r)
 {
-    window = newwin(r.rows, r.cols, r.row, r.col);
+    WINDOW *w = newwin(r.rows, r.cols, r.row, r.col);
+    cchar_t blank;
+
+    setcchar(&blank, L" ", A_NORMAL, ROLE_TEXT, NULL);
+    if (w)
+        wbkgrnd(w, &blank);
+    return w;
+}
+
+struct window_rect windows_open(enum window_place place, const char *title,
+                                const char *const *texts, int text_count)
+{
+    struct window_rect r = window_size(title, texts, text_count);
+
+    if (place == WINDOW_MIDDLE)
+        r.col = (COLS - r.cols) / 2;
+    if (place == WINDOW_MIDDLE)
+        r.row = (LINES - r.rows) / 2;
+    if (place == WINDOW_BOTTOM_LEFT)
+        r.row = r.rows < LINES ? LINES - 1 - r.rows : 0;
+    if (place == WINDOW_TOP_RIGHT)
+        r.col = COLS - r.cols;
+    window = new_window(r);
     if (!window)
         return (struct window_rect){0};
+    wattr_set(window, A_NORMAL, ROLE_FRAME, NULL);
     box_set(window, NULL, NULL);
-    wmove(window, 0, 2);
-    add_columns(window, title, shown_columns(title, r.cols - 4));
+    windows_text(WINDOW_OVER, 0, 2, shown_columns(title, r.cols - 4),
+                 ROLE_TITLE, title);
     windows_set(texts, text_count);
     return r;
-}
-
-struct window_rect windows_open(const char *title, const char *const *texts,
-                                int text_count)
-{
-    struct window_rect r = window_size(title, texts, text_count);
-
-    r.col = (COLS - r.cols) / 2;
-    r.row = (LINES - r.rows) / 2;
-    return open_window(r, title, texts, text_count);
-}
-
-struct window_rect windows_open_left(const char *title,
-                                     const char *const *texts, int text_count)
-{
-    struct window_rect r = window_size(title, texts, text_count);
-
-    r.row = r.rows < LINES ? LINES - 1 - r.rows : 0;
-    return open_window(r, title, texts, text_count);
-}
-
-struct window_rect windows_open_corner(const char *title,
-                                       const char *const *texts, int text_count)
-{
-    struct window_rect r = window_size(title, texts, text_count);
-
-    r.col = COLS - r.cols;
-    return open_window(r, title, texts, text_count);
 }
 
 void windows_close(void)
@@ -178,45 +247,18 @@ void windows_close(void)
     window = NULL;
 }
 
-static int attribute_of(enum window_look look)
-{
-    switch (look) {
-    case WINDOW_SELECTED: return A_REVERSE;
-    case WINDOW_TITLE: return A_BOLD;
-    case WINDOW_HINT: return A_DIM;
-    case WINDOW_PLAIN: break;
-    }
-    return A_NORMAL;
-}
-
-struct window_rect windows_show_panel(const struct window_line *panel_lines,
-                                      int line_count, int cols)
+void windows_open_panel(int cols)
 {
     struct window_rect r = {COLS - cols, 0, cols, LINES - 1};
 
     if (!panel)
-        panel = newwin(r.rows, r.cols, r.row, r.col);
-    if (!panel)
-        return (struct window_rect){0};
-    werase(panel);
-    mvwvline_set(panel, 0, 0, NULL, r.rows);
-    for (int i = 0; i < line_count && i < r.rows; i++) {
-        wattrset(panel, attribute_of(panel_lines[i].look));
-        wmove(panel, i, 1);
-        add_columns(panel, panel_lines[i].text, cols - 1);
-    }
-    wattrset(panel, A_NORMAL);
-    return r;
-}
-
-void windows_spare(int row, int col, int cols)
-{
-    cchar_t blank;
-
+        panel = new_window(r);
     if (!panel)
         return;
-    setcchar(&blank, L" ", SPARED, 0, NULL);
-    mvwhline_set(panel, row, col, &blank, cols);
+    werase(panel);
+    wattr_set(panel, A_NORMAL, ROLE_FRAME, NULL);
+    mvwvline_set(panel, 0, 0, NULL, r.rows);
+    wattr_set(panel, A_NORMAL, ROLE_OUTSIDE, NULL);
 }
 
 void windows_hide_panel(void)
@@ -241,12 +283,12 @@ void windows_notice(const char *text)
 
 /* ---- writing ---- */
 
-/* A stream to the terminal with the cursor's cell and the attributes that are
- * in force there. */
+/* A stream to the terminal with the cursor's cell and the style that is in
+ * force there. */
 struct writer {
     FILE *to;
     int row, col; /* of the cursor; row -1: unknown */
-    attr_t attributes;
+    struct text_style style;
 };
 
 const struct window_cell *windows_shown(int col, int row)
@@ -278,33 +320,78 @@ static bool is_torn(WINDOW *w, const struct window_cell *cell, int col, int row)
            (!has_cell(w, col + 1, row) || owner_of(col + 1, row) != w);
 }
 
+/* Returns what windows_paint() has put at a cell of a window. */
+static struct window_cell painted_cell(const WINDOW *w, int col, int row)
+{
+    enum window_part part = w == window  ? WINDOW_OVER
+                            : w == panel ? WINDOW_PANEL
+                                         : WINDOW_STATUS;
+    const struct cell *c = &shown.painted[part][row * shown.cols + col];
+    struct window_cell cell;
+
+    memset(&cell, 0, sizeof cell);
+    cell.kind = WINDOW_CELL_PAINTED;
+    cell.text[0] = (wchar_t)c->glyph;
+    cell.style = (struct text_style){c->fg, c->bg, 0};
+    return cell;
+}
+
+static struct text_style style_of(short role)
+{
+    struct text_style style = styles[role];
+    attr_t available = term_attrs();
+
+    if (!(available & A_BOLD))
+        style.attributes &= ~(unsigned)TEXT_BOLD;
+    if (!(available & A_DIM))
+        style.attributes &= ~(unsigned)TEXT_DIM;
+    return style;
+}
+
 static void look_at(int col, int row, struct window_cell *cell)
 {
     WINDOW *w = owner_of(col, row);
     attr_t attributes = 0;
-    short pair;
+    short role = ROLE_OUTSIDE;
     cchar_t c;
 
     memset(cell, 0, sizeof *cell);
     mvwin_wch(w, row - getbegy(w), col - getbegx(w), &c);
-    getcchar(&c, cell->text, &attributes, &pair, NULL);
-    cell->attributes = attributes & (ATTRIBUTES | A_ALTCHARSET);
-    cell->kind = WINDOW_CELL_TEXT;
+    getcchar(&c, cell->text, &attributes, &role, NULL);
+    cell->kind =
+        attributes & A_ALTCHARSET ? WINDOW_CELL_LINE : WINDOW_CELL_TEXT;
+    cell->style = style_of(role);
     if (attributes & SPARED)
         *cell = spared;
+    else if (attributes & PAINTED)
+        *cell = painted_cell(w, col, row);
     else if ((c.attr & A_CHARTEXT) > 1) /* curses' mark of a right half */
         *cell = (struct window_cell){.kind = WINDOW_CELL_TAIL};
     if (is_torn(w, cell, col, row))
-        *cell = (struct window_cell){.kind = WINDOW_CELL_TEXT, .text = L" "};
+        *cell = (struct window_cell){.kind = WINDOW_CELL_TEXT,
+                                     .text = L" ",
+                                     .style = style_of(role)};
 }
 
-static void put_attributes(struct writer *w, attr_t attributes)
+static void put_style(struct writer *w, const struct text_style *style)
 {
-    if (attributes == w->attributes)
+    char colors[2 * SGR_COLOR_BYTES + 3], *end = colors;
+
+    if (memcmp(style, &w->style, sizeof *style) == 0)
         return;
-    fprintf(w->to, "\033[0%s%s%sm", attributes & A_BOLD ? ";1" : "",
-            attributes & A_DIM ? ";2" : "", attributes & A_REVERSE ? ";7" : "");
-    w->attributes = attributes;
+    if (style->fg != CELL_DEFAULT) {
+        *end++ = ';';
+        end = sgr_color(end, style->fg, palette, SGR_FOREGROUND);
+    }
+    if (style->bg != CELL_DEFAULT) {
+        *end++ = ';';
+        end = sgr_color(end, style->bg, palette, SGR_BACKGROUND);
+    }
+    *end = '\0';
+    fprintf(w->to, "\033[0%s%s%s%sm", style->attributes & TEXT_BOLD ? ";1" : "",
+            style->attributes & TEXT_DIM ? ";2" : "",
+            style->attributes & TEXT_REVERSE ? ";7" : "", colors);
+    w->style = *style;
 }
 
 /* Writes a line-drawing character from the terminal's alternate character
@@ -318,18 +405,31 @@ static void put_line(struct writer *w, wchar_t name)
             (int)(acs_map[name & 127] & A_CHARTEXT), end ? end : "");
 }
 
+/* Writes a glyph of a picture, whatever the encoding of the locale is. */
+static void put_glyph(struct writer *w, uint32_t glyph)
+{
+    char bytes[4];
+
+    fwrite(bytes, 1, (size_t)glyph_utf8(glyph, bytes), w->to);
+}
+
 static void put_cell(struct writer *w, const struct window_cell *cell, int col,
                      int row)
 {
     if (w->row != row || w->col != col)
         fprintf(w->to, "\033[%d;%dH", row + 1, col + 1);
-    put_attributes(w, cell->attributes & ATTRIBUTES & term_attrs());
-    if (cell->attributes & A_ALTCHARSET)
+    put_style(w, &cell->style);
+    if (cell->kind == WINDOW_CELL_PAINTED)
+        put_glyph(w, (uint32_t)cell->text[0]);
+    else if (cell->kind == WINDOW_CELL_LINE)
         put_line(w, cell->text[0]);
     else
         fprintf(w->to, "%ls", cell->text);
     /* terminals disagree about the width of other characters */
-    w->row = wcwidth(cell->text[0]) == 1 && cell->text[1] == L'\0' ? row : -1;
+    w->row = cell->kind == WINDOW_CELL_PAINTED ||
+                     (wcwidth(cell->text[0]) == 1 && cell->text[1] == L'\0')
+                 ? row
+                 : -1;
     w->col = col + 1;
 }
 
@@ -355,7 +455,9 @@ void windows_update(void)
 {
     char *bytes;
     size_t size_bytes;
-    struct writer w = {.to = open_memstream(&bytes, &size_bytes), .row = -1};
+    struct writer w = {.to = open_memstream(&bytes, &size_bytes),
+                       .row = -1,
+                       .style = {CELL_DEFAULT, CELL_DEFAULT, 0}};
 
     if (!w.to)
         return;

@@ -17,9 +17,14 @@
 
 #include <wchar.h>
 
+#include "terminal/theme.h"
+
 struct window_rect {
     int col, row, cols, rows;
 };
+
+/* Sets the colours of all text from the next update on. */
+void windows_use_theme(enum theme theme, enum palette palette);
 
 /* Closes all windows. The next update clears the screen and leaves it to the
  * picture. */
@@ -28,57 +33,61 @@ void windows_clear(void);
 /* Frees all. Call it before the screen is left. */
 void windows_free(void);
 
-/* Puts text into the last row, in reverse video; NULL leaves the row to the
- * picture. */
-void windows_status(const char *text);
+/* Parts of the screen that show text. */
+enum window_part {
+    WINDOW_STATUS, /* the last row */
+    WINDOW_PANEL,  /* at the right edge */
+    WINDOW_OVER,   /* the window over the picture */
+    WINDOW_PARTS
+};
 
-/* Opens a window with these lines and a title in the middle of the screen and
- * returns where it is. One window is open at a time. */
-struct window_rect windows_open(const char *title, const char *const *texts,
-                                int text_count);
-/* The same in the corner at the bottom left, above the last row, and in the
- * corner at the top right. */
-struct window_rect windows_open_left(const char *title,
-                                     const char *const *texts, int text_count);
-struct window_rect windows_open_corner(const char *title,
-                                       const char *const *texts,
-                                       int text_count);
+/* Puts text at a cell of a part, cut or filled with blanks to exactly `cols`
+ * columns. */
+void windows_text(enum window_part part, int row, int col, int cols,
+                  enum text_role role, const char *text);
+
+/* Puts cells with colours of their own at a cell of a part. */
+void windows_paint(enum window_part part, int row, int col,
+                   const struct cell *cells, int count);
+
+/* Makes the last row blank, or leaves it to the picture. */
+void windows_clear_status(void);
+void windows_hide_status(void);
+
+/* Places of the window over the picture. */
+enum window_place {
+    WINDOW_MIDDLE,
+    WINDOW_BOTTOM_LEFT, /* above the last row */
+    WINDOW_TOP_RIGHT
+};
+
+/* Opens a window with these lines and a title and returns where it is. One
+ * window is open at a time. */
+struct window_rect windows_open(enum window_place place, const char *title,
+                                const char *const *texts, int text_count);
 
 /* Replaces the lines of the window; its size stays. */
 void windows_set(const char *const *texts, int text_count);
 void windows_close(void);
 
-enum window_look { WINDOW_PLAIN, WINDOW_SELECTED, WINDOW_TITLE, WINDOW_HINT };
-
-/* Bytes of a line: the columns of a panel in characters of several bytes. */
-#define WINDOW_LINE_BYTES 256
-
-struct window_line {
-    char text[WINDOW_LINE_BYTES];
-    enum window_look look;
-};
-
-/* Shows lines at the right edge of the screen, in `cols` columns with a bar at
- * their left, above the last row. They replace those shown before. Returns
- * where they are. */
-struct window_rect windows_show_panel(const struct window_line *panel_lines,
-                                      int line_count, int cols);
+/* Makes a blank panel of `cols` columns with a line at its left, above the last
+ * row. It replaces the panel that was shown before. */
+void windows_open_panel(int cols);
 void windows_hide_panel(void);
-
-/* Leaves columns of a row of the panel to be written by others. */
-void windows_spare(int row, int col, int cols);
 
 /* Shows text in the middle of an empty screen. */
 void windows_notice(const char *text);
 
-/* Writes what has changed, and blanks once where picture or swatches will be.
+/* Writes what has changed, and blanks once where the picture will be.
  * The cursor is in the last row, column 0, afterwards. */
 void windows_update(void);
 
 enum window_cell_kind {
-    WINDOW_CELL_SPARED, /* written by others: picture or swatch */
+    WINDOW_CELL_SPARED, /* written by others: the picture */
     WINDOW_CELL_TEXT,
-    WINDOW_CELL_TAIL /* the right half of a wide character */
+    WINDOW_CELL_LINE,    /* a name of curses' line drawing */
+    WINDOW_CELL_PAINTED, /* a glyph of windows_paint() */
+    WINDOW_CELL_TAIL     /* the right half of a wide character */
 };
 
 /* A character and those that combine with it. */
@@ -87,7 +96,7 @@ enum window_cell_kind {
 struct window_cell {
     enum window_cell_kind kind;
     wchar_t text[WINDOW_CELL_CHARS];
-    unsigned attributes; /* curses' A_ constants */
+    struct text_style style;
 };
 
 /* Returns what the terminal shows in a cell since the last update. */

@@ -142,6 +142,35 @@ static float distance_of(struct vec3 a, struct vec3 b)
     return v3_dot(d, d);
 }
 
+/* Returns the number of the nearest level of the cube. */
+static uint32_t nearest_level(int v)
+{
+    uint32_t level = 0;
+
+    while (level < 5 && 2 * v > levels[level] + levels[level + 1])
+        level++;
+    return level;
+}
+
+uint32_t dither_nearest_256(struct rgb c)
+{
+    struct vec3 lab = palette_color_of(c).lab;
+    int mean = (c.r + c.g + c.b) / 3;
+    uint32_t cube = CUBE_FIRST + 36 * nearest_level(c.r) +
+                    6 * nearest_level(c.g) + nearest_level(c.b);
+    uint32_t grey = mean < 8     ? GREY_FIRST
+                    : mean > 238 ? COLORS - 1
+                                 : GREY_FIRST + (uint32_t)(mean - 3) / 10;
+
+    return distance_of(palette_color_of(dither_value(grey, PALETTE_256)).lab,
+                       lab) <
+                   distance_of(
+                       palette_color_of(dither_value(cube, PALETTE_256)).lab,
+                       lab)
+               ? grey
+               : cube;
+}
+
 /* Finds the colours nearest to `lab`, by insertion. */
 static void find_candidates(const struct dither *d, struct vec3 lab,
                             struct candidate found[CANDIDATES])

@@ -49,6 +49,10 @@ void dither_free(struct dither *d);
 uint32_t dither_color(struct dither *d, struct rgb c, int x, int y,
                       enum palette palette);
 
+/* Returns the number of a colour of PALETTE_256 that looks like this one: the
+ * nearest grey, or the nearest of the cube. */
+uint32_t dither_nearest_256(struct rgb c);
+
 /* Returns the sRGB colour of a number of PALETTE_256 or PALETTE_16. */
 struct rgb dither_value(uint32_t number, enum palette palette);
 

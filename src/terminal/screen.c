@@ -28,9 +28,6 @@
 #define PANEL_COLS   38
 #define PICTURE_COLS 10
 
-/* First column of swatches in the panel. */
-#define SWATCH_COL 2
-
 void screen_init(struct screen *screen, const struct term_caps_choice *choice)
 {
     *screen = (struct screen){.has_status_row = true};
@@ -54,7 +51,6 @@ static void free_sized(struct screen *screen)
     cells_free(&screen->cells);
     screen->frame_width = screen->frame_height = 0;
     ansi_diff_free(&screen->ansi);
-    swatches_free(&screen->swatches);
 }
 
 static void say_too_small(const struct tty_size *size)
@@ -152,7 +148,7 @@ bool screen_layout(struct screen *screen, int width_px, int height_px,
     size = term_size();
     screen->window = (struct ansi_diff_rect){0};
     screen->has_status = false;
-    screen->has_new_panel = false;
+    windows_use_theme(screen->theme, screen->display.palette);
     screen->must_update = true;
     screen->is_too_small = is_too_small(&size);
     if (screen->is_too_small) {
@@ -168,9 +164,7 @@ bool screen_layout(struct screen *screen, int width_px, int height_px,
     return ansi_diff_init(&screen->ansi, screen->fit.cols, screen->fit.rows,
                           err) &&
            (init_pixels(screen, &size, width_px, height_px, err) ||
-            init_cells(screen, err)) &&
-           (screen->panel_cols == 0 ||
-            swatches_init(&screen->swatches, size.rows - 1, err));
+            init_cells(screen, err));
 }
 
 bool screen_answer(struct screen *screen, const struct event *event)
@@ -217,39 +211,18 @@ void screen_status(struct screen *screen, const char *text)
     screen->has_status = text != NULL;
     if (text)
         snprintf(screen->status, sizeof screen->status, "%s", text);
-    windows_status(text);
-    if (!text)
+    windows_hide_status();
+    if (text)
+        windows_text(WINDOW_STATUS, 0, 0, term_size().cols, ROLE_STATUS, text);
+    else
         give_to_picture(screen, last_row(screen));
     screen->must_update = true;
 }
 
-void screen_show_panel(struct screen *screen,
-                       const struct window_line *panel_lines, int line_count)
+void screen_begin_panel(struct screen *screen)
 {
-    windows_show_panel(panel_lines, line_count, screen->panel_cols);
-    for (int y = 0; y < screen->swatches.cells.rows; y++) {
-        if (screen->swatches.is_there[y])
-            windows_spare(y, SWATCH_COL, SWATCH_COLS);
-    }
-    screen->has_new_panel = true;
+    windows_open_panel(screen->panel_cols);
     screen->must_update = true;
-}
-
-static bool write_swatches(struct screen *screen)
-{
-    struct swatches *s = &screen->swatches;
-    struct tty_size size = term_size();
-    struct ansi_diff_rect window = screen->window;
-
-    if (!screen->has_new_panel)
-        return true;
-    screen->has_new_panel = false;
-    window.col += screen->fit.col;
-    window.row += screen->fit.row;
-    swatches_draw(s, screen->display.palette,
-                  size.cols - screen->panel_cols + SWATCH_COL, 0, &window,
-                  size.rows - 1);
-    return tty_write(s->ansi.bytes, s->ansi.length);
 }
 
 static void cover(struct screen *screen, struct window_rect r)
@@ -260,25 +233,14 @@ static void cover(struct screen *screen, struct window_rect r)
     screen->must_update = true;
 }
 
-void screen_open_window(struct screen *screen, const char *title,
-                        const char *const *texts, int text_count)
+void screen_open_window(struct screen *screen, enum window_place place,
+                        const char *title, const char *const *texts,
+                        int text_count)
 {
-    cover(screen, windows_open(title, texts, text_count));
+    cover(screen, windows_open(place, title, texts, text_count));
 }
 
-void screen_open_left(struct screen *screen, const char *title,
-                      const char *const *texts, int text_count)
-{
-    cover(screen, windows_open_left(title, texts, text_count));
-}
-
-void screen_open_corner(struct screen *screen, const char *title,
-                        const char *const *texts, int text_count)
-{
-    cover(screen, windows_open_corner(title, texts, text_count));
-}
-
-void screen_set_corner(struct screen *screen, const char *const *texts,
+void screen_set_window(struct screen *screen, const char *const *texts,
                        int text_count)
 {
     windows_set(texts, text_count);
@@ -290,7 +252,6 @@ void screen_close_window(struct screen *screen)
     windows_close();
     give_to_picture(screen, screen->window);
     screen->window = (struct ansi_diff_rect){0};
-    screen->has_new_panel = screen->panel_cols > 0; /* the window covered it */
     screen->must_update = true;
 }
 
@@ -351,7 +312,7 @@ bool screen_draw_text(struct screen *screen)
         tty_write(TTY_SYNC_BEGIN, sizeof TTY_SYNC_BEGIN - 1);
     windows_update();
     screen->has_drawn_text = true;
-    return write_swatches(screen);
+    return true;
 }
 
 /* One write() a frame. */

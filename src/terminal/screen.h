@@ -20,7 +20,6 @@
 #include "terminal/ansi_text.h"
 #include "terminal/curses_windows.h"
 #include "terminal/frame_pacing.h"
-#include "terminal/swatches.h"
 #include "terminal/term_caps.h"
 
 /* Bytes of the longest status line, with its final 0. */
@@ -41,12 +40,11 @@ struct screen {
     char status[STATUS_BYTES];
     bool has_status;
     struct ansi_diff_rect window; /* in the picture's cells; 0 cols: closed */
-    bool must_update;         /* text has changed since screen_draw_text() */
-    bool has_drawn_text;      /* screen_draw() has to end its update */
-    bool has_panel;           /* the next layout leaves room for the panel */
-    int panel_cols;           /* columns at the right edge; 0: none */
-    struct swatches swatches; /* colours beside the panel's lines */
-    bool has_new_panel;       /* swatches have to be written */
+    bool must_update;    /* text has changed since screen_draw_text() */
+    bool has_drawn_text; /* screen_draw() has to end its update */
+    enum theme theme;
+    bool has_panel; /* the next layout leaves room for the panel */
+    int panel_cols; /* columns at the right edge; 0: none */
     bool has_cursor;
     int cursor_col, cursor_row; /* from the picture's corner */
 };
@@ -71,24 +69,17 @@ bool screen_answer(struct screen *screen, const struct event *event);
 /* Sets the text of the last row; NULL leaves the row to the picture. */
 void screen_status(struct screen *screen, const char *text);
 
-/* Shows lines in the panel, with screen->swatches at their left. The layout
- * must have left room for it. */
-void screen_show_panel(struct screen *screen,
-                       const struct window_line *panel_lines, int line_count);
+/* Empties the panel, for windows_text() and windows_paint(). The layout must
+ * have left room for it. */
+void screen_begin_panel(struct screen *screen);
 
-/* Opens a window with these lines in the middle of the screen. One window is
- * open at a time. */
-void screen_open_window(struct screen *screen, const char *title,
-                        const char *const *texts, int text_count);
-/* The same in the corner at the bottom left; keys keep their meaning. */
-void screen_open_left(struct screen *screen, const char *title,
-                      const char *const *texts, int text_count);
+/* Opens a window with these lines. One window is open at a time. */
+void screen_open_window(struct screen *screen, enum window_place place,
+                        const char *title, const char *const *texts,
+                        int text_count);
 
-/* The same in the corner at the top right. screen_set_corner() replaces the
- * lines by as many of the same length. */
-void screen_open_corner(struct screen *screen, const char *title,
-                        const char *const *texts, int text_count);
-void screen_set_corner(struct screen *screen, const char *const *texts,
+/* Replaces the lines of the window by as many. */
+void screen_set_window(struct screen *screen, const char *const *texts,
                        int text_count);
 void screen_close_window(struct screen *screen);
 

@@ -70,19 +70,20 @@ static void tell_text(void)
             struct vt_cell *text = &cell->text;
 
             memset(cell, 0, sizeof *cell);
-            text->fg = text->bg = CELL_DEFAULT;
+            text->fg = shown->style.fg;
+            text->bg = shown->style.bg;
             text->glyph = shown->kind == WINDOW_CELL_TAIL
                               ? VT_TAIL
                               : (uint32_t)shown->text[0];
             for (int i = 0; i < VT_COMBINED_MAX && text->glyph != VT_TAIL; i++)
                 text->combined[i] = (uint32_t)shown->text[i + 1];
-            if (shown->attributes & A_ALTCHARSET)
+            if (shown->kind == WINDOW_CELL_LINE)
                 text->glyph = vt_line_drawing(text->glyph);
-            if (shown->attributes & term_attrs() & A_BOLD)
+            if (shown->style.attributes & TEXT_BOLD)
                 text->attributes |= VT_BOLD;
-            if (shown->attributes & term_attrs() & A_DIM)
+            if (shown->style.attributes & TEXT_DIM)
                 text->attributes |= VT_DIM;
-            if (shown->attributes & A_REVERSE)
+            if (shown->style.attributes & TEXT_REVERSE)
                 text->attributes |= VT_REVERSE;
         }
     }
@@ -118,34 +119,6 @@ static void tell_picture(const struct screen *screen)
                sizeof under[0]);
 }
 
-static bool covers(const struct ansi_diff_rect *r, int col, int row)
-{
-    return row >= r->row && row < r->row + r->rows && col >= r->col &&
-           col < r->col + r->cols;
-}
-
-/* Reports blanks of curses where there is no swatch, or where a window covers
- * it. */
-static void tell_swatches(const struct screen *screen)
-{
-    const struct swatches *s = &screen->swatches;
-    int col = shared->cols - screen->panel_cols + 2;
-
-    for (int y = 0; y < s->ansi.rows; y++) {
-        for (int x = 0; x < SWATCH_COLS; x++) {
-            const struct cell *shown = &s->ansi.shown[y * SWATCH_COLS + x];
-            struct belief_cell *cell = &shared->cell[y][col + x];
-
-            if (shown->glyph == 0 ||
-                covers(&screen->window, col + x - screen->fit.col,
-                       y - screen->fit.row))
-                continue;
-            *cell = (struct belief_cell){BELIEF_PICTURE, cell->text, *shown,
-                                         s->ansi.glyphs};
-        }
-    }
-}
-
 static void tell(const struct screen *screen)
 {
     shared->is_whole = !screen->must_update && screen->has_all_answers;
@@ -153,11 +126,8 @@ static void tell(const struct screen *screen)
     shared->rows = LINES;
     if (shared->is_whole)
         tell_text();
-    if (shared->is_whole && !screen->is_too_small) {
+    if (shared->is_whole && !screen->is_too_small)
         tell_picture(screen);
-        if (screen->panel_cols > 0)
-            tell_swatches(screen);
-    }
     shared->told++;
     tty_write("\033]told\033\\", 8);
     while (sem_wait(&shared->go) != 0) {
