@@ -204,6 +204,8 @@ $(foreach i,$(ISAS),$(eval $(B)/unit/bvh/test_bvh8_$(i): \
 # test_tty inspects the event loop each time before it waits.
 $(B)/unit/terminal/test_tty: private ALL_LDFLAGS += \
 	-Wl,--wrap=workspace_next_ns,--wrap=tty_read
+# It reads files with OpenEXR's library.
+$(B)/unit/picture/test_image_exr: private LIBS += -lOpenEXRCore
 # It makes the disk slow.
 $(B)/unit/session/test_session_film: private ALL_LDFLAGS += -Wl,--wrap=fsync
 # It lets allocations fail, and counts what is freed.

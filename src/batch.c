@@ -199,6 +199,16 @@ static bool save_shown(struct view_mode *show, char **name, struct error *err)
     return ok;
 }
 
+/* Saves the film with the layers of --aov. */
+static bool save_layers(struct view_mode *show, struct film *film, char **name,
+                        struct error *err)
+{
+    struct image_metadata metadata = batch_filter_metadata(show->session, film);
+
+    *name = xstrdup(show->session->options->output_path);
+    return batch_aov_write_layers(show, film, &metadata, err);
+}
+
 static bool save_picture(struct view_mode *show, struct film *film, char **name,
                          struct error *err)
 {
@@ -206,6 +216,8 @@ static bool save_picture(struct view_mode *show, struct film *film, char **name,
         return batch_text_write(show, film, name, err);
     if (show->kind != SHOW_LIGHT)
         return save_shown(show, name, err);
+    if (batch_aov_is_in_picture(show->session->options))
+        return save_layers(show, film, name, err);
     return save_pixels(show->session, film, NULL, name, err);
 }
 

@@ -279,9 +279,9 @@ GLIM_API bool glim_read_floats(struct glim *g, float *rgb, size_t count,
 GLIM_API bool glim_read_bytes(struct glim *g, uint8_t *rgb, size_t count,
                               struct glim_error *err);
 
-/* Writes the picture: .png with the values of glim_read_bytes(), .hdr and .pfm
- * with those of glim_read_floats(), "-" as PNG to standard output. A file is
- * replaced completely or stays unchanged. */
+/* Writes the picture: .png with the values of glim_read_bytes(), .hdr,
+ * .pfm and .exr with those of glim_read_floats(), "-" as PNG to standard
+ * output. A file is replaced completely or stays unchanged. */
 GLIM_API bool glim_save(struct glim *g, const char *path,
                         struct glim_error *err);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "picture/image_write.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,7 +32,8 @@ static const struct ending {
     enum image_write_format format;
 } endings[] = {{".png", IMAGE_WRITE_PNG},
                {".hdr", IMAGE_WRITE_HDR},
-               {".pfm", IMAGE_WRITE_PFM}};
+               {".pfm", IMAGE_WRITE_PFM},
+               {".exr", IMAGE_WRITE_EXR}};
 
 static bool is_stdout(const char *path)
 {
@@ -65,7 +67,7 @@ bool image_write_check(const char *path, struct error *err)
         return fail(err, "%s: found a folder, expected a file", path);
     if (image_write_format_of(path) == IMAGE_WRITE_UNKNOWN)
         return fail(err,
-                    "%s: found no known ending, expected .png, .hdr or .pfm",
+                    "%s: found no known ending, expected " IMAGE_WRITE_ENDINGS,
                     path);
     return file_check(path, err);
 }
@@ -99,7 +101,7 @@ static bool expect_size(int width, int height, size_t pixel_bytes,
     return found <= most ||
            fail(err,
                 "%s: found %dx%d pixels, expected %zu in all at most "
-                "(a .pfm file has no limit)",
+                "(.pfm and .exr files have no limit)",
                 path, width, height, most);
 }
 
@@ -238,22 +240,39 @@ static bool encode_pfm(const float *rgb, int width, int height,
     return !b->is_cut || out_of_memory(width, height, path, err);
 }
 
-/* Encodes floats as HDR or PFM. */
+static bool encode_exr(const struct exr_layer *layers, int count, int width,
+                       int height, const struct image_metadata *metadata,
+                       const char *path, struct buffer *b, struct error *err)
+{
+    b->data = image_exr_encode(layers, count, width, height, metadata,
+                               &b->size_bytes);
+    return b->data != NULL || out_of_memory(width, height, path, err);
+}
+
+/* Encodes floats as HDR, PFM or EXR. Only EXR files have their metadata
+ * already. */
 static bool encode_floats(const float *rgb, int width, int height,
+                          const struct image_metadata *metadata,
                           const char *path, struct buffer *b, struct error *err)
 {
-    if (image_write_format_of(path) == IMAGE_WRITE_PFM)
+    const struct exr_layer picture = {"", "RGB", rgb};
+    enum image_write_format format = image_write_format_of(path);
+
+    if (format == IMAGE_WRITE_PFM)
         return encode_pfm(rgb, width, height, path, b, err);
+    if (format == IMAGE_WRITE_EXR)
+        return encode_exr(&picture, 1, width, height, metadata, path, b, err);
     return expect_size(width, height, 3 * sizeof *rgb, path, err) &&
            encode_hdr(rgb, width, height, path, b, err);
 }
 
-static bool encode_linear(struct film *film, const char *path, struct buffer *b,
-                          struct error *err)
+static bool encode_linear(struct film *film,
+                          const struct image_metadata *metadata,
+                          const char *path, struct buffer *b, struct error *err)
 {
     float *rgb = linear_of(film, path, err);
-    bool ok =
-        rgb && encode_floats(rgb, film->width, film->height, path, b, err);
+    bool ok = rgb && encode_floats(rgb, film->width, film->height, metadata,
+                                   path, b, err);
 
     free(rgb);
     return ok;
@@ -269,15 +288,17 @@ static void embed(const struct image_metadata *m,
 }
 
 static bool encode_pixels(struct film *film, struct develop how,
+                          const struct image_metadata *metadata,
                           const char *path, struct buffer *b, struct error *err)
 {
     switch (image_write_format_of(path)) {
     case IMAGE_WRITE_PNG: return encode_png(film, how, path, b, err);
     case IMAGE_WRITE_HDR:
-    case IMAGE_WRITE_PFM: return encode_linear(film, path, b, err);
+    case IMAGE_WRITE_PFM:
+    case IMAGE_WRITE_EXR: return encode_linear(film, metadata, path, b, err);
     case IMAGE_WRITE_UNKNOWN: break;
     }
-    return fail(err, "%s: found no known ending, expected .png, .hdr or .pfm",
+    return fail(err, "%s: found no known ending, expected " IMAGE_WRITE_ENDINGS,
                 path);
 }
 
@@ -285,7 +306,7 @@ static bool encode(struct film *film, struct develop how,
                    const struct image_metadata *metadata, const char *path,
                    struct buffer *b, struct error *err)
 {
-    if (!encode_pixels(film, how, path, b, err))
+    if (!encode_pixels(film, how, metadata, path, b, err))
         return false;
     if (metadata != NULL)
         embed(metadata, image_write_format_of(path), b);
@@ -312,6 +333,28 @@ bool image_write(struct film *film, struct develop how,
     return ok;
 }
 
+bool image_write_layers(struct film *film,
+                        const struct image_metadata *metadata,
+                        const struct exr_layer *layers, int layer_count,
+                        const char *path, struct error *err)
+{
+    struct exr_layer all[EXR_CHANNELS_MAX];
+    struct buffer b = {.data = NULL};
+    float *rgb = linear_of(film, path, err);
+    bool ok;
+
+    assert(layer_count < EXR_CHANNELS_MAX);
+    all[0] = (struct exr_layer){"", "RGB", rgb};
+    memcpy(all + 1, layers, sizeof *layers * (size_t)layer_count);
+    ok = rgb &&
+         encode_exr(all, layer_count + 1, film->width, film->height, metadata,
+                    path, &b, err) &&
+         publish(&b, path, err);
+    free(b.data);
+    free(rgb);
+    return ok;
+}
+
 bool image_write_frame(const struct frame *frame, const char *path,
                        struct error *err)
 {
@@ -327,7 +370,7 @@ bool image_write_floats(const float *rgb, int width, int height,
                         const char *path, struct error *err)
 {
     struct buffer b = {.data = NULL};
-    bool ok = encode_floats(rgb, width, height, path, &b, err) &&
+    bool ok = encode_floats(rgb, width, height, NULL, path, &b, err) &&
               publish(&b, path, err);
 
     free(b.data);

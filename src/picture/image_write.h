@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * image_write.h - writes a film to PNG, Radiance HDR and PFM files
+ * image_write.h - writes a film to PNG, Radiance HDR, PFM and OpenEXR
+ * files
  *
- * Units:     PNG: 8-bit sRGB after exposure; HDR and PFM: linear means,
+ * Units:     PNG: 8-bit sRGB after exposure; the others: linear means,
  *            without exposure
  * Threads:   any; the film may be in use
  * Errors:    unwritable file, disk full, out of memory; no incomplete file
@@ -14,14 +15,19 @@
 #include <stdbool.h>
 
 #include "picture/film.h"
+#include "picture/image_exr.h"
 #include "picture/image_metadata.h"
 
 enum image_write_format {
     IMAGE_WRITE_PNG,
     IMAGE_WRITE_HDR,
     IMAGE_WRITE_PFM,
+    IMAGE_WRITE_EXR,
     IMAGE_WRITE_UNKNOWN
 };
+
+/* The endings, for messages. */
+#define IMAGE_WRITE_ENDINGS ".png, .hdr, .pfm or .exr"
 
 /* Returns the format by the ending of the name. "-" is PNG. */
 enum image_write_format image_write_format_of(const char *path);
@@ -31,11 +37,17 @@ enum image_write_format image_write_format_of(const char *path);
 bool image_write_check(const char *path, struct error *err);
 
 /* Writes the file atomically (file_write()), so that readers see the old file
- * or the new one. "-" is standard output. PNG and HDR files carry the metadata,
- * which may be NULL; PFM files have no place for it. */
+ * or the new one. "-" is standard output. The files carry the metadata, which
+ * may be NULL, except for PFM, which has no place for it. */
 bool image_write(struct film *film, struct develop how,
                  const struct image_metadata *metadata, const char *path,
                  struct error *err);
+
+/* Writes the film with further layers to an EXR file, as atomically. */
+bool image_write_layers(struct film *film,
+                        const struct image_metadata *metadata,
+                        const struct exr_layer *layers, int layer_count,
+                        const char *path, struct error *err);
 
 /* Writes the file under the first free name of STEM.ENDING, STEM-2.ENDING,
  * STEM-3.ENDING and so on. Never replaces a file. The ending is one of the
@@ -51,7 +63,7 @@ bool image_write_frame(const struct frame *frame, const char *path,
 char *image_write_frame_numbered(const struct frame *frame, const char *stem,
                                  struct error *err);
 
-/* Writes 3 floats a pixel, row 0 at the top, as an HDR or PFM file. */
+/* Writes 3 floats a pixel, row 0 at the top, as an HDR, PFM or EXR file. */
 bool image_write_floats(const float *rgb, int width, int height,
                         const char *path, struct error *err);
 

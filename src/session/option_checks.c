@@ -57,10 +57,11 @@ static bool check_batch(const struct options *o, struct error *err)
     if (o->output_path && o->text_cols == 0 && !options_output_is_film(o) &&
         !options_output_is_video(o) &&
         image_write_format_of(o->output_path) == IMAGE_WRITE_UNKNOWN)
-        return fail(err,
-                    "-o: found '%s', expected a name that ends in .png, .hdr "
-                    "or .pfm, or - for standard output",
-                    o->output_path);
+        return fail(
+            err,
+            "-o: found '%s', expected a name that ends in " IMAGE_WRITE_ENDINGS
+            ", or - for standard output",
+            o->output_path);
     if (o->output_path && o->stats_path && !takes_output &&
         path_is_same(o->output_path, o->stats_path))
         return fail(
@@ -88,10 +89,10 @@ static bool check_side_picture(const struct options *o, const char *option,
 {
     if (is_standard_output(path) ||
         image_write_format_of(path) == IMAGE_WRITE_UNKNOWN)
-        return fail(err,
-                    "%s: found '%s', expected a name that ends in .png, .hdr "
-                    "or .pfm",
-                    option, path);
+        return fail(
+            err,
+            "%s: found '%s', expected a name that ends in " IMAGE_WRITE_ENDINGS,
+            option, path);
     return is_other_file(option, path, "-o", o->output_path, err) &&
            is_other_file(option, path, "--stats", o->stats_path, err);
 }

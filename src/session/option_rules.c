@@ -102,7 +102,7 @@ static const struct option_rule cluster[] = {
 static const struct option_rule batch[] = {
     {"b", OPTION_BATCH, NULL, NULL, "render to a file, without the screen"},
     {"o", OPTION_OUTPUT, "the name of a picture", "FILE",
-     ".png, .hdr or .pfm file to write or replace, or - for standard "
+     ".png, .hdr, .pfm or .exr file to write or replace, or - for standard "
      "output (default: a new .png file in the current folder, named "
      "after the scene)"},
     {"turntable", OPTION_TURNTABLE, "a number of frames", "N",
@@ -117,20 +117,20 @@ static const struct option_rule batch[] = {
      "frames of a second of animation or video, 1 to 1000 (default: 24)"},
     {"denoise", OPTION_DENOISE, "the name of a picture", "[=FILE]",
      "filter the noise out of the picture; with a file write the "
-     "filtered picture to this .png, .hdr or .pfm file and the "
+     "filtered picture to this .png, .hdr, .pfm or .exr file and the "
      "unfiltered one to that of -o"},
     {"ansi", OPTION_ANSI, "COLSxROWS in characters", "COLSxROWS",
      "write coloured text of at most this size instead of a picture, to "
      "the file of -o or standard output"},
     {"error-map", OPTION_ERROR_MAP, "the name of a picture", "FILE",
-     "write a .png, .hdr or .pfm picture of the error of each pixel: "
+     "write a .png, .hdr, .pfm or .exr picture of the error of each pixel: "
      "heat colours from black, 0.1 %, to white, 100 %"},
     {"aov", OPTION_AOV,
      "a list of albedo, normals, position, depth, uv, object and material",
      "LIST",
      "also write properties of the surfaces, to files such as "
-     "out.normals.pfm: a list of albedo, normals, position, depth, uv, object "
-     "and material, with commas"},
+     "out.normals.pfm, or to layers of an .exr file: a list of albedo, "
+     "normals, position, depth, uv, object and material, with commas"},
     {"show", OPTION_SHOW,
      "light, preview, normals, faces, uvs, depth, materials or cost", "KIND",
      "preview, normals, faces, uvs, depth, materials or cost instead of "

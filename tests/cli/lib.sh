@@ -71,8 +71,17 @@ kind()
     89504e470d0a1a0a) echo "$1: PNG $(be32 "$1" 16)x$(be32 "$1" 20)" ;;
     50460a*) echo "$1: PFM $(sed -n '2{p;q;}' "$1" | tr ' ' x)" ;;
     233f5241*) echo "$1: HDR $(sed -n '/^-Y/{p;q;}' "$1")" ;;
+    762f3101*) echo "$1: EXR of" $(exr_channels "$1") ;;
     *) echo "$1: no picture" ;;
     esac
+}
+
+# Prints the names of the channels of an EXR file, which its header lists first,
+# behind the size of the list.
+exr_channels()
+{
+    head -c 1000 "$1" | tr '\0' '\n' | sed -n '/^chlist$/,/^compression$/p' |
+        sed 1,2d | grep -ax '[A-Za-z.]*[A-Z]'
 }
 
 # Prints the floats of a PFM file, three a line: its last width * height * 12

@@ -94,6 +94,7 @@ look()
             ;;
         test)
             need_header cmocka.h libcmocka-dev
+            need_header OpenEXR/openexr.h libopenexr-dev
             need_library libOpenCL.so.1 ocl-icd-libopencl1
             need_driver pocl.icd pocl-opencl-icd
             need_program tmux tmux

@@ -34,3 +34,14 @@ glim $b --aov depth box.obj 2>/dev/null
 ls box*
 run_untimed $b --aov depth --turntable 2 -o t.png box.obj
 ls t*
+
+# an EXR picture has them as layers
+run_untimed $b --aov albedo,normals,position,depth,uv,object,material \
+    -o a.exr box.obj
+kind a.exr
+ls a.*
+run_untimed $b --aov depth --denoise=d.exr -o e.exr box.obj
+kind d.exr
+kind e.exr
+mkdir f.exr
+run $b --aov depth -o f.exr box.obj

@@ -38,8 +38,9 @@ static void paths_that_cannot_be_written_are_refused(void **state)
     static const struct {
         const char *path, *expected;
     } cases[] = {
-        {"a.jpg", "a.jpg: found no known ending, expected .png, .hdr or .pfm"},
-        {"", ": found no known ending, expected .png, .hdr or .pfm"},
+        {"a.jpg",
+         "a.jpg: found no known ending, expected .png, .hdr, .pfm or .exr"},
+        {"", ": found no known ending, expected .png, .hdr, .pfm or .exr"},
         {".", ".: found a folder, expected a file"},
         {"d.png", "d.png: found a folder, expected a file"},
         {"no/a.png", "no: no such file or folder"},
@@ -275,14 +276,14 @@ static void killed_writers_leave_a_whole_picture(void **state)
 /* Runs in a child process, since the limit cannot be removed. */
 static bool fails_on_full_disk(struct film *film)
 {
-    static const char *const paths[] = {"f.png", "f.hdr", "f.pfm"};
+    static const char *const paths[] = {"f.png", "f.hdr", "f.pfm", "f.exr"};
     struct rlimit limit = {1024, 1024};
     struct error err;
     bool ok = true;
 
     signal(SIGXFSZ, SIG_IGN);
     ok = setrlimit(RLIMIT_FSIZE, &limit) == 0;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 4; i++)
         ok = ok &&
              !image_write(film, develop_linear(0), NULL, paths[i], &err) &&
              strstr(err.text, ": File too large") &&
@@ -312,7 +313,8 @@ static void full_disk_keeps_the_old_picture(void **state)
     char *text = read_file("f.png", &size);
     assert_string_equal(text, "old");
     free(text);
-    assert_false(exists("f.hdr") || exists("f.pfm") || exists("full.png"));
+    assert_false(exists("f.hdr") || exists("f.pfm") || exists("f.exr") ||
+                 exists("full.png"));
 
     int saved = dup(STDOUT_FILENO), full = open("/dev/full", O_WRONLY);
     fflush(stdout);

@@ -400,9 +400,9 @@ static void wrong_combinations_have_their_message(void **state)
     bad("-b a --watch", "--watch: found -b, expected the screen");
     bad("-b a -o - --stats -",
         "--stats: found - beside -o -, expected the name of a file");
-    bad("-b a -o x.jpg",
-        "-o: found 'x.jpg', expected a name that ends in .png, .hdr or .pfm, "
-        "or - for standard output");
+    bad("-b a -o x.jpg", "-o: found 'x.jpg', expected a name that ends in "
+                         ".png, .hdr, .pfm or .exr, "
+                         "or - for standard output");
     bad("-f", "-f: found no value, expected the name of a scene");
 }
 
