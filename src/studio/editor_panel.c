@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "terminal/gauge.h"
 #include "studio/panel_draw.h"
 #include "studio/save_commands.h"
 
@@ -32,7 +33,44 @@ void editor_panel_init(struct editor_panel *p, struct render_control *control,
 
 void editor_panel_free(struct editor_panel *p)
 {
+    material_ball_free(&p->ball);
+    frame_free(&p->ball_frame);
+    cells_free(&p->ball_cells);
     selection_free(&p->selection);
+}
+
+/* ---- the ball of the selected material ---- */
+
+bool editor_panel_is_busy(const struct editor_panel *p)
+{
+    return p->is_open && p->shows_ball && !material_ball_is_done(&p->ball);
+}
+
+static bool open_ball(struct editor_panel *p, struct error *err)
+{
+    return p->ball_frame.rgb ||
+           (frame_init(&p->ball_frame, BALL_PIXELS, BALL_PIXELS, err) &&
+            cells_init(&p->ball_cells, BALL_COLS, BALL_ROWS, err));
+}
+
+bool editor_panel_step(struct editor_panel *p)
+{
+    const struct session *s = p->control->session;
+    uint32_t material = selection_material(&p->selection);
+    struct world w;
+    struct error err;
+    bool is_new = false;
+
+    if (!p->is_open || !p->shows_ball || material >= s->world.material_count)
+        return false;
+    w = world_arrays(&s->world, &s->scene);
+    if (!open_ball(p, &err) ||
+        !material_ball_add(&p->ball, &w, s->world.versions[WORLD_TEXTURES],
+                           &s->world.materials[material], &is_new, &err)) {
+        render_control_say_error(p->control, err.text);
+        p->shows_ball = false;
+    }
+    return is_new;
 }
 
 void editor_panel_renew(struct editor_panel *p,
@@ -101,6 +139,22 @@ static void change_by(struct editor_panel *p, int steps)
         return;
     edit_begin_gesture(edit_of(p), GESTURES + (uint32_t)id, clock_ns());
     parameter_step(&target, id, steps);
+    take_change(p);
+}
+
+/* Sets the selected parameter to the place of a slider that is at this column
+ * of the panel. */
+static void drag_to(struct editor_panel *p, int col)
+{
+    struct parameter_target target = selection_target(&p->selection);
+    int id = changeable_id(p);
+
+    if (id < 0)
+        return;
+    edit_begin_gesture(edit_of(p), GESTURES + (uint32_t)id, clock_ns());
+    parameter_set_fraction(&target, id,
+                           gauge_fraction(col - PANEL_SLIDER_COL,
+                                          PANEL_SLIDER_COLS));
     take_change(p);
 }
 
@@ -320,11 +374,20 @@ static void leave(struct editor_panel *p)
 
 /* ---- mouse ---- */
 
+static bool is_on_slider(struct editor_panel *p, int col)
+{
+    struct parameter list[PARAMETERS_MAX];
+
+    return panel_parameters(p, list) > 0 && col >= PANEL_SLIDER_COL &&
+           list[p->parameter].fraction >= 0;
+}
+
 static void click(struct editor_panel *p, int col, int row)
 {
     struct selection *s = &p->selection;
     int list_row = p->list_top + row - 1;
-    int parameter_row = row - 2 - p->list_rows;
+    int parameter_row =
+        row - 2 - p->list_rows - (p->shows_ball ? BALL_ROWS : 0);
 
     p->is_typing = false;
     if (row == 0) {
@@ -337,6 +400,9 @@ static void click(struct editor_panel *p, int col, int row)
     } else if (parameter_row >= 0 && parameter_row < p->parameter_rows) {
         p->parameter = p->parameter_top + parameter_row;
         p->is_in_parameters = true;
+        p->is_dragging = is_on_slider(p, col);
+        if (p->is_dragging)
+            drag_to(p, col);
     }
 }
 
@@ -352,6 +418,12 @@ bool editor_panel_mouse(struct editor_panel *p, const struct event *event)
 {
     int col = event->x - 1 - (term_size().cols - p->screen->panel_cols);
 
+    if (p->is_dragging && event->mouse == MOUSE_DRAG) {
+        drag_to(p, col);
+        return true;
+    }
+    if (event->mouse != MOUSE_OTHER)
+        p->is_dragging = false;
     if (!p->is_open || col < 0 || event->mouse == MOUSE_RELEASE)
         return false;
     if (event->mouse == MOUSE_PRESS)

@@ -19,6 +19,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "inspect/material_ball.h"
 #include "terminal/screen.h"
 #include "studio/pick.h"
 #include "studio/render_control.h"
@@ -36,8 +37,13 @@ struct editor_panel {
     int parameter;                 /* row of the selected parameter */
     int list_top, parameter_top;   /* first rows that are shown */
     int list_rows, parameter_rows; /* numbers of rows in the last drawing */
+    bool is_dragging; /* the mouse moves the slider of the selected parameter */
     bool is_typing;
     char typed[EDITOR_PANEL_TEXT];
+    bool shows_ball; /* the last drawing had room for it */
+    struct material_ball ball;
+    struct frame ball_frame;
+    struct cells ball_cells;
 };
 
 void editor_panel_init(struct editor_panel *p, struct render_control *control,
@@ -57,6 +63,13 @@ bool editor_panel_key(struct editor_panel *p, int key);
 
 /* Handles an event of the mouse. Returns false if it is outside the panel. */
 bool editor_panel_mouse(struct editor_panel *p, const struct event *event);
+
+/* Adds samples to the ball of the selected material. Returns true if the panel
+ * has to be drawn again. */
+bool editor_panel_step(struct editor_panel *p);
+
+/* Returns true if editor_panel_step() has more to do. */
+bool editor_panel_is_busy(const struct editor_panel *p);
 
 /* Selects the material and the object of the pick. */
 void editor_panel_select(struct editor_panel *p, const struct pick *pick);

@@ -5,21 +5,26 @@
 #include <string.h>
 
 #include "base/text_width.h"
+#include "terminal/gauge.h"
+#include "studio/key_hints.h"
 #include "studio/material_parameters.h"
 #include "kernels/tone.h"
 
-/* Rows besides list and parameters: pages, a title, two hints. */
-#define OTHER_ROWS 4
+/* Rows besides list and parameters: pages, a title, hints. */
+#define HINT_ROWS  2
+#define OTHER_ROWS (2 + HINT_ROWS)
 #define LIST_MIN   3
 
-#define BAR_COLS 9
+/* Rows of the list beside a ball, at least. */
+#define LIST_WITH_BALL 5
 
 /* Columns for names that come from files. */
-#define NAME_COLS  17
-#define OTHER_COLS 13
-#define TITLE_COLS 32
-#define VALUE_COLS 20
-#define NAME_BYTES 100
+#define NAME_COLS   17
+#define OTHER_COLS  13
+#define TITLE_COLS  32
+#define VALUE_COLS  20
+#define NUMBER_COLS 9
+#define NAME_BYTES  100
 
 /* Column of the colour at the left of a line, and of the text. */
 #define SWATCH_COL  2
@@ -73,12 +78,22 @@ static void add_swatch(const struct sheet *s, const double rgb[3])
 static void add_pages(struct sheet *s, enum parameter_page page)
 {
     static const char *const titles[] = {
-        [PARAMETER_MATERIAL] = "[Materials]  Objects   Light",
-        [PARAMETER_OBJECT] = " Materials  [Objects]  Light",
-        [PARAMETER_LIGHT] = " Materials   Objects  [Light]",
+        [PARAMETER_MATERIAL] = " Materials ",
+        [PARAMETER_OBJECT] = " Objects ",
+        [PARAMETER_LIGHT] = " Light ",
     };
+    int col = TEXT_COL;
 
-    add_line(s, ROLE_TITLE, titles[page]);
+    add_line(s, ROLE_FAINT, "");
+    for (int i = 0; i <= PARAMETER_LIGHT; i++) {
+        int cols = (int)strlen(titles[i]);
+
+        windows_text(WINDOW_PANEL, 0, col, cols,
+                     i == (int)page ? ROLE_SELECTED : ROLE_FAINT, titles[i]);
+        col += cols;
+    }
+    windows_text(WINDOW_PANEL, 0, s->screen->panel_cols - 4, 3, ROLE_KEY,
+                 "Tab");
 }
 
 /* Scrolls, so that the selected row is shown. *top is the first row shown. */
@@ -133,54 +148,99 @@ static void add_list(struct editor_panel *p, struct sheet *s, int rows)
     }
 }
 
-static void add_title(const struct editor_panel *p, struct sheet *s)
+/* Formats what the title says after the name: what differs from the files. */
+static const char *title_note(const struct selection *sel)
 {
-    const struct selection *sel = &p->selection;
     const struct edit *e = &sel->session->edit;
-    uint32_t i = sel->index[sel->page];
-    char text[LINE_BYTES], name[NAME_BYTES];
+    bool is_saved = sel->page == PARAMETER_LIGHT ? !edit_has_unsaved_view(e)
+                    : sel->page == PARAMETER_MATERIAL
+                        ? edit_is_saved(e, sel->index[sel->page])
+                        : true;
 
-    if (e->is_comparing) {
-        snprintf(text, sizeof text, " as saved: x goes back");
-    } else if (sel->page == PARAMETER_LIGHT) {
-        snprintf(text, sizeof text, " Sky and picture%s",
-                 edit_has_unsaved_view(e) ? " *" : "");
-    } else if (!selection_has_one(sel)) {
-        snprintf(text, sizeof text, " nothing to edit");
-    } else {
-        text_width_cut(name, sizeof name, selection_name(sel, sel->page, i),
-                       TITLE_COLS);
-        snprintf(text, sizeof text, " %s%s", name,
-                 sel->page == PARAMETER_MATERIAL && !edit_is_saved(e, i) ? " *"
-                                                                         : "");
-    }
-    add_line(s, ROLE_TITLE, text);
+    return is_saved ? "" : " *";
 }
 
-static void format_bar(char bar[BAR_COLS + 1], double fraction)
+/* Formats the name of what is edited: an object with its material. */
+static void format_title(char text[LINE_BYTES], const struct selection *sel)
 {
-    int filled = (int)(fraction * BAR_COLS + 0.5);
+    uint32_t i = sel->index[sel->page];
+    char object[NAME_BYTES], material[NAME_BYTES];
 
-    for (int i = 0; i < BAR_COLS; i++)
-        bar[i] = fraction < 0 ? ' ' : i < filled ? '=' : '.';
-    bar[BAR_COLS] = '\0';
+    if (sel->session->edit.is_comparing) {
+        snprintf(text, LINE_BYTES, " as saved: x goes back ");
+    } else if (sel->page == PARAMETER_LIGHT) {
+        snprintf(text, LINE_BYTES, " Sky and picture%s ", title_note(sel));
+    } else if (!selection_has_one(sel)) {
+        snprintf(text, LINE_BYTES, " nothing to edit ");
+    } else if (sel->page == PARAMETER_OBJECT) {
+        text_width_cut(object, sizeof object,
+                       selection_name(sel, PARAMETER_OBJECT, i), NAME_COLS);
+        text_width_cut(material, sizeof material,
+                       selection_name(sel, PARAMETER_MATERIAL,
+                                      selection_material_of(sel, i)),
+                       OTHER_COLS);
+        snprintf(text, LINE_BYTES, " %s / %s ", object, material);
+    } else {
+        text_width_cut(material, sizeof material,
+                       selection_name(sel, PARAMETER_MATERIAL, i), TITLE_COLS);
+        snprintf(text, LINE_BYTES, " %s%s ", material, title_note(sel));
+    }
+}
+
+static void add_title(const struct editor_panel *p, struct sheet *s)
+{
+    int room = s->screen->panel_cols - TEXT_COL;
+    char text[LINE_BYTES];
+    int cols;
+
+    format_title(text, &p->selection);
+    cols = text_width_of(text);
+    windows_rule(WINDOW_PANEL, s->row, TEXT_COL, room);
+    windows_text(WINDOW_PANEL, s->row++, TEXT_COL + 1,
+                 cols < room - 1 ? cols : room - 1, ROLE_TITLE, text);
+}
+
+/* Shows where a number is on its scale. The slider of a channel has the colours
+ * that it can make. */
+static void add_slider(const struct editor_panel *p, const struct sheet *s,
+                       const struct parameter *v)
+{
+    const struct term_caps *d = &s->screen->display;
+    struct parameter_target target = selection_target(&p->selection);
+    struct cell cells[PANEL_SLIDER_COLS];
+    double rgb[3];
+    int room = s->screen->panel_cols - PANEL_SLIDER_COL;
+    int cols = room < PANEL_SLIDER_COLS ? room : PANEL_SLIDER_COLS;
+
+    if (cols <= 0)
+        return;
+    if (d->palette != PALETTE_MONO &&
+        parameter_color_at(&target, v->id, 0, rgb)) {
+        for (int i = 0; i < cols; i++) {
+            parameter_color_at(&target, v->id, gauge_fraction(i, cols), rgb);
+            cells[i] = cells_of_color(srgb_of(rgb), d->palette);
+        }
+        gauge_handle(cells, cols, v->fraction, d->palette, d->has_unicode);
+    } else {
+        gauge_cells(cells, cols, v->fraction,
+                    theme_style(s->screen->theme, d->palette, ROLE_GAUGE),
+                    d->has_unicode);
+    }
+    windows_paint(WINDOW_PANEL, s->row - 1, PANEL_SLIDER_COL, cells, cols);
 }
 
 static void add_parameter(struct editor_panel *p, struct sheet *s,
                           const struct parameter *v, bool is_selected)
 {
-    char bar[BAR_COLS + 1];
     char text[LINE_BYTES], value[NAME_BYTES];
     size_t length = strlen(p->typed);
+    bool is_typed = is_selected && p->is_typing;
 
-    format_bar(bar, v->fraction);
-    text_width_cut(value, sizeof value, v->text, VALUE_COLS);
-    if (is_selected && p->is_typing)
+    text_width_cut(value, sizeof value, v->text,
+                   v->fraction >= 0 ? NUMBER_COLS : VALUE_COLS);
+    if (is_typed)
         snprintf(text, sizeof text, "     %-10s %.18s_", v->label,
                  length > 18 ? p->typed + length - 18 : p->typed);
-    else if (v->fraction >= 0)
-        snprintf(text, sizeof text, "     %-10s %-10.10s %s", v->label, v->text,
-                 bar);
     else
         snprintf(text, sizeof text, "     %-10s %s", v->label, value);
     if (is_selected)
@@ -188,6 +248,8 @@ static void add_parameter(struct editor_panel *p, struct sheet *s,
     add_line(s, is_selected ? ROLE_SELECTED : ROLE_TEXT, text);
     if (v->has_color)
         add_swatch(s, v->color);
+    if (v->fraction >= 0 && !is_typed)
+        add_slider(p, s, v);
 }
 
 static void add_parameters(struct editor_panel *p, struct sheet *s, int rows)
@@ -205,28 +267,76 @@ static void add_parameters(struct editor_panel *p, struct sheet *s, int rows)
     }
 }
 
+/* Shows the ball, as far as it is rendered, in the middle of the panel. */
+static void add_ball(struct editor_panel *p, struct sheet *s)
+{
+    const struct term_caps *d = &s->screen->display;
+    int col = TEXT_COL + (s->screen->panel_cols - TEXT_COL - BALL_COLS) / 2;
+
+    if (p->ball.spp > 0) {
+        material_ball_paint(&p->ball, &p->ball_frame);
+        cells_from_frame(&p->ball_cells, &p->ball_frame, d->palette,
+                         GLYPHS_HALF);
+        for (int y = 0; y < BALL_ROWS; y++)
+            windows_paint(WINDOW_PANEL, s->row + y, col,
+                          p->ball_cells.cell + (size_t)y * BALL_COLS,
+                          BALL_COLS);
+    }
+    s->row += BALL_ROWS;
+}
+
+/* Keys of the panel's states, the most useful first. */
+static const struct key_hint hints_typing[] = {{"Enter", "takes it"},
+                                               {"Esc", "leaves it"},
+                                               {"", "#rrggbb, r g b, 3000K"},
+                                               {NULL, NULL}};
+static const struct key_hint hints_parameters[] = {
+    {"Left Right", "change"}, {"[ ]", "tenfold"}, {"Esc", "back"},
+    {"0-9 #", "type"},        {"h", "HSV"},       {"u", "undo"},
+    {"^S", "save"},           {NULL, NULL}};
+static const struct key_hint hints_light[] = {{"Left Right", "change"},
+                                              {"n N", "new, remove"},
+                                              {"Esc", "close"},
+                                              {"0-9 #", "type"},
+                                              {"h", "HSV"},
+                                              {"u", "undo"},
+                                              {"^S", "save"},
+                                              {NULL, NULL}};
+static const struct key_hint hints_list[] = {
+    {"Enter", "values"}, {"n", "copy"},  {"x", "compare"}, {"Esc", "close"},
+    {"u", "undo"},       {"^S", "save"}, {"Tab", "page"},  {NULL, NULL}};
+
+static const struct key_hint *hints_of(const struct editor_panel *p)
+{
+    if (p->is_typing)
+        return hints_typing;
+    if (!p->is_in_parameters)
+        return hints_list;
+    return p->selection.page == PARAMETER_LIGHT ? hints_light
+                                                : hints_parameters;
+}
+
 static void add_hints(const struct editor_panel *p, struct sheet *s)
 {
-    char text[64];
+    struct keymap_name mode = render_control_key(p->control, ACTION_MODE);
+    const struct key_hint to_live[] = {{mode.text, "live mode, to edit"},
+                                       {"Esc", "close"},
+                                       {NULL, NULL}};
+    const struct key_hint *hints = p->control->is_live ? hints_of(p) : to_live;
 
-    if (!p->control->is_live) {
-        add_line(s, ROLE_TITLE, " Normal mode: only to look at");
-        snprintf(text, sizeof text, " %s goes to live mode to edit",
-                 render_control_key(p->control, ACTION_MODE).text);
-        add_line(s, ROLE_TITLE, text);
-    } else if (p->is_typing) {
-        add_line(s, ROLE_FAINT, " number, #rrggbb, r g b or 3000K");
-        add_line(s, ROLE_FAINT, " Enter takes it   Esc leaves it");
-    } else if (p->is_in_parameters) {
-        add_line(s, ROLE_FAINT,
-                 p->selection.page == PARAMETER_LIGHT
-                     ? " Left Right change  n new  N remove"
-                     : " Left Right change  [ ] tenfold  Esc");
-        add_line(s, ROLE_FAINT, " type a value  h HSV  u undo  ^S save");
-    } else {
-        add_line(s, ROLE_FAINT, " Enter values  n copy  x compare");
-        add_line(s, ROLE_FAINT, " Tab page  u undo  ^S save  Esc close");
-    }
+    for (int row = 0; row < HINT_ROWS; row++)
+        hints = key_hints_draw(WINDOW_PANEL, s->row++, TEXT_COL + 1,
+                               s->screen->panel_cols - TEXT_COL - 1, hints);
+}
+
+/* Half blocks and colours make the ball. */
+static bool has_room_for_ball(const struct editor_panel *p, int rows)
+{
+    const struct term_caps *d = &p->screen->display;
+
+    return d->has_unicode && d->palette != PALETTE_MONO &&
+           rows >= BALL_ROWS + LIST_WITH_BALL &&
+           p->screen->panel_cols >= TEXT_COL + BALL_COLS;
 }
 
 void panel_draw(struct editor_panel *p)
@@ -243,11 +353,16 @@ void panel_draw(struct editor_panel *p)
         p->parameter_rows = rows - LIST_MIN;
     if (p->selection.page == PARAMETER_LIGHT)
         p->parameter_rows = rows;
-    p->list_rows = rows - p->parameter_rows;
+    p->shows_ball = p->selection.page != PARAMETER_LIGHT &&
+                    selection_has_one(&p->selection) &&
+                    has_room_for_ball(p, rows - p->parameter_rows);
+    p->list_rows = rows - p->parameter_rows - (p->shows_ball ? BALL_ROWS : 0);
     screen_begin_panel(p->screen);
     add_pages(&s, p->selection.page);
     add_list(p, &s, p->list_rows);
     add_title(p, &s);
+    if (p->shows_ball)
+        add_ball(p, &s);
     add_parameters(p, &s, p->parameter_rows);
     add_hints(p, &s);
 }

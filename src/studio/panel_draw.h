@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * panel_draw.h - draws the editor panel as lines of text with swatches
+ * panel_draw.h - draws the editor panel
  *
  * Units:     terminal cells
  * Threads:   main only
@@ -11,8 +11,16 @@
 #include "studio/editor_panel.h"
 
 /* Columns where the titles of the second and the third page begin. */
-#define PAGE_2 13
-#define PAGE_3 22
+#define PAGE_2 12
+#define PAGE_3 21
+
+/* Columns of the sliders. A narrow panel cuts them. */
+#define PANEL_SLIDER_COL  26
+#define PANEL_SLIDER_COLS 11
+
+/* Cells of the ball. */
+#define BALL_COLS 24
+#define BALL_ROWS 12
 
 /* Draws the panel if it is open. Call it after a layout and after a change. */
 void panel_draw(struct editor_panel *p);

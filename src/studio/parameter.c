@@ -64,6 +64,16 @@ static double fraction_of(const struct value_scale *s, double value)
                : fmin(log(value / s->from) / log(s->to / s->from), 1);
 }
 
+/* Returns the number at a position on the scale, with no more digits than steps
+ * have. */
+static double number_at(const struct value_scale *s, double fraction)
+{
+    if (s->step != 0)
+        return stepped(s, s->from + fraction * (s->to - s->from), 0);
+    return fraction > 0 ? grown(s, s->from * pow(s->to / s->from, fraction), 0)
+                        : 0;
+}
+
 static void format_number(const struct value_scale *s, double value,
                           char text[PARAMETER_TEXT_BYTES])
 {
@@ -281,6 +291,35 @@ void parameter_step(const struct parameter_target *t, int id, int steps)
     else
         return; /* a colour has no steps, only its channels have */
     take_change(&o, &v);
+}
+
+void parameter_set_fraction(const struct parameter_target *t, int id,
+                            double fraction)
+{
+    struct value v;
+    struct owner o = open_parameter(t, id, &v);
+    int part = id % PARTS;
+
+    if (part == 0 && o.row->type != VALUE_NUMBER)
+        return;
+    set_number(&o, &v, part,
+               number_at(scale_of(&o, part), clamped(fraction, 0, 1)));
+    take_change(&o, &v);
+}
+
+bool parameter_color_at(const struct parameter_target *t, int id,
+                        double fraction, double rgb[3])
+{
+    struct owner o = parameter_owner(t, edit_shown(t->edit));
+    int part = id % PARTS;
+    struct value v;
+
+    if (part == 0 || !parameter_choose_row(&o, id / PARTS) ||
+        !parameter_read(&o, &v))
+        return false;
+    set_number(&o, &v, part, number_at(scale_of(&o, part), fraction));
+    memcpy(rgb, v.rgb, sizeof v.rgb);
+    return true;
 }
 
 /* ---- texts ---- */

@@ -65,6 +65,15 @@ struct lamp parameter_new_lamp(const struct parameter_target *target,
  * one. */
 void parameter_step(const struct parameter_target *target, int id, int steps);
 
+/* Sets a number to a position on its scale, 0 to 1. */
+void parameter_set_fraction(const struct parameter_target *target, int id,
+                            double fraction);
+
+/* Finds the colour that a channel at a position on its scale makes of its
+ * colour. Returns false if the parameter is no channel. */
+bool parameter_color_at(const struct parameter_target *target, int id,
+                        double fraction, double rgb[3]);
+
 /* Sets a parameter to the value of a text. Returns false if the text does not
  * fit. */
 bool parameter_set_text(const struct parameter_target *target, int id,

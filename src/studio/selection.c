@@ -144,3 +144,10 @@ uint32_t selection_material_of(const struct selection *s, uint32_t object)
         return assigned;
     return scene->tris[tri].material;
 }
+
+uint32_t selection_material(const struct selection *s)
+{
+    return s->page == PARAMETER_OBJECT
+               ? selection_material_of(s, s->index[PARAMETER_OBJECT])
+               : s->index[PARAMETER_MATERIAL];
+}

@@ -61,6 +61,9 @@ struct parameter_target selection_target(const struct selection *s);
 const char *selection_name(const struct selection *s, enum parameter_page page,
                            uint32_t i);
 
+/* Returns the selected material, or that of the selected object. */
+uint32_t selection_material(const struct selection *s);
+
 /* Returns the material that an object is shown with. */
 uint32_t selection_material_of(const struct selection *s, uint32_t object);
 

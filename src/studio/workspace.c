@@ -446,6 +446,8 @@ void workspace_look(struct workspace *workspace)
     if (workspace->control->has_changed)
         workspace_refresh(workspace);
     workspace->control->has_changed = false;
+    if (editor_panel_step(&workspace->panel))
+        panel_draw(&workspace->panel);
 }
 
 /* When to look for the first picture after a restart: often at first, seldom
@@ -473,6 +475,8 @@ uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns)
         next = earlier(next, workspace->frame_ns);
     if (control->progress.state == RENDER_RUNNING || workspace->status_ns == 0)
         next = earlier(next, workspace->status_ns);
+    if (editor_panel_is_busy(&workspace->panel))
+        next = earlier(next, now_ns + FRAME_FIRST_NS);
     if (shows_progress(workspace))
         next = earlier(next, progress_panel_next_ns(&workspace->progress_panel,
                                                     control));

@@ -107,6 +107,17 @@ void windows_paint(enum window_part part, int row, int col,
            cells, (size_t)count * sizeof *cells);
 }
 
+void windows_rule(enum window_part part, int row, int col, int cols)
+{
+    WINDOW *to = window_of(part);
+
+    if (!to || cols <= 0)
+        return;
+    wattr_set(to, A_NORMAL, ROLE_FRAME, NULL);
+    mvwhline_set(to, window_row(part, row), col, NULL, cols);
+    wattr_set(to, A_NORMAL, ROLE_OUTSIDE, NULL);
+}
+
 void windows_use_theme(enum theme theme, enum palette new_palette)
 {
     palette = new_palette;
@@ -203,16 +214,13 @@ static struct window_rect window_size(const char *title,
     return r;
 }
 
-/* Returns a new window whose blanks have the colours of text. */
-static WINDOW *new_window(struct window_rect r)
+/* Fills a part with blanks in the colours of text. */
+static void fill(enum window_part part)
 {
-    WINDOW *w = newwin(r.rows, r.cols, r.row, r.col);
-    cchar_t blank;
+    WINDOW *w = window_of(part);
 
-    setcchar(&blank, L" ", A_NORMAL, ROLE_TEXT, NULL);
-    if (w)
-        wbkgrnd(w, &blank);
-    return w;
+    for (int row = 0; row < getmaxy(w); row++)
+        windows_text(part, row, 0, getmaxx(w), ROLE_TEXT, "");
 }
 
 struct window_rect windows_open(enum window_place place, const char *title,
@@ -228,9 +236,10 @@ struct window_rect windows_open(enum window_place place, const char *title,
         r.row = r.rows < LINES ? LINES - 1 - r.rows : 0;
     if (place == WINDOW_TOP_RIGHT)
         r.col = COLS - r.cols;
-    window = new_window(r);
+    window = newwin(r.rows, r.cols, r.row, r.col);
     if (!window)
         return (struct window_rect){0};
+    fill(WINDOW_OVER);
     wattr_set(window, A_NORMAL, ROLE_FRAME, NULL);
     box_set(window, NULL, NULL);
     windows_text(WINDOW_OVER, 0, 2, shown_columns(title, r.cols - 4),
@@ -252,10 +261,10 @@ void windows_open_panel(int cols)
     struct window_rect r = {COLS - cols, 0, cols, LINES - 1};
 
     if (!panel)
-        panel = new_window(r);
+        panel = newwin(r.rows, r.cols, r.row, r.col);
     if (!panel)
         return;
-    werase(panel);
+    fill(WINDOW_PANEL);
     wattr_set(panel, A_NORMAL, ROLE_FRAME, NULL);
     mvwvline_set(panel, 0, 0, NULL, r.rows);
     wattr_set(panel, A_NORMAL, ROLE_OUTSIDE, NULL);

@@ -50,6 +50,9 @@ void windows_text(enum window_part part, int row, int col, int cols,
 void windows_paint(enum window_part part, int row, int col,
                    const struct cell *cells, int count);
 
+/* Draws a horizontal line from a cell of a part. */
+void windows_rule(enum window_part part, int row, int col, int cols);
+
 /* Makes the last row blank, or leaves it to the picture. */
 void windows_clear_status(void);
 void windows_hide_status(void);

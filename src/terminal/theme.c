@@ -34,7 +34,7 @@ static const struct role_colors dark[ROLES] = {
     [ROLE_PAUSED] = {0x241a00, 0xe8bb4e, BLACK, B_YEL, true},
     [ROLE_FAILED] = {0x2c0505, 0xf07878, BLACK, B_RED, true},
     [ROLE_MESSAGE] = {0xffe3a3, 0x222a35, BLACK, WHITE, true},
-    [ROLE_GAUGE] = {0x57c785, 0x3a4656, B_GREEN, BLACK, false},
+    [ROLE_GAUGE] = {0x57c785, 0x2a333f, B_GREEN, BLACK, false},
 };
 
 static const struct role_colors light[ROLES] = {

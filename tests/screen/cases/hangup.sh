@@ -110,7 +110,7 @@ fresh
 start scenes/lamp.obj
 shows '255;255;255'
 keys Tab
-wait_for "│\[Materials\]  Objects   Light"
+wait_for "│ Materials  Objects  Light "
 keys Enter
 keys Down Down Down Down Down Down Down Down
 wait_for "│>    of colour  #ffffff"

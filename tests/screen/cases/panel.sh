@@ -12,9 +12,9 @@ start lamp.obj
 wait_for LIVE
 shows '255;255;255'
 keys Tab
-wait_for "│\[Materials\]  Objects   Light"
+wait_for "│ Materials  Objects  Light "
 expect "│>    l                 diffuse"
-expect "     light      1          ===......"
+expect "     light      1        ███▋"
 wait_for "LIVE"
 # the help begins with the panel's own keys
 keys '?'
@@ -79,7 +79,7 @@ printf '# mine\nnewmtl l\nKd 0 0 0 # black\nKe 1 0 0\naniso .5\n' |
     cmp - lamp.mtl || die "lamp.mtl: $(cat lamp.mtl)"
 # a copy for the object, in green
 keys Tab
-wait_for "│ Materials  \[Objects\]  Light"
+wait_for "─ (no name) / l "
 expect "│>    (no name)         l$"
 keys n
 wait_for "has its own material now: l.2"
@@ -94,13 +94,13 @@ wait_for "wrote 1 material to lamp.mtl, and lamp.view"
 grep -q '^assign "" l.2$' lamp.view || die "lamp.view: $(cat lamp.view)"
 # sky and exposure
 keys Escape
-wait_for "Tab page"
+wait_for "n copy"
 keys Tab Tab
-wait_for "│ Materials   Objects  \[Light\]"
+wait_for "─ Sky and picture"
 expect "│>    sun        off"
 keys Right
 wait_for "│>    sun        on"
-expect "     elevation  45         ====....."
+expect "     elevation  45       █████▌"
 expect "     strength   1"
 keys Down Down
 raw_keys '91'
@@ -145,14 +145,14 @@ wait_for "│>    light "
 raw_keys "$(printf '\033[<65;60;20M')"
 wait_for "│>    light      0.909"
 raw_keys "$(printf '\033[<0;66;1M\033[<0;66;1m')"
-wait_for "\[Light\]"
+wait_for "Sky and picture"
 keys u
-wait_for "Sky and picture$"
+wait_for "Sky and picture ─"
 keys Escape
 wait_until_gone "│"
 # a click on the picture selects what is there
 keys Tab
-wait_for "Materials   Objects  \[Light\]"
+wait_for "Sky and picture"
 raw_keys "$(printf '\033[<0;22;12M\033[<0;22;12m')"
 wait_for "│>    l\.2 "
 keys q

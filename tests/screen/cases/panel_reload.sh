@@ -31,7 +31,7 @@ wait_for "│>    of colour  #00_"
 printf 'newmtl first\nKd 1 1 1\nnewmtl l\nKd 0 0 0\nKe 1 0 0\n' >lamp.mtl
 wait_for "loaded lamp.obj"
 wait_for "│>    of colour  #00_"
-expect "│ l$"
+expect "│─ l ─"
 # saved by ourselves
 raw_keys 'ff00'
 keys Enter

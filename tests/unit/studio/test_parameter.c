@@ -640,6 +640,63 @@ static void many_lamps_fit_the_list(void **state)
     close_fixture(&s);
 }
 
+/* Returns the parameter with this id as it is now. */
+static struct parameter parameter_now(const struct parameter_target *target,
+                                      int id)
+{
+    struct parameter list[PARAMETERS_MAX];
+    int count = parameters_list(target, list), i = 0;
+
+    while (i < count && list[i].id != id)
+        i++;
+    assert_true(i < count);
+    return list[i];
+}
+
+static void set_slider(const struct parameter_target *target,
+                       const struct parameter *p)
+{
+    double rgb[3];
+
+    if (p->fraction < 0) {
+        parameter_set_fraction(target, p->id, 0.5);
+        assert_string_equal(parameter_now(target, p->id).text, p->text);
+    } else if (parameter_color_at(target, p->id, 0.25, rgb)) {
+        int channel = p->id % 4; /* the id of the colour is that of 0 */
+
+        parameter_set_fraction(target, p->id, 0.25);
+        assert_string_equal(parameter_now(target, p->id).text, "0.25");
+        for (int c = 0; c < 3; c++)
+            check_close(rgb[c], parameter_now(target, p->id - channel).color[c],
+                        0);
+    } else {
+        for (int eighth = 1; eighth < 8; eighth += 3) {
+            parameter_set_fraction(target, p->id, eighth / 8.0);
+            check_close(parameter_now(target, p->id).fraction, eighth / 8.0,
+                        0.01);
+        }
+    }
+}
+
+/* A slider's place becomes the value, and its colours are those that the
+ * channel makes. */
+static void sliders_set_values(void **state)
+{
+    struct parameter list[PARAMETERS_MAX];
+    struct parameter_target target;
+    struct fixture s;
+    int count;
+
+    (void)state;
+    open_fixture(&s);
+    target = target_of(&s, PARAMETER_MATERIAL, 1, false);
+    count = parameters_list(&target, list);
+    assert_in_range(count, 8, PARAMETERS_MAX);
+    for (int i = 0; i < count; i++)
+        set_slider(&target, &list[i]);
+    close_fixture(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -654,6 +711,7 @@ int main(void)
         cmocka_unit_test(typed_numbers_reach_the_lamp),
         cmocka_unit_test(lamps_come_and_go),
         cmocka_unit_test(many_lamps_fit_the_list),
+        cmocka_unit_test(sliders_set_values),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+#include "inspect/material_ball.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/geometry.h"
+#include "base/memory.h"
+#include "render/cpu_dispatch.h"
+#include "scene/material.h"
+#include "kernels/hit.h"
+#include "kernels/tone.h"
+
+/* Materials of the studio. */
+enum { BALL, FLOOR_LIGHT, FLOOR_DARK };
+
+/* The ball: rows of latitude, columns of longitude. */
+#define ROWS    24
+#define COLUMNS 48
+#define CORNERS ((ROWS + 1) * (COLUMNS + 1))
+#define RADIUS  0.5f
+
+/* The floor: squares of one colour, under the ball. */
+#define SQUARES      10
+#define SQUARE_SIDE  0.35f
+#define FLOOR_POINTS ((SQUARES + 1) * (SQUARES + 1))
+
+#define POINTS (CORNERS + FLOOR_POINTS)
+#define TRIS   (2 * ROWS * COLUMNS + 2 * SQUARES * SQUARES)
+
+/* Texels of the sky, which is a lat-long image. */
+#define SKY_ROWS    24
+#define SKY_COLUMNS 48
+
+#define VERTICES_MAX 12
+
+/* Samples of each pixel that are added together: some 2000 paths. */
+#define SPP_TOGETHER 4
+
+/* ---- the studio ---- */
+
+static void add_tri(struct material_ball *b, uint32_t v0, uint32_t v1,
+                    uint32_t v2, uint32_t material)
+{
+    struct tri *t = &b->tris[b->studio.world.settings.tri_count];
+    bool is_ball = material == BALL;
+
+    *t = (struct tri){.v = {v0, v1, v2},
+                      .vn = {NO_INDEX, NO_INDEX, NO_INDEX},
+                      .vt = {NO_INDEX, NO_INDEX, NO_INDEX},
+                      .material = material};
+    for (int i = 0; i < 3 && is_ball; i++)
+        t->vn[i] = t->vt[i] = t->v[i];
+    if (triangle_normal(b->positions[v0], b->positions[v1], b->positions[v2],
+                        &t->ng))
+        b->studio.world.settings.tri_count++;
+}
+
+static void add_ball(struct material_ball *b)
+{
+    for (uint32_t i = 0; i < CORNERS; i++) {
+        uint32_t row = i / (COLUMNS + 1), column = i % (COLUMNS + 1);
+        double theta = angle_rad(180.0 * row / ROWS);
+        double phi = angle_rad(360.0 * (column % COLUMNS) / COLUMNS);
+        bool is_pole = row == 0 || row == ROWS;
+        double s = is_pole ? 0 : sin(theta);
+
+        b->normals[i] =
+            v3((float)(s * sin(phi)), (float)cos(theta), (float)(s * cos(phi)));
+        b->positions[i] = v3_scale(b->normals[i], RADIUS);
+        b->uvs[i] = v2((float)column / COLUMNS * 2, 1.0f - (float)row / ROWS);
+    }
+    for (uint32_t row = 0; row < ROWS; row++) {
+        for (uint32_t column = 0; column < COLUMNS; column++) {
+            uint32_t a = row * (COLUMNS + 1) + column, c = a + COLUMNS + 1;
+
+            add_tri(b, a, c, c + 1, BALL);
+            add_tri(b, a, c + 1, a + 1, BALL);
+        }
+    }
+}
+
+static void add_floor(struct material_ball *b)
+{
+    for (uint32_t i = 0; i < FLOOR_POINTS; i++) {
+        float x = (float)(i % (SQUARES + 1)) - 0.5f * SQUARES;
+        float z = (float)(i / (SQUARES + 1)) - 0.5f * SQUARES;
+
+        b->positions[CORNERS + i] =
+            v3(x * SQUARE_SIDE, -RADIUS, z * SQUARE_SIDE);
+    }
+    for (uint32_t z = 0; z < SQUARES; z++) {
+        for (uint32_t x = 0; x < SQUARES; x++) {
+            uint32_t a = CORNERS + z * (SQUARES + 1) + x, c = a + SQUARES + 1;
+            uint32_t material = (x + z) % 2 == 0 ? FLOOR_LIGHT : FLOOR_DARK;
+
+            add_tri(b, a, c, c + 1, material);
+            add_tri(b, a, c + 1, a + 1, material);
+        }
+    }
+}
+
+/* Returns the radiance of the sky: lighter above, with a large light at the
+ * upper left and a strip at the right, seen from the camera. */
+static struct vec3 sky_radiance(double elevation_deg, double azimuth_deg)
+{
+    double side = remainder(azimuth_deg, 360);
+    float grey =
+        elevation_deg > 0 ? 0.35f + 0.004f * (float)elevation_deg : 0.15f;
+
+    if (elevation_deg > 30 && elevation_deg < 70 && fabs(side + 50) < 35)
+        return v3(9.0f, 8.8f, 8.4f);
+    if (elevation_deg > 5 && elevation_deg < 60 && fabs(side - 75) < 12)
+        return v3(3.2f, 3.6f, 4.2f);
+    return v3(grey, grey, grey * 1.06f);
+}
+
+static bool add_sky(struct material_ball *b, struct error *err)
+{
+    struct world *w = &b->studio.world;
+
+    for (int i = 0; i < SKY_ROWS * SKY_COLUMNS; i++)
+        b->sky_texels[i] =
+            sky_radiance(90 - 180 * (i / SKY_COLUMNS + 0.5) / SKY_ROWS,
+                         360 * (i % SKY_COLUMNS + 0.5) / SKY_COLUMNS);
+    w->settings.sky = (struct sky){.color = v3(1.0f, 1.0f, 1.0f),
+                                   .width = SKY_COLUMNS,
+                                   .height = SKY_ROWS,
+                                   .rotation_cos = 1.0f};
+    w->sky_texels = b->sky_texels;
+    if (!sky_table_build(&b->sky_table, b->sky_texels, SKY_COLUMNS, SKY_ROWS,
+                         SKY_WITH_MIS, err))
+        return false;
+    sky_table_lend(&b->sky_table, w);
+    return true;
+}
+
+/* Sets the camera in front of the ball, a little above it. */
+static void set_camera(struct camera *camera)
+{
+    const float sine = 0.28f, cosine = 0.96f, distance = 4.0f, tangent = 0.15f;
+
+    *camera = (struct camera){
+        .eye = v3(0.0f, sine * distance, cosine * distance),
+        .forward = v3(0.0f, -sine, -cosine),
+        .right = v3(tangent, 0.0f, 0.0f),
+        .up = v3(0.0f, cosine * tangent, -sine * tangent),
+        .width = BALL_PIXELS,
+        .height = BALL_PIXELS,
+        .focus = distance,
+    };
+}
+
+static struct material grey_material(float grey)
+{
+    struct material m = material_default();
+
+    m.color = v3(grey, grey, grey);
+    return m;
+}
+
+static bool open_studio(struct material_ball *b, struct error *err)
+{
+    struct world *w = &b->studio.world;
+
+    b->positions = alloc_array(POINTS, sizeof *b->positions);
+    b->normals = alloc_array(CORNERS, sizeof *b->normals);
+    b->uvs = alloc_array(CORNERS, sizeof *b->uvs);
+    b->tris = alloc_array(TRIS, sizeof *b->tris);
+    b->sky_texels =
+        alloc_array((size_t)SKY_ROWS * SKY_COLUMNS, sizeof *b->sky_texels);
+    if (!b->positions || !b->normals || !b->uvs || !b->tris || !b->sky_texels)
+        return fail(err, "out of memory for the ball of the material");
+    b->materials[FLOOR_LIGHT] = grey_material(0.6f);
+    b->materials[FLOOR_DARK] = grey_material(0.08f);
+    add_ball(b);
+    add_floor(b);
+    w->positions = b->positions;
+    w->normals = b->normals;
+    w->uvs = b->uvs;
+    w->tris = b->tris;
+    w->materials = b->materials;
+    w->settings.position_count = POINTS;
+    w->settings.normal_count = w->settings.uv_count = CORNERS;
+    w->settings.material_count = BALL_MATERIALS;
+    w->settings.max_vertices = VERTICES_MAX;
+    w->settings.features = cpu_kernel_best()->features;
+    set_camera(&w->settings.camera);
+    if (!add_sky(b, err) || !bvh8_build(&b->tree, w, NULL, err))
+        return false;
+    b->studio.tree = &b->tree;
+    b->kernel = cpu_kernel_best();
+    return true;
+}
+
+/* ---- samples ---- */
+
+static void lend_textures(struct world *to, const struct world *from)
+{
+    to->textures = from->textures;
+    to->texels = from->texels;
+    to->linear_of_srgb = from->linear_of_srgb;
+    to->settings.texture_count = from->settings.texture_count;
+    to->settings.texel_count = from->settings.texel_count;
+}
+
+static void add_row(struct material_ball *b, uint32_t y)
+{
+    struct sample_id ids[SAMPLE_BLOCK];
+    struct path_sample samples[SAMPLE_BLOCK];
+    struct first_surface surfaces[SAMPLE_BLOCK];
+
+    for (uint32_t x = 0; x < BALL_PIXELS; x += SAMPLE_BLOCK) {
+        struct vec3 *sums = &b->sums[y * BALL_PIXELS + x];
+
+        for (uint32_t i = 0; i < SAMPLE_BLOCK; i++)
+            ids[i] = (struct sample_id){x + i, y, b->spp};
+        b->kernel->samples(&b->studio.world, ids, SAMPLE_BLOCK, samples,
+                           surfaces);
+        for (uint32_t i = 0; i < SAMPLE_BLOCK; i++)
+            sums[i] = v3_add(sums[i], samples[i].radiance);
+    }
+}
+
+_Static_assert(BALL_PIXELS % SAMPLE_BLOCK == 0, "see add_row()");
+
+static void add_sample(struct material_ball *b)
+{
+    for (uint32_t y = 0; y < BALL_PIXELS; y++)
+        add_row(b, y);
+    b->spp++;
+}
+
+bool material_ball_is_done(const struct material_ball *b)
+{
+    return b->spp >= BALL_SPP;
+}
+
+bool material_ball_add(struct material_ball *b, const struct world *world,
+                       uint64_t textures, const struct material *material,
+                       bool *is_new, struct error *err)
+{
+    *is_new = false;
+    if (!b->kernel && !open_studio(b, err)) {
+        material_ball_free(b);
+        return false;
+    }
+    if (memcmp(&b->materials[BALL], material, sizeof *material) != 0 ||
+        b->textures != textures) {
+        b->materials[BALL] = *material;
+        b->textures = textures;
+        b->spp = 0;
+        memset(b->sums, 0, sizeof b->sums);
+    }
+    if (material_ball_is_done(b))
+        return true;
+    lend_textures(&b->studio.world, world);
+    for (int i = 0; i < SPP_TOGETHER && !*is_new; i++) {
+        add_sample(b);
+        *is_new = (b->spp & (b->spp - 1)) == 0;
+    }
+    return true;
+}
+
+void material_ball_paint(const struct material_ball *b, struct frame *frame)
+{
+    float scale = b->spp > 0 ? 1.0f / (float)b->spp : 0.0f;
+
+    for (size_t i = 0; i < (size_t)BALL_PIXELS * BALL_PIXELS; i++) {
+        struct vec3 c = v3_scale(b->sums[i], scale);
+
+        frame->rgb[3 * i] = (uint8_t)srgb_byte(c.x);
+        frame->rgb[3 * i + 1] = (uint8_t)srgb_byte(c.y);
+        frame->rgb[3 * i + 2] = (uint8_t)srgb_byte(c.z);
+    }
+}
+
+void material_ball_free(struct material_ball *b)
+{
+    bvh8_free(&b->tree);
+    sky_table_free(&b->sky_table);
+    free(b->positions);
+    free(b->normals);
+    free(b->uvs);
+    free(b->tris);
+    free(b->sky_texels);
+    *b = (struct material_ball){.kernel = NULL};
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_material_ball.c - a ball that only glows has its radiance in every pixel
+ * of its disc; a change begins the picture anew; samples end
+ */
+#include <math.h>
+
+#include "inspect/material_ball.h"
+#include "scene/material.h"
+#include "tests/unit/check.h"
+
+static const struct world no_textures;
+
+static struct material glowing(float radiance)
+{
+    struct material m = material_default();
+
+    m.color = v3(0.0f, 0.0f, 0.0f);
+    m.emission = v3(radiance, radiance, radiance);
+    return m;
+}
+
+static void finish(struct material_ball *ball, const struct material *m)
+{
+    struct error err;
+    bool is_new;
+    int calls = 0;
+
+    do {
+        assert_true(material_ball_add(ball, &no_textures, 1, m, &is_new, &err));
+        calls++;
+    } while (!material_ball_is_done(ball));
+    assert_in_range(calls, 2, BALL_SPP);
+    assert_true(material_ball_add(ball, &no_textures, 1, m, &is_new, &err));
+    assert_false(is_new);
+    assert_int_equal(ball->spp, BALL_SPP);
+}
+
+static struct vec3 mean_at(const struct material_ball *ball, int x, int y)
+{
+    return v3_scale(ball->sums[y * BALL_PIXELS + x], 1.0f / (float)ball->spp);
+}
+
+static void glow_is_the_radiance(void **state)
+{
+    struct material_ball ball = {.kernel = NULL};
+    struct material dim = glowing(0.25f), bright = glowing(2.0f);
+    int inside = 0;
+
+    (void)state;
+    finish(&ball, &dim);
+    for (int y = 0; y < BALL_PIXELS; y++) {
+        for (int x = 0; x < BALL_PIXELS; x++) {
+            double dx = x + .5 - BALL_PIXELS / 2.,
+                   dy = y + .5 - BALL_PIXELS / 2.;
+
+            if (hypot(dx, dy) > BALL_PIXELS / 3.)
+                continue;
+            inside++;
+            check_close((double)mean_at(&ball, x, y).y, 0.25, 1e-5);
+        }
+    }
+    assert_in_range(inside, 100, 576);
+    finish(&ball, &bright);
+    check_close((double)mean_at(&ball, 12, 12).x, 2, 1e-5);
+    material_ball_free(&ball);
+}
+
+/* White and without loss, the ball is about as bright as the sky above it. */
+static void white_is_brighter_than_black(void **state)
+{
+    struct material_ball ball = {.kernel = NULL};
+    struct material white = material_default(), black = white;
+    double light;
+
+    (void)state;
+    white.color = v3(1.0f, 1.0f, 1.0f);
+    black.color = v3(0.0f, 0.0f, 0.0f);
+    finish(&ball, &white);
+    light = (double)mean_at(&ball, 12, 8).y;
+    assert_true(light > 0.4 && light < 4);
+    finish(&ball, &black);
+    check_close((double)mean_at(&ball, 12, 8).y, 0, 1e-6);
+    material_ball_free(&ball);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(glow_is_the_radiance),
+        cmocka_unit_test(white_is_brighter_than_black),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
