@@ -10,6 +10,7 @@
 #if HAS_ASSIMP
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,6 +18,7 @@
 #include "base/name_table.h"
 #include "import/import_material.h"
 #include "import/import_stream.h"
+#include "import/import_view.h"
 
 /* What is done once for each place of a mesh in the tree of nodes: it is
  * counted, or an array of it is written. */
@@ -26,19 +28,14 @@ typedef void take_mesh(struct sender *s, const struct aiNode *node,
 
 struct sender {
     const struct aiScene *scene;
+    const char *path;
+    struct import_source source;
+    double lo[3], hi[3]; /* of all vertices */
     FILE *to;
     struct import_head head;
     uint64_t vertex_count, tri_count, object_count, name_bytes; /* so far */
     take_mesh *take;
 };
-
-static struct affine matrix_of(const struct aiMatrix4x4 *m)
-{
-    return (struct affine){
-        {{(double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4},
-         {(double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4},
-         {(double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4}}};
-}
 
 /* ---- visits ---- */
 
@@ -51,7 +48,7 @@ static bool is_drawn(const struct aiMesh *mesh)
 static void visit_nodes(struct sender *s, const struct aiNode *node,
                         const struct affine *parent)
 {
-    struct affine matrix = matrix_of(&node->mTransformation);
+    struct affine matrix = import_matrix(node);
 
     matrix = affine_join(parent, &matrix);
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
@@ -64,11 +61,11 @@ static void visit_nodes(struct sender *s, const struct aiNode *node,
         visit_nodes(s, node->mChildren[i], &matrix);
 }
 
+static const struct affine identity = {
+    {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
 static void visit_all(struct sender *s, take_mesh *take)
 {
-    static const struct affine identity = {
-        {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-
     s->vertex_count = s->tri_count = s->object_count = s->name_bytes = 0;
     s->take = take;
     visit_nodes(s, s->scene->mRootNode, &identity);
@@ -83,10 +80,27 @@ static uint32_t count_tris(const struct aiMesh *mesh)
     return count;
 }
 
+/* Extends the box of the scene. */
+static void measure(struct sender *s, const struct aiMesh *mesh,
+                    const struct affine *matrix)
+{
+    for (unsigned i = 0; i < mesh->mNumVertices; i++) {
+        const struct aiVector3D *v = &mesh->mVertices[i];
+        const double from[3] = {(double)v->x, (double)v->y, (double)v->z};
+        double p[3];
+
+        affine_point(matrix, from, p);
+        for (int k = 0; k < 3; k++) {
+            s->lo[k] = fmin(s->lo[k], p[k]);
+            s->hi[k] = fmax(s->hi[k], p[k]);
+        }
+    }
+}
+
 static void count(struct sender *s, const struct aiNode *node,
                   const struct aiMesh *mesh, const struct affine *matrix)
 {
-    (void)matrix;
+    measure(s, mesh, matrix);
     s->vertex_count += mesh->mNumVertices;
     s->tri_count += count_tris(mesh);
     s->object_count++;
@@ -194,6 +208,124 @@ static void send_names(struct sender *s, const struct aiNode *node,
     fwrite(node->mName.data, strlen(node->mName.data) + 1, 1, s->to);
 }
 
+/* ---- cameras and lights ---- */
+
+/* Finds the node of this name, and its matrix to the scene. */
+static bool find_node(const struct aiNode *node, const char *name,
+                      struct affine *matrix)
+{
+    struct affine parent = *matrix, own = import_matrix(node);
+
+    *matrix = affine_join(&parent, &own);
+    if (strcmp(node->mName.data, name) == 0)
+        return true;
+    for (unsigned i = 0; i < node->mNumChildren; i++) {
+        struct affine found = *matrix;
+
+        if (find_node(node->mChildren[i], name, &found)) {
+            *matrix = found;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Returns the matrix of the camera or light of this name: that of its node. */
+static struct affine place_of(const struct sender *s, const char *name)
+{
+    struct affine matrix = identity;
+
+    return find_node(s->scene->mRootNode, name, &matrix) ? matrix : identity;
+}
+
+static void send_cameras(struct sender *s)
+{
+    for (unsigned i = 0; i < s->scene->mNumCameras; i++) {
+        const struct aiCamera *camera = s->scene->mCameras[i];
+        struct affine matrix = place_of(s, camera->mName.data);
+        struct import_camera c;
+
+        import_camera_fill(camera, &matrix, &c);
+        fwrite(&c, sizeof c, 1, s->to);
+    }
+}
+
+static bool fill_lamp(const struct sender *s, const struct aiLight *light,
+                      struct import_lamp *lamp)
+{
+    struct affine matrix = place_of(s, light->mName.data);
+    double center[3];
+
+    for (int k = 0; k < 3; k++)
+        center[k] = (s->lo[k] + s->hi[k]) / 2;
+    return import_lamp_fill(light, &matrix, &s->source, center, lamp);
+}
+
+static void count_lamps(struct sender *s)
+{
+    for (unsigned i = 0; i < s->scene->mNumLights; i++) {
+        struct import_lamp lamp;
+
+        if (fill_lamp(s, s->scene->mLights[i], &lamp))
+            s->head.lamp_count++;
+        else
+            s->head.skipped_count++;
+    }
+}
+
+static void send_lamps(struct sender *s)
+{
+    for (unsigned i = 0; i < s->scene->mNumLights; i++) {
+        struct import_lamp lamp;
+
+        if (fill_lamp(s, s->scene->mLights[i], &lamp))
+            fwrite(&lamp, sizeof lamp, 1, s->to);
+    }
+}
+
+/* ---- images ---- */
+
+/* Sends texels as a TGA file, which has them in the same order: blue, green,
+ * red and alpha, from the top. */
+static void send_texels(struct sender *s, const struct aiTexture *t)
+{
+    enum { TRUE_COLOR = 2, FROM_THE_TOP = 0x20, ALPHA_BITS = 8 };
+    const uint8_t head[18] = {
+        [2] = TRUE_COLOR,
+        [12] = (uint8_t)t->mWidth,
+        [13] = (uint8_t)(t->mWidth >> 8),
+        [14] = (uint8_t)t->mHeight,
+        [15] = (uint8_t)(t->mHeight >> 8),
+        [16] = 32,
+        [17] = FROM_THE_TOP | ALPHA_BITS,
+    };
+    uint64_t texels = (uint64_t)t->mWidth * t->mHeight;
+    uint64_t size_bytes = sizeof head + sizeof *t->pcData * texels;
+
+    fwrite(&size_bytes, sizeof size_bytes, 1, s->to);
+    fwrite(head, sizeof head, 1, s->to);
+    fwrite(t->pcData, sizeof *t->pcData, texels, s->to);
+}
+
+/* Sends the embedded images: files, and texels without a format. */
+static void send_images(struct sender *s)
+{
+    for (unsigned i = 0; i < s->scene->mNumTextures; i++) {
+        const struct aiTexture *t = s->scene->mTextures[i];
+        uint64_t size_bytes = t->mWidth;
+
+        if (t->mHeight > 0 && t->mWidth <= UINT16_MAX &&
+            t->mHeight <= UINT16_MAX) {
+            send_texels(s, t);
+            continue;
+        }
+        if (t->mHeight > 0)
+            size_bytes = 0;
+        fwrite(&size_bytes, sizeof size_bytes, 1, s->to);
+        fwrite(t->pcData, 1, size_bytes, s->to);
+    }
+}
+
 /* ---- the scene ---- */
 
 /* Returns the materials as MTL text, for free(). */
@@ -203,11 +335,11 @@ static char *material_text(const struct assimp_api *api, struct sender *s,
     struct name_table names = {0};
     char *text = NULL;
     FILE *to = open_memstream(&text, size_bytes);
+    const struct import_materials m = {api, s->scene, s->path, &s->source, to};
     bool ok = to != NULL;
 
     for (unsigned i = 0; ok && i < s->scene->mNumMaterials; i++)
-        ok = import_material_write(api, s->scene->mMaterials[i], &names,
-                                   &s->head.image_count, to);
+        ok = import_material_write(&m, s->scene->mMaterials[i], &names);
     name_table_free(&names);
     if (to != NULL && (fclose(to) != 0 || !ok)) {
         free(text);
@@ -219,7 +351,12 @@ static char *material_text(const struct assimp_api *api, struct sender *s,
 static bool fill_head(struct sender *s, size_t material_bytes,
                       struct error *err)
 {
+    for (int k = 0; k < 3; k++) {
+        s->lo[k] = HUGE_VAL;
+        s->hi[k] = -HUGE_VAL;
+    }
     visit_all(s, count);
+    count_lamps(s);
     if (s->vertex_count >= NO_INDEX || s->tri_count >= NO_INDEX ||
         s->object_count >= NO_INDEX)
         return fail(err, "found %llu triangles, expected fewer than 2^32",
@@ -231,6 +368,8 @@ static bool fill_head(struct sender *s, size_t material_bytes,
     s->head.name_bytes = s->name_bytes;
     s->head.material_count = s->scene->mNumMaterials;
     s->head.material_bytes = material_bytes;
+    s->head.image_count = s->scene->mNumTextures;
+    s->head.camera_count = s->scene->mNumCameras;
     return true;
 }
 
@@ -253,6 +392,9 @@ static bool send(const struct assimp_api *api, struct sender *s,
             visit_all(s, send_colors);
         visit_all(s, send_tris);
         visit_all(s, send_names);
+        send_cameras(s);
+        send_lamps(s);
+        send_images(s);
         fwrite(text, size_bytes, 1, s->to);
         ok = fflush(s->to) == 0 && !ferror(s->to);
         if (!ok)
@@ -283,7 +425,7 @@ static const struct aiScene *read_file(const struct assimp_api *api,
 static bool read_and_send(const char *path, FILE *to, struct error *err)
 {
     const struct assimp_api *api = assimp_api_open(err);
-    struct sender s = {.to = to};
+    struct sender s = {.path = path, .to = to};
 
     if (api == NULL)
         return false;
@@ -292,6 +434,7 @@ static bool read_and_send(const char *path, FILE *to, struct error *err)
         return fail(err, "libassimp: %s", api->GetErrorString());
     if (s.scene->mRootNode == NULL || s.scene->mNumMeshes == 0)
         return fail(err, "found no faces");
+    s.source = import_source_of(s.scene);
     return send(api, &s, err);
 }
 

@@ -4,16 +4,20 @@
 #if HAS_ASSIMP
 
 #include <ctype.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/memory.h"
+
+#define NO_IMAGE UINT_MAX
 
 struct writer {
     const struct assimp_api *api;
+    const struct import_materials *all;
     const struct aiMaterial *material;
-    uint32_t *image_count;
     FILE *to;
 };
 
@@ -89,20 +93,51 @@ static void write_color(const struct writer *w, const char *key,
             (double)(c->g * scale), (double)(c->b * scale));
 }
 
+/* Returns the last part of a name with folders of any system. */
+static const char *last_part(const char *name)
+{
+    const char *last = name;
+
+    for (; *name != '\0'; name++)
+        if (*name == '/' || *name == '\\')
+            last = name + 1;
+    return last;
+}
+
+/* Returns the number of the image in the file that `name` means: *3, or the
+ * name of the file that it was. */
+static unsigned embedded_image(const struct writer *w, const char *name)
+{
+    const struct aiScene *scene = w->all->scene;
+
+    for (unsigned i = 0; i < scene->mNumTextures; i++) {
+        const char *image = scene->mTextures[i]->mFilename.data;
+        char number[16];
+
+        snprintf(number, sizeof number, "*%u", i);
+        if (strcmp(name, number) == 0 ||
+            (*image != '\0' && strcmp(last_part(name), last_part(image)) == 0))
+            return i;
+    }
+    return NO_IMAGE;
+}
+
 /* Writes a map. Returns true if the material has one. */
 static bool write_map(const struct writer *w, const char *key,
                       enum aiTextureType type)
 {
     struct aiString path;
+    unsigned image;
 
     if (w->api->GetMaterialTexture(w->material, type, 0, &path, NULL, NULL,
                                    NULL, NULL, NULL,
                                    NULL) != aiReturn_SUCCESS ||
         path.length == 0)
         return false;
-    if (path.data[0] == '*') { /* the number of an image in the file */
-        ++*w->image_count;
-        return false;
+    image = embedded_image(w, path.data);
+    if (image != NO_IMAGE) {
+        fprintf(w->to, "%s %s#image%u\n", key, path_name(w->all->path), image);
+        return true;
     }
     for (char *p = path.data; *p != '\0'; p++) {
         if (*p == '\\') /* a folder on Windows */
@@ -114,16 +149,28 @@ static bool write_map(const struct writer *w, const char *key,
     return true;
 }
 
+/* Writes how much of a metal it is. Blender's exporters write that as the
+ * reflectivity; for other programs this is a mirror in front of the surface,
+ * which many have for no reason. */
+static void write_metal(const struct writer *w)
+{
+    float metal;
+
+    if (get_number(w, "$mat.metallicFactor", &metal) ||
+        (w->all->source->is_blender &&
+         get_number(w, "$mat.reflectivity", &metal) && metal > 0))
+        write_number(w, "Pm", metal);
+}
+
 /* Writes roughness and metal if the file has them, else the highlight. */
 static void write_facets(const struct writer *w)
 {
-    float roughness, metal, shininess = 0, strength = 1;
+    float roughness, shininess = 0, strength = 1;
     struct aiColor4D specular;
 
+    write_metal(w);
     if (get_number(w, "$mat.roughnessFactor", &roughness)) {
         write_number(w, "Pr", roughness);
-        if (get_number(w, "$mat.metallicFactor", &metal))
-            write_number(w, "Pm", metal);
         write_color(w, "Ks", &(struct aiColor4D){0.5f, 0.5f, 0.5f, 1}, 1);
         return;
     }
@@ -163,12 +210,11 @@ static void write_surface(const struct writer *w)
     write_map(w, "map_bump", aiTextureType_HEIGHT);
 }
 
-bool import_material_write(const struct assimp_api *api,
+bool import_material_write(const struct import_materials *m,
                            const struct aiMaterial *material,
-                           struct name_table *names, uint32_t *image_count,
-                           FILE *to)
+                           struct name_table *names)
 {
-    struct writer w = {api, material, image_count, to};
+    struct writer w = {m->api, m, material, m->to};
 
     if (!write_name(&w, names))
         return false;

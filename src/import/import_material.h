@@ -12,15 +12,23 @@
 
 #include "base/name_table.h"
 #include "import/assimp_api.h"
+#include "import/import_view.h"
 
 #if HAS_ASSIMP
 
-/* Writes the statements of a material. Its name is made unique with `names`.
- * Images inside the file are counted in *image_count instead. */
-bool import_material_write(const struct assimp_api *api,
+struct import_materials {
+    const struct assimp_api *api;
+    const struct aiScene *scene; /* with embedded images */
+    const char *path;            /* of the scene's file */
+    const struct import_source *source;
+    FILE *to;
+};
+
+/* Writes the statements of a material. Its name is made unique with
+ * `names`. */
+bool import_material_write(const struct import_materials *m,
                            const struct aiMaterial *material,
-                           struct name_table *names, uint32_t *image_count,
-                           FILE *to);
+                           struct name_table *names);
 
 #endif
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "import/import_stream.h"
 
+#include <float.h>
 #include <limits.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -189,6 +191,127 @@ static bool take_names(struct stream *s)
     return true;
 }
 
+static bool are_finite(const double *numbers, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!isfinite(numbers[i]))
+            return false;
+    return true;
+}
+
+/* Adds a camera; leaves out one that sees nothing. */
+static bool add_camera(struct scene *scene, const struct import_camera *c)
+{
+    struct scene_camera to = {.pose = {.fovy_deg = angle_deg(c->yfov)}};
+    struct error ignored;
+
+    for (int i = 0; i < 3; i++) {
+        to.pose.eye[i] = c->eye[i];
+        to.pose.at[i] = c->eye[i] + c->forward[i];
+        to.pose.up[i] = c->up[i];
+    }
+    if (!pose_check(&to.pose, "", &ignored))
+        return true;
+    to.name = strdup(c->name);
+    if (to.name == NULL)
+        return false;
+    scene->cameras[scene->camera_count++] = to;
+    return true;
+}
+
+static bool take_cameras(struct stream *s)
+{
+    uint32_t count = s->head.camera_count;
+    struct import_camera c;
+
+    if (count > s->left_bytes / sizeof c)
+        return fail_stream(s, "no end");
+    s->scene->cameras = alloc_array(count, sizeof *s->scene->cameras);
+    if (s->scene->cameras == NULL)
+        return out_of_memory(s);
+    for (uint32_t i = 0; i < count; i++) {
+        take(s, &c, sizeof c);
+        c.name[sizeof c.name - 1] = '\0';
+        if (!add_camera(s->scene, &c))
+            return out_of_memory(s);
+    }
+    return true;
+}
+
+static double angle_of_cone(double angle)
+{
+    return fmin(fmax(angle_deg(angle), 0), 90);
+}
+
+/* Adds a lamp; leaves out one that gives no light. */
+static bool add_lamp(struct scene *scene, const struct import_lamp *from)
+{
+    struct lamp lamp;
+    double back[3];
+
+    if (!are_finite(from->position, 3) || !are_finite(from->forward, 3) ||
+        !are_finite(from->rgb, 3) || !are_finite(&from->inner, 1) ||
+        !are_finite(&from->outer, 1))
+        return true;
+    lamp_init(&lamp, (enum lamp_kind)from->kind);
+    for (int i = 0; i < 3; i++) {
+        lamp.position[i] = from->position[i];
+        lamp.at[i] = from->position[i] + from->forward[i];
+        lamp.rgb[i] = fmin(fmax(from->rgb[i], 0), FLT_MAX);
+        back[i] = -from->forward[i];
+    }
+    if (from->kind == LAMP_SPOT) {
+        lamp.outer_deg = angle_of_cone(from->outer);
+        lamp.inner_deg = fmin(angle_of_cone(from->inner), lamp.outer_deg);
+    }
+    if (vec3d_dot(back, back) > 0)
+        lamp_set_direction(&lamp, back);
+    else if (from->kind != LAMP_POINT)
+        return true;
+    return lamps_add(&scene->lamps, &lamp);
+}
+
+static bool take_lamps(struct stream *s)
+{
+    struct import_lamp lamp;
+
+    for (uint32_t i = 0; i < s->head.lamp_count; i++) {
+        if (!take(s, &lamp, sizeof lamp))
+            return false;
+        if (lamp.kind >= LAMP_KINDS)
+            return fail_stream(s, "a light of no kind");
+        if (!add_lamp(s->scene, &lamp))
+            return out_of_memory(s);
+    }
+    return true;
+}
+
+static bool take_images(struct stream *s)
+{
+    uint32_t count = s->head.image_count;
+    struct scene *scene = s->scene;
+    uint64_t size_bytes = 0;
+
+    if (count > s->left_bytes / sizeof size_bytes)
+        return fail_stream(s, "no end");
+    scene->images = alloc_array(count, sizeof *scene->images);
+    if (scene->images == NULL)
+        return out_of_memory(s);
+    for (uint32_t i = 0; i < count; i++) {
+        struct scene_image *image = &scene->images[i];
+
+        scene->image_count++;
+        if (!take(s, &size_bytes, sizeof size_bytes) ||
+            !take_array(s, &image->bytes, size_bytes, 1))
+            return false;
+        image->size_bytes = size_bytes;
+        image->name = format_text("%s#image%u", s->path, i);
+        if (image->name == NULL)
+            return out_of_memory(s);
+    }
+    return true;
+}
+
 static bool take_materials(struct stream *s, struct warnings *report)
 {
     uint64_t length = s->head.material_bytes;
@@ -222,10 +345,12 @@ bool import_stream_read(struct scene *scene, const char *bytes,
         return false;
     if (memcmp(s.head.magic, IMPORT_MAGIC, sizeof s.head.magic) != 0)
         return fail_stream(&s, "another version");
-    if (s.head.image_count > 0)
-        warnings_add(report, "embedded images",
-                     "%s: found %u embedded images, which are not read", path,
-                     s.head.image_count);
+    if (s.head.skipped_count > 0)
+        warnings_add(report, "lights of other kinds",
+                     "%s: found %u lights of an area or of no place, which are "
+                     "not read",
+                     path, s.head.skipped_count);
     return take_vertices(&s) && take_tris(&s) && take_names(&s) &&
+           take_cameras(&s) && take_lamps(&s) && take_images(&s) &&
            mesh_add_normals(scene, err) && take_materials(&s, report);
 }

@@ -12,7 +12,10 @@
  *     colors      3 floats for each vertex in sRGB, with IMPORT_HAS_COLORS
  *     tris        struct import_tri
  *     names       a text with a NUL for each object
- *     materials   MTL text
+ *     cameras     struct import_camera
+ *     lamps       struct import_lamp
+ *     images      for each a size as uint64_t, and the bytes of its file
+ *     materials   MTL text; image 2 of model.fbx is model.fbx#image2
  *
  * Units:     those of the scene file
  * Ownership: everything that is read belongs to the scene
@@ -25,7 +28,7 @@
 
 #include "scene/scene.h"
 
-#define IMPORT_MAGIC "glimscn1"
+#define IMPORT_MAGIC "glimscn2"
 
 enum { IMPORT_HAS_NORMALS = 1, IMPORT_HAS_UVS = 2, IMPORT_HAS_COLORS = 4 };
 
@@ -36,7 +39,11 @@ struct import_head {
     uint32_t tri_count;
     uint32_t object_count;
     uint32_t material_count;
-    uint32_t image_count; /* embedded images, which are not sent */
+    uint32_t image_count;
+    uint32_t camera_count;
+    uint32_t lamp_count;
+    uint32_t skipped_count; /* lights of other kinds */
+    uint32_t padding;
     uint64_t name_bytes;
     uint64_t material_bytes;
 };
@@ -45,6 +52,19 @@ struct import_tri {
     uint32_t v[3];
     uint32_t material; /* from 0 */
     uint32_t object;   /* from 0 */
+};
+
+struct import_camera {
+    char name[128];
+    double eye[3], forward[3], up[3];
+    double yfov; /* radians, from edge to edge */
+};
+
+struct import_lamp {
+    uint32_t kind; /* enum lamp_kind */
+    uint32_t padding;
+    double position[3], forward[3], rgb[3];
+    double inner, outer; /* radians from the axis, of spots */
 };
 
 /* Adds the contents of a stream to a zeroed scene, which the caller frees, also
