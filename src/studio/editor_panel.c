@@ -33,6 +33,7 @@ void editor_panel_init(struct editor_panel *p, struct render_control *control,
 
 void editor_panel_free(struct editor_panel *p)
 {
+    outline_free(&p->outline);
     material_ball_free(&p->ball);
     frame_free(&p->ball_frame);
     cells_free(&p->ball_cells);
@@ -92,6 +93,26 @@ void editor_panel_select(struct editor_panel *p, const struct pick *pick)
     if (s->page == PARAMETER_LIGHT)
         s->page = PARAMETER_MATERIAL;
     selection_settle(s);
+}
+
+/* ---- the outline of what is selected ---- */
+
+void editor_panel_outline(struct editor_panel *p, const struct camera *camera,
+                          struct frame *frame)
+{
+    const struct session *s = p->control->session;
+    struct outline_choice choice = {p->selection.page == PARAMETER_OBJECT,
+                                    p->selection.index[p->selection.page]};
+    struct bvh8_world w = {.world = world_arrays(&s->world, &s->scene),
+                           .tree = world_tree(&s->world)};
+
+    if (!p->is_open || p->is_in_parameters || w.tree == NULL ||
+        p->control->progress.spp_done == 0 || !selection_has_one(&p->selection))
+        return;
+    w.world.settings.camera = *camera;
+    outline_find(&p->outline, &w, &s->scene, s->world.versions[WORLD_TRIS],
+                 choice, frame);
+    outline_draw(&p->outline, frame);
 }
 
 /* ---- changes ---- */

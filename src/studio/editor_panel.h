@@ -20,6 +20,7 @@
 #include <stdint.h>
 
 #include "inspect/material_ball.h"
+#include "inspect/outline.h"
 #include "terminal/screen.h"
 #include "studio/pick.h"
 #include "studio/render_control.h"
@@ -44,6 +45,7 @@ struct editor_panel {
     struct material_ball ball;
     struct frame ball_frame;
     struct cells ball_cells;
+    struct outline outline; /* of what is selected */
 };
 
 void editor_panel_init(struct editor_panel *p, struct render_control *control,
@@ -67,6 +69,11 @@ bool editor_panel_mouse(struct editor_panel *p, const struct event *event);
 /* Adds samples to the ball of the selected material. Returns true if the panel
  * has to be drawn again. */
 bool editor_panel_step(struct editor_panel *p);
+
+/* Draws the outline of the selected material or object into a frame that the
+ * camera sees, while the keys act in the list and the camera rests. */
+void editor_panel_outline(struct editor_panel *p, const struct camera *camera,
+                          struct frame *frame);
 
 /* Returns true if editor_panel_step() has more to do. */
 bool editor_panel_is_busy(const struct editor_panel *p);

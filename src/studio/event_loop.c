@@ -42,6 +42,14 @@ enum {
 
 /* ---- input ---- */
 
+/* Draws the panel after a key, and the picture, which outlines the selection.
+ */
+static void draw_panel(struct studio *studio)
+{
+    panel_draw(&studio->workspace.panel);
+    workspace_refresh(&studio->workspace);
+}
+
 /* Selects a new pick in the panel if that is open. */
 static void follow_pick(struct studio *studio)
 {
@@ -49,7 +57,7 @@ static void follow_pick(struct studio *studio)
 
     if (studio->camera.cursor.is_pick_new && panel->is_open) {
         editor_panel_select(panel, &studio->camera.cursor.pick);
-        panel_draw(panel);
+        draw_panel(studio);
     }
     studio->camera.cursor.is_pick_new = false;
 }
@@ -67,7 +75,7 @@ static bool panel_takes(struct studio *studio, int key)
     if (!panel->is_open)
         workspace_layout(&studio->workspace);
     else
-        panel_draw(panel);
+        draw_panel(studio);
     return true;
 }
 
@@ -107,7 +115,7 @@ static void take_key(struct studio *studio, int key)
 static void take_mouse(struct studio *studio, const struct event *event)
 {
     if (editor_panel_mouse(&studio->workspace.panel, event))
-        panel_draw(&studio->workspace.panel);
+        draw_panel(studio);
     else
         camera_control_mouse(&studio->camera, event);
     follow_pick(studio);

@@ -31,6 +31,9 @@
 #define SWATCH_COLS 2
 #define TEXT_COL    1
 
+/* Texels across a quarter of a texture that its mean is taken of. */
+#define TEXELS 8u
+
 /* Bytes of a line: its columns in characters of several bytes. */
 #define LINE_BYTES 256
 
@@ -200,6 +203,49 @@ static void add_title(const struct editor_panel *p, struct sheet *s)
                  cols < room - 1 ? cols : room - 1, ROLE_TITLE, text);
 }
 
+/* Returns the mean colour of a quarter of a texture: (0, 0) is the upper left
+ * one. Few texels are enough. */
+static struct rgb quarter_of(const struct host_world *w,
+                             const struct texture *t, int right, int down)
+{
+    uint32_t sums[3] = {0, 0, 0}, count = TEXELS * TEXELS;
+
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t x = t->width * (2 * (i % TEXELS) + 1) / (4 * TEXELS) +
+                     (uint32_t)right * t->width / 2;
+        uint32_t y = t->height * (2 * (i / TEXELS) + 1) / (4 * TEXELS) +
+                     (uint32_t)down * t->height / 2;
+        uint32_t texel = w->texels[t->first + y * t->width + x];
+
+        for (int c = 0; c < 3; c++)
+            sums[c] += texel >> 8 * c & 255;
+    }
+    return (struct rgb){(int)(sums[0] / count), (int)(sums[1] / count),
+                        (int)(sums[2] / count)};
+}
+
+/* Shows a texture as four dots at the left of the last line. */
+static void add_texture(const struct editor_panel *p, const struct sheet *s,
+                        uint32_t texture)
+{
+    const struct host_world *w = &p->control->session->world;
+    const struct term_caps *d = &s->screen->display;
+    const struct texture *t = &w->textures[texture];
+    struct cell cells[SWATCH_COLS];
+
+    if (t->width == 0 || t->height == 0)
+        return;
+    for (int i = 0; i < SWATCH_COLS; i++) {
+        struct cell upper = cells_of_color(quarter_of(w, t, i, 0), d->palette);
+        struct cell lower = cells_of_color(quarter_of(w, t, i, 1), d->palette);
+
+        cells[i] = upper;
+        if (d->has_unicode && d->palette != PALETTE_MONO)
+            cells[i] = (struct cell){upper.bg, lower.bg, CELL_UPPER};
+    }
+    windows_paint(WINDOW_PANEL, s->row - 1, SWATCH_COL, cells, SWATCH_COLS);
+}
+
 /* Shows where a number is on its scale. The slider of a channel has the colours
  * that it can make. */
 static void add_slider(const struct editor_panel *p, const struct sheet *s,
@@ -248,6 +294,8 @@ static void add_parameter(struct editor_panel *p, struct sheet *s,
     add_line(s, is_selected ? ROLE_SELECTED : ROLE_TEXT, text);
     if (v->has_color)
         add_swatch(s, v->color);
+    if (v->texture != NO_INDEX)
+        add_texture(p, s, v->texture);
     if (v->fraction >= 0 && !is_typed)
         add_slider(p, s, v);
 }

@@ -175,7 +175,8 @@ static struct parameter describe(const struct owner *o, const struct value *v,
     const struct parameter_row *row = o->row;
     struct parameter p = {.label = label_of(o, part),
                           .fraction = -1,
-                          .takes_text = true};
+                          .takes_text = true,
+                          .texture = NO_INDEX};
 
     if (part > 0 || row->type == VALUE_NUMBER) {
         const struct value_scale *scale = scale_of(o, part);
@@ -187,6 +188,8 @@ static struct parameter describe(const struct owner *o, const struct value *v,
         p.takes_text = row->expected != NULL;
         snprintf(p.text, sizeof p.text, "%.60s",
                  choice_name(o, (uint32_t)v->number));
+        if (v->note != NULL)
+            p.texture = o->source.maps[row->map];
         if (v->note != NULL)
             snprintf(p.text + strlen(p.text), sizeof p.text - strlen(p.text),
                      " %.50s", v->note);

@@ -42,7 +42,8 @@ struct parameter {
                         scale */
     bool takes_text;
     bool has_color;
-    double color[3]; /* linear */
+    double color[3];  /* linear */
+    uint32_t texture; /* the texture that it switches; NO_INDEX: none */
 };
 
 /* Lamps that are listed at most, and room for their parameters. */

@@ -372,6 +372,18 @@ static void show_messages(struct workspace *workspace, uint64_t now_ns)
     workspace->status_ns = now_ns + STATUS_NS;
 }
 
+static void outline_selection(struct workspace *workspace)
+{
+    struct view_mode *view_mode = &workspace->inspector.view_mode;
+    struct world w;
+    struct camera camera;
+
+    if (!workspace->panel.is_open || !view_mode_world(view_mode, &w))
+        return;
+    camera = view_mode_camera(view_mode, &w.settings.camera, &workspace->frame);
+    editor_panel_outline(&workspace->panel, &camera, &workspace->frame);
+}
+
 /* Writes text that has changed, then makes and writes a frame if `has_frame`.
  */
 static enum screen_result send(struct workspace *workspace, bool has_frame)
@@ -386,6 +398,7 @@ static enum screen_result send(struct workspace *workspace, bool has_frame)
     if (!has_frame || screen->is_too_small)
         return screen_draw(screen, NULL, 0);
     inspector_preview(&workspace->inspector, &workspace->frame);
+    outline_selection(workspace);
     result = screen_draw(screen, &workspace->frame, frame_step(workspace));
     if (view_mode->legend_is_new || view_mode->is_filtered != was_filtered)
         workspace->status_ns = 0; /* it was written before the frame */

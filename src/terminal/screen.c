@@ -23,10 +23,10 @@
 #define COLS_MIN 40
 #define ROWS_MIN 12
 
-/* Columns of the panel, and those of the picture beside it in a narrow window.
- */
+/* Columns of the panel. It takes the whole window if fewer than PICTURE_COLS
+ * would be left for the picture. */
 #define PANEL_COLS   38
-#define PICTURE_COLS 10
+#define PICTURE_COLS 20
 
 void screen_init(struct screen *screen, const struct term_caps_choice *choice)
 {
@@ -64,12 +64,17 @@ static void say_too_small(const struct tty_size *size)
 
 static int panel_cols(int cols)
 {
-    return cols - PICTURE_COLS < PANEL_COLS ? cols - PICTURE_COLS : PANEL_COLS;
+    return cols - PICTURE_COLS < PANEL_COLS ? cols : PANEL_COLS;
 }
 
 static bool is_too_small(const struct tty_size *size)
 {
     return size->cols < COLS_MIN || size->rows < ROWS_MIN;
+}
+
+bool screen_is_hidden(const struct screen *screen)
+{
+    return screen->panel_cols > 0 && screen->panel_cols == term_size().cols;
 }
 
 static struct cells_rect fit_to(const struct screen *screen,
@@ -81,7 +86,9 @@ static struct cells_rect fit_to(const struct screen *screen,
     bool is_short = screen->has_status_row || tty_scrolls_at_end() ||
                     term_caps_pixels(&screen->display) == PIXEL_GRAPHICS_SIXEL;
 
-    return cells_fit(width_px, height_px, size->cols - screen->panel_cols,
+    int beside = screen->panel_cols < size->cols ? screen->panel_cols : 0;
+
+    return cells_fit(width_px, height_px, size->cols - beside,
                      size->rows - (is_short ? 1 : 0),
                      term_caps_cell_aspect(&screen->display, size));
 }
@@ -272,7 +279,7 @@ static void mark_pixels(const struct screen *screen, struct frame *f)
  * all of them. */
 static bool add_picture(struct screen *screen, struct frame *frame, int step)
 {
-    struct ansi_diff_rect covered[2] = {screen->window};
+    struct ansi_diff_rect covered[3] = {screen->window};
     struct ansi_diff_draw draw = {.col = screen->fit.col,
                                   .row = screen->fit.row,
                                   .budget_bytes = screen->pace.budget_bytes,
@@ -280,10 +287,11 @@ static bool add_picture(struct screen *screen, struct frame *frame, int step)
                                   .covered = covered,
                                   .covered_count = 1};
 
-    if (screen->has_status && !screen->has_status_row) {
-        covered[1] = last_row(screen);
-        draw.covered_count = 2;
-    }
+    if (screen->has_status && !screen->has_status_row)
+        covered[draw.covered_count++] = last_row(screen);
+    if (screen_is_hidden(screen))
+        covered[draw.covered_count++] =
+            (struct ansi_diff_rect){0, 0, screen->fit.cols, screen->fit.rows};
     if (screen->graphics.shape.kind != PIXEL_GRAPHICS_NONE) {
         if (screen->has_cursor)
             mark_pixels(screen, frame);

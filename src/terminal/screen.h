@@ -69,6 +69,10 @@ bool screen_answer(struct screen *screen, const struct event *event);
 /* Sets the text of the last row; NULL leaves the row to the picture. */
 void screen_status(struct screen *screen, const char *text);
 
+/* Returns true if the panel takes the whole window, and the picture is hidden
+ * behind it. */
+bool screen_is_hidden(const struct screen *screen);
+
 /* Empties the panel, for windows_text() and windows_paint(). The layout must
  * have left room for it. */
 void screen_begin_panel(struct screen *screen);

@@ -114,6 +114,8 @@ static void tell_picture(const struct screen *screen)
         for (int x = r->col; x < r->col + r->cols; x++)
             shared->cell[screen->fit.row + y][screen->fit.col + x] =
                 under[screen->fit.row + y][screen->fit.col + x];
+    if (screen_is_hidden(screen))
+        memcpy(shared->cell, under, sizeof under);
     if (screen->has_status)
         memcpy(shared->cell[shared->rows - 1], under[shared->rows - 1],
                sizeof under[0]);

@@ -144,6 +144,15 @@ raw_keys "$(printf '\033[<0;60;20M\033[<0;60;20m')"
 wait_for "│>    light "
 raw_keys "$(printf '\033[<65;60;20M')"
 wait_for "│>    light      0.909"
+# a slider is dragged, and one undo takes the whole drag back
+raw_keys "$(printf '\033[<0;70;15M')"
+wait_for "│>    red        0\.[0-9]"
+raw_keys "$(printf '\033[<32;78;15M')"
+wait_for "│>    red        0\.86"
+raw_keys "$(printf '\033[<32;90;23M\033[<0;90;23m')"
+wait_for "│>    red        1 "
+keys u
+wait_for "│>    red        0 "
 raw_keys "$(printf '\033[<0;66;1M\033[<0;66;1m')"
 wait_for "Sky and picture"
 keys u
@@ -164,6 +173,8 @@ start --color mono lamp.obj
 wait_for "LIVE"
 keys Tab
 wait_for "│>.*l "
+# the panel takes the whole window
+[ "$(screen | grep -c '^│')" = 11 ] || die "not in the whole window"
 keys Down
 wait_for "│>.*l\.2 "
 keys Enter Down
