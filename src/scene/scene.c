@@ -158,11 +158,10 @@ static void keep_tris(struct scene *scene, const bool *is_usable,
  * behind all others. */
 static void shrink_meshes(struct scene *scene, const bool *is_usable)
 {
-    struct scene_mesh *mesh = scene->instances.meshes;
-    struct scene_mesh *end = mesh + scene->instances.mesh_count;
     uint32_t kept = 0, i = 0;
 
-    for (; mesh < end; mesh++) {
+    for (uint32_t m = 0; m < scene->instances.mesh_count; m++) {
+        struct scene_mesh *mesh = &scene->instances.meshes[m];
         uint32_t last = mesh->first_tri + mesh->tri_count;
 
         for (; i < mesh->first_tri; i++)
