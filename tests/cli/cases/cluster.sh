@@ -30,6 +30,17 @@ for options in '-s 40' '-s 24 --adaptive --denoise' '-e 20%'; do
     same many.png one.png
 done
 
+# so do they for the pictures of a series, whose scene changes
+take moving
+for options in '--turntable 2 box.obj' '--frames 1:2 moving.gltf'; do
+    glim $b -s 9 -o one.png $options 2>/dev/null
+    ranks 3 $b -s 9 -o many.png $options >/dev/null
+    for i in 0000 0001 0002; do
+        [ -e one-$i.png ] && same many-$i.png one-$i.png
+    done
+    rm one-*.png
+done
+
 # all ranks have rendered, and their samples together are those of the picture
 timeout -k 5 60 mpirun --oversubscribe -n 3 "$mpi" $b -w 480 -h 360 -s 16 \
     --stats ranks.json -o many.png box.obj 2>/dev/null
