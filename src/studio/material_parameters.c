@@ -263,6 +263,44 @@ static bool get_distance(const struct owner *o, struct value *v)
            (o->material.transmission > 0 && o->material.is_thin == 0);
 }
 
+/* Reads the colour of a solid after the distance, if it is not the tint. */
+static bool get_attenuation(const struct owner *o, struct value *v)
+{
+    memcpy(v->rgb, o->source.tf_attenuation.rgb, sizeof v->rgb);
+    return o->source.tf_attenuation.line != 0 && get_distance(o, v) &&
+           v->number > 0;
+}
+
+static void set_attenuation(struct owner *o, const struct value *v)
+{
+    put_color(&o->source.tf_attenuation, v->rgb);
+}
+
+/* Reads the weight of sheen, which is multiplied by its colour. */
+static bool get_sheen(const struct owner *o, struct value *v)
+{
+    const struct mtl_color *color = &o->source.ps_color;
+    struct vec3 sheen = o->material.sheen;
+    double top = color->line != 0 ? fmin(largest(color->rgb), 1) : 1;
+
+    v->number = top > 0 ? (double)v3_max_component(sheen) / top : 0;
+    return true;
+}
+
+static bool get_sheen_color(const struct owner *o, struct value *v)
+{
+    const struct mtl_color *color = &o->source.ps_color;
+
+    for (int i = 0; i < 3; i++)
+        v->rgb[i] = color->line != 0 ? color->rgb[i] : 1;
+    return v3_max_component(o->material.sheen) > 0;
+}
+
+static void set_sheen_color(struct owner *o, const struct value *v)
+{
+    put_color(&o->source.ps_color, v->rgb);
+}
+
 /* Reads a number of the source, or what it is if it is absent. */
 static bool get_number_or(const struct owner *o, struct value *v, double absent)
 {
@@ -286,6 +324,13 @@ static bool get_film_index(const struct owner *o, struct value *v)
 static bool get_film_thickness(const struct owner *o, struct value *v)
 {
     return get_number_or(o, v, MATERIAL_FILM_THICKNESS);
+}
+
+/* Reads the thickness of the film where its map is black. */
+static bool get_film_thinnest(const struct owner *o, struct value *v)
+{
+    v->number = o->source.pf_thinnest.value;
+    return o->source.maps[MTL_MAP_PF_THICKNESS] != NO_INDEX;
 }
 
 /* Reads the coverage from which a surface is whole. */
@@ -443,11 +488,15 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"tint after", GLASS | MIXED, VALUE_NUMBER, &scale_distance,
      .get = get_distance, .set = set_statement,
      .member = offsetof(struct mtl_source, tf_distance)},
+    {"then", GLASS | MIXED, VALUE_COLOR, &scale_unit, .get = get_attenuation,
+     .set = set_attenuation},
     {"coat", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      .get = get_coat, .set = set_coat},
     {"coat rough", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(pcr)},
     {"sheen", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
-     STATEMENT(ps, sheen.x)},
+     DEFAULTED(ps, get_sheen)},
+    {"sheen tint", MIXED, VALUE_COLOR, &scale_unit, .get = get_sheen_color,
+     .set = set_sheen_color},
     {"sheen rough", MIXED, VALUE_NUMBER, &scale_unit,
      DEFAULTED(ps_roughness, get_sheen_roughness)},
     {"film", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(pf)},
@@ -455,6 +504,8 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
      DEFAULTED(pf_ior, get_film_index)},
     {"film nm", MIXED, VALUE_NUMBER, &scale_film_thickness,
      DEFAULTED(pf_thickness, get_film_thickness)},
+    {"film from", MIXED, VALUE_NUMBER, &scale_film_thickness,
+     DEFAULTED(pf_thinnest, get_film_thinnest)},
     {"grain", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      STATEMENT(aniso, anisotropy)},
     {"grain turn", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(anisor)},
@@ -475,6 +526,11 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"map_Pc", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PC)},
     {"map_Pcr", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PCR)},
     {"map_Ps", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PS)},
+    {"map_Ps_color", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PS_COLOR)},
+    {"map_Ps_roughness", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PS_ROUGHNESS)},
+    {"map_Ks_weight", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_KS_WEIGHT)},
+    {"map_Pf", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PF)},
+    {"map_Pf_thickness", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PF_THICKNESS)},
     {"norm", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_NORM)},
     {"map_Bump", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_BUMP)},
 };

@@ -226,6 +226,42 @@ static void set_values_reach_the_material(void **state)
     }
 }
 
+/* Sheen of a colour has the weight that is set, and a film with a map the
+ * thickness where it is black. */
+static void values_of_gltf_are_edited(void **state)
+{
+    struct mtl_source s = mtl_source_empty();
+    const struct value blue = {.rgb = {.1, .2, .8}};
+    struct value found = {.number = 0};
+    struct material m;
+
+    (void)state;
+    s.pr = s.ps = s.pf = (struct mtl_number){.5, 1};
+    s.pm = (struct mtl_number){.25, 1};
+    assert_false(get(&s, "then", &found) || get(&s, "film from", &found));
+    set(&s, "sheen tint", &blue);
+    set(&s, "sheen", &(struct value){.number = .25});
+    m = material_of(&s);
+    check_close((double)m.sheen.x, .025, 1e-7);
+    check_close((double)m.sheen.z, .2, 1e-7);
+    assert_true(get(&s, "sheen", &found));
+    check_close(found.number, .25, 1e-6);
+    set(&s, "sheen", &(struct value){.number = 0});
+    assert_false(get(&s, "sheen tint", &found));
+
+    s.maps[MTL_MAP_PF_THICKNESS] = 3;
+    set(&s, "film from", &(struct value){.number = 120});
+    check_close((double)material_of(&s).film_thinnest, 120, 0);
+
+    s.illum = (struct mtl_number){7, 1};
+    s.tf_distance = (struct mtl_number){2, 1};
+    assert_false(get(&s, "then", &found));
+    s.tf_attenuation = (struct mtl_color){{1, 1, 1}, 1};
+    set(&s, "then", &blue);
+    assert_true(get(&s, "then", &found));
+    check_close(material_of(&s).attenuation.y, -log(.2) / 2, 1e-5);
+}
+
 /* The tint of a solid stays what it is if it begins to count after a distance,
  * and the weight of transmission keeps its hue. */
 static void tints_take_a_distance(void **state)
@@ -702,6 +738,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kinds_keep_the_color),
         cmocka_unit_test(set_values_reach_the_material),
+        cmocka_unit_test(values_of_gltf_are_edited),
         cmocka_unit_test(tints_take_a_distance),
         cmocka_unit_test(steps_are_undone),
         cmocka_unit_test(choices_are_cyclic),
