@@ -56,6 +56,8 @@ enum action {
     ACTION_SAVE_VIEW,
     ACTION_VIEW_NEXT, /* light, preview, normals, ... */
     ACTION_VIEW_BACK,
+    ACTION_KEEP_RENDER, /* keeps the picture to compare with */
+    ACTION_COMPARE,
     ACTION_FILTER,  /* denoising filter of the screen */
     ACTION_DRAWING, /* boxes, directions, a path */
     ACTION_LESS,

@@ -63,6 +63,8 @@ static const struct command commands[ACTIONS] = {
     [ACTION_SAVE_VIEW] = {.control = save_view},
     [ACTION_VIEW_NEXT] = {.inspector = inspector_next_view},
     [ACTION_VIEW_BACK] = {.inspector = inspector_previous_view},
+    [ACTION_KEEP_RENDER] = {.workspace = workspace_keep_render},
+    [ACTION_COMPARE] = {.workspace = workspace_compare},
     [ACTION_FILTER] = {.inspector = inspector_switch_filter},
     [ACTION_DRAWING] = {.workspace = workspace_next_drawing},
     [ACTION_LESS] = {.inspector = inspector_less},

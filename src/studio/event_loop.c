@@ -105,6 +105,7 @@ static void take_key(struct studio *studio, int key)
     else if (workspace->screen.is_too_small && action != ACTION_QUIT)
         return;
     else if (!panel_takes(studio, key) &&
+             !comparison_takes(&workspace->comparison, action) &&
              !command_run_at_cursor(studio, action))
         command_run(studio, action);
     if (action == ACTION_UNDO || action == ACTION_REDO)
@@ -112,11 +113,25 @@ static void take_key(struct studio *studio, int key)
     follow_pick(studio);
 }
 
+/* Moves the wipe to the mouse while a comparison is shown. */
+static bool wipe_takes(struct studio *studio, const struct event *event)
+{
+    struct workspace *workspace = &studio->workspace;
+    const struct cells_rect *fit = &workspace->screen.fit;
+
+    if (workspace->comparison.mode == COMPARISON_OFF ||
+        (event->mouse != MOUSE_PRESS && event->mouse != MOUSE_DRAG))
+        return false;
+    comparison_wipe_to(&workspace->comparison,
+                       (event->x - 0.5 - fit->col) / fit->cols);
+    return true;
+}
+
 static void take_mouse(struct studio *studio, const struct event *event)
 {
     if (editor_panel_mouse(&studio->workspace.panel, event))
         draw_panel(studio);
-    else
+    else if (!wipe_takes(studio, event))
         camera_control_mouse(&studio->camera, event);
     follow_pick(studio);
 }

@@ -105,6 +105,7 @@ void workspace_init(struct workspace *workspace, struct render_control *control,
 {
     *workspace = (struct workspace){.control = control, .camera = camera};
     editor_panel_init(&workspace->panel, control, &workspace->screen);
+    comparison_init(&workspace->comparison, control);
 }
 
 void workspace_open(struct workspace *workspace)
@@ -201,6 +202,16 @@ static void close_help(struct workspace *workspace)
     workspace_refresh(workspace);
 }
 
+void workspace_keep_render(struct workspace *workspace)
+{
+    comparison_keep(&workspace->comparison);
+}
+
+void workspace_compare(struct workspace *workspace)
+{
+    comparison_next(&workspace->comparison);
+}
+
 void workspace_next_drawing(struct workspace *workspace)
 {
     if (workspace->progress_panel.is_on) /* there is one window at a time */
@@ -295,6 +306,10 @@ static void update_status(struct workspace *workspace, uint64_t now_ns)
         status_line_message(text, term_size().cols,
                             workspace->control->message.text);
     } else if (workspace->screen.has_status_row &&
+               workspace->comparison.legend[0] != '\0') {
+        status_line_message(text, term_size().cols,
+                            workspace->comparison.legend);
+    } else if (workspace->screen.has_status_row &&
                workspace->inspector.view_mode.legend[0] != '\0') {
         status_line_message(text, term_size().cols,
                             workspace->inspector.view_mode.legend);
@@ -384,6 +399,22 @@ static void outline_selection(struct workspace *workspace)
     editor_panel_outline(&workspace->panel, &camera, &workspace->frame);
 }
 
+/* Makes the frame. A comparison is of light as it was rendered, without the
+ * filter: kept renders have none. */
+static void paint(struct workspace *workspace)
+{
+    struct frame *frame = &workspace->frame;
+
+    if (workspace->comparison.mode == COMPARISON_OFF) {
+        inspector_preview(&workspace->inspector, frame);
+        outline_selection(workspace);
+        return;
+    }
+    film_preview(render_film(workspace->control->session->render), NULL,
+                 session_develop(workspace->control->session), frame);
+    comparison_paint(&workspace->comparison, frame);
+}
+
 /* Writes text that has changed, then makes and writes a frame if `has_frame`.
  */
 static enum screen_result send(struct workspace *workspace, bool has_frame)
@@ -397,8 +428,7 @@ static enum screen_result send(struct workspace *workspace, bool has_frame)
         return SCREEN_GONE;
     if (!has_frame || screen->is_too_small)
         return screen_draw(screen, NULL, 0);
-    inspector_preview(&workspace->inspector, &workspace->frame);
-    outline_selection(workspace);
+    paint(workspace);
     result = screen_draw(screen, &workspace->frame, frame_step(workspace));
     if (view_mode->legend_is_new || view_mode->is_filtered != was_filtered)
         workspace->status_ns = 0; /* it was written before the frame */
@@ -505,6 +535,7 @@ void workspace_free(struct workspace *workspace)
     progress_panel_free(&workspace->progress_panel);
     inspector_free(&workspace->inspector);
     editor_panel_free(&workspace->panel);
+    comparison_free(&workspace->comparison);
     screen_free(&workspace->screen);
     frame_free(&workspace->frame);
 }

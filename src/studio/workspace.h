@@ -20,6 +20,7 @@
 
 #include "terminal/screen.h"
 #include "studio/camera_control.h"
+#include "studio/comparison.h"
 #include "studio/editor_panel.h"
 #include "studio/inspector.h"
 #include "studio/progress_panel.h"
@@ -31,6 +32,7 @@ struct workspace {
     struct screen screen;
     struct frame frame; /* of the size that the screen wants */
     struct inspector inspector;
+    struct comparison comparison;
     struct editor_panel panel;
     struct progress_panel progress_panel; /* hidden while the help is open */
     int help_number;    /* the page of the help that is shown, from 0 */
@@ -68,6 +70,8 @@ void workspace_ask(struct workspace *workspace, const char *prompt);
 
 void workspace_switch_progress(struct workspace *workspace);
 void workspace_open_panel(struct workspace *workspace);
+void workspace_keep_render(struct workspace *workspace);
+void workspace_compare(struct workspace *workspace);
 void workspace_next_drawing(struct workspace *workspace);
 void workspace_next_colors(struct workspace *workspace);
 void workspace_next_glyphs(struct workspace *workspace);
