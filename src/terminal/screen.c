@@ -176,8 +176,13 @@ bool screen_layout(struct screen *screen, int width_px, int height_px,
 
 bool screen_answer(struct screen *screen, const struct event *event)
 {
+    enum palette palette = screen->display.palette;
     bool is_other = term_caps_answer(&screen->display, event);
 
+    if (screen->display.palette != palette) {
+        windows_use_theme(screen->theme, screen->display.palette);
+        screen->must_update = true;
+    }
     if (event->kind == EVENT_READY)
         frame_pacing_answer(&screen->pace, clock_ns());
     if (event->kind != EVENT_ATTRIBUTES)
