@@ -151,7 +151,7 @@ static void take_event(struct studio *studio, const struct event *event)
         if (screen_answer(&workspace->screen, event))
             workspace_layout(workspace);
         if (workspace->screen.display.palette != palette)
-            workspace_refresh(workspace);
+            draw_panel(studio);
     }
 }
 
