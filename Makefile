@@ -410,6 +410,10 @@ tables: $(B)/tools/energy
 gallery: $(B)/glim
 	@BUILD=$(B) scenes/gallery/render.sh
 
+## screens: takes the pictures of docs/screens.md in a real xterm
+screens: $(B)/glim
+	@GLIM=$(B)/glim tests/tools/screens.sh
+
 ## install: installs program, library, man pages and scenes; DESTDIR PREFIX
 ##          BINDIR LIBDIR INCLUDEDIR PKGCONFIGDIR MANDIR DATADIR
 install: $(PROGRAM) lib
@@ -490,7 +494,7 @@ help:
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
 .PHONY: all lib run test tests fuzz search bench bench-mpi bench-error bench-rays \
-	bench-cycles results stress mutants scenes tables gallery install \
+	bench-cycles results stress mutants scenes tables gallery screens install \
 	uninstall deps format lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(MPI_SOURCES:src/%.c=$(B)/%.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
 	$(STRESSES:=.d) $(FUZZERS:=.d) $(B)/fuzz/replay.d $(TOOLS:=.d) \
