@@ -194,41 +194,87 @@ static float signed_unit(float value)
     return value < -1 ? -1 : value;
 }
 
-/* Reads the components of one element. */
-static void read_floats(const struct gltf_elements *e, uint32_t index,
-                        uint32_t component_count, bool is_normalized, float *to)
+/* Returns the number at these bytes. */
+static inline float number_at(const unsigned char *p, uint32_t component,
+                              bool is_normalized)
 {
-    const unsigned char *p = e->bytes + index * e->stride_bytes;
+    struct gltf_elements one = {p, 0, component};
+    uint32_t bits;
+    float x;
 
-    for (uint32_t k = 0; k < component_count; k++) {
-        struct gltf_elements one = {p + k * component_bytes(e->component), 0,
-                                    e->component};
-        uint32_t bits;
-
-        switch (e->component) {
-        case GLTF_I8:
-            to[k] = (float)(int8_t)*one.bytes;
-            to[k] = is_normalized ? signed_unit(to[k] / 127) : to[k];
-            break;
-        case GLTF_U8:
-            to[k] = (float)*one.bytes;
-            to[k] = is_normalized ? to[k] / 255 : to[k];
-            break;
-        case GLTF_I16:
-            one.component = GLTF_U16;
-            to[k] = (float)(int16_t)read_unsigned(&one, 0);
-            to[k] = is_normalized ? signed_unit(to[k] / 32767) : to[k];
-            break;
-        case GLTF_U16:
-            to[k] = (float)read_unsigned(&one, 0);
-            to[k] = is_normalized ? to[k] / 65535 : to[k];
-            break;
-        case GLTF_U32: to[k] = (float)read_unsigned(&one, 0); break;
-        default:
-            bits = read_unsigned(&one, 0);
-            memcpy(&to[k], &bits, sizeof to[k]);
-        }
+    switch (component) {
+    case GLTF_I8:
+        x = (float)(int8_t)*p;
+        return is_normalized ? signed_unit(x / 127) : x;
+    case GLTF_U8: x = (float)*p; return is_normalized ? x / 255 : x;
+    case GLTF_I16:
+        one.component = GLTF_U16;
+        x = (float)(int16_t)read_unsigned(&one, 0);
+        return is_normalized ? signed_unit(x / 32767) : x;
+    case GLTF_U16:
+        x = (float)read_unsigned(&one, 0);
+        return is_normalized ? x / 65535 : x;
+    case GLTF_U32: return (float)read_unsigned(&one, 0);
+    default:
+        bits = read_unsigned(&one, 0);
+        memcpy(&x, &bits, sizeof x);
+        return x;
     }
+}
+
+/* Elements to read, of `n` components each. */
+struct range {
+    uint32_t first, count, n;
+};
+
+/* The compiler makes a loop without branches where the component is a constant.
+ */
+static inline void floats_as(uint32_t component, const struct gltf_elements *e,
+                             struct range r, bool is_normalized, float *to)
+{
+    uint32_t size = component_bytes(component);
+
+    for (uint32_t i = 0; i < r.count; i++) {
+        const unsigned char *p = e->bytes + (r.first + i) * e->stride_bytes;
+
+        for (uint32_t k = 0; k < r.n; k++)
+            *to++ = number_at(p + k * size, component, is_normalized);
+    }
+}
+
+static void read_floats(const struct gltf_elements *e, struct range r,
+                        bool is_normalized, float *to)
+{
+    if (e->component == GLTF_FLOAT)
+        floats_as(GLTF_FLOAT, e, r, false, to);
+    else
+        floats_as(e->component, e, r, is_normalized, to);
+}
+
+static inline void integers_as(uint32_t component,
+                               const struct gltf_elements *e, struct range r,
+                               uint32_t *to)
+{
+    uint32_t size = component_bytes(component);
+
+    for (uint32_t i = 0; i < r.count; i++) {
+        struct gltf_elements one = {e->bytes + (r.first + i) * e->stride_bytes,
+                                    size, component};
+
+        for (uint32_t k = 0; k < r.n; k++)
+            *to++ = read_unsigned(&one, k);
+    }
+}
+
+static void read_integers(const struct gltf_elements *e, struct range r,
+                          uint32_t *to)
+{
+    if (e->component == GLTF_U16)
+        integers_as(GLTF_U16, e, r, to);
+    else if (e->component == GLTF_U32)
+        integers_as(GLTF_U32, e, r, to);
+    else
+        integers_as(e->component, e, r, to);
 }
 
 /* Returns the first sparse element whose number is not below `index`. */
@@ -252,43 +298,36 @@ void gltf_accessor_floats(const struct gltf_accessor *a, uint32_t first,
 {
     uint32_t n = a->component_count;
 
-    if (a->dense.bytes == NULL)
+    if (a->dense.bytes != NULL)
+        read_floats(&a->dense, (struct range){first, count, n},
+                    a->is_normalized, to);
+    else
         memset(to, 0, (size_t)count * n * sizeof *to);
-    for (uint32_t i = 0; a->dense.bytes != NULL && i < count; i++)
-        read_floats(&a->dense, first + i, n, a->is_normalized,
-                    to + (size_t)n * i);
     for (uint32_t s = find_sparse(a, first); s < a->sparse_count; s++) {
         uint32_t index = read_unsigned(&a->sparse_indices, s);
 
         if (index - first >= count)
             break;
-        read_floats(&a->sparse_values, s, n, a->is_normalized,
-                    to + (size_t)n * (index - first));
+        read_floats(&a->sparse_values, (struct range){s, 1, n},
+                    a->is_normalized, to + (size_t)n * (index - first));
     }
 }
 
 void gltf_accessor_integers(const struct gltf_accessor *a, uint32_t first,
                             uint32_t count, uint32_t *to)
 {
-    uint32_t n = a->component_count, size = component_bytes(a->dense.component);
+    uint32_t n = a->component_count;
 
-    for (uint32_t i = 0; i < count * n; i++) {
-        struct gltf_elements e = a->dense;
-        uint32_t element = first + i / n;
-
-        e.bytes = e.bytes != NULL ? e.bytes + (size_t)(i % n) * size : NULL;
-        to[i] = e.bytes != NULL ? read_unsigned(&e, element) : 0;
-    }
+    if (a->dense.bytes != NULL)
+        read_integers(&a->dense, (struct range){first, count, n}, to);
+    else
+        memset(to, 0, (size_t)count * n * sizeof *to);
     for (uint32_t s = find_sparse(a, first); s < a->sparse_count; s++) {
         uint32_t index = read_unsigned(&a->sparse_indices, s);
 
         if (index - first >= count)
             break;
-        for (uint32_t k = 0; k < n; k++) {
-            struct gltf_elements e = a->sparse_values;
-
-            e.bytes += k * size;
-            to[n * (index - first) + k] = read_unsigned(&e, s);
-        }
+        read_integers(&a->sparse_values, (struct range){s, 1, n},
+                      to + (size_t)n * (index - first));
     }
 }

@@ -11,8 +11,10 @@
 /* Values of mode. */
 enum { MODE_TRIANGLES = 4, MODE_STRIP, MODE_FAN };
 
-/* Triangles that are added as one. */
+/* Triangles that a thread takes at once, and those whose indices it reads at
+ * once. */
 #define BLOCK_TRIS 16384u
+#define CHUNK_TRIS 128u
 
 /* ---- opening ---- */
 
@@ -275,13 +277,44 @@ static void places_of(uint32_t mode, uint32_t i, uint32_t places[3])
     }
 }
 
+/* Consecutive triangles and the vertices at their places in the list. */
+struct chunk {
+    uint32_t first, count;
+    uint32_t first_place, place_count;
+    uint32_t vertices[3 * CHUNK_TRIS];
+};
+
+static void read_chunk(const struct gltf_primitive *p, struct chunk *c)
+{
+    bool is_list = p->mode == MODE_TRIANGLES;
+
+    c->first_place = is_list ? 3 * c->first : c->first;
+    c->place_count = is_list ? 3 * c->count : c->count + 2;
+    if (p->has_indices)
+        gltf_accessor_integers(&p->indices, c->first_place, c->place_count,
+                               c->vertices);
+    for (uint32_t i = 0; !p->has_indices && i < c->place_count; i++)
+        c->vertices[i] = c->first_place + i;
+}
+
+/* The first place of a fan is in its first chunk only. */
+static uint32_t chunk_vertex(const struct gltf_primitive *p,
+                             const struct chunk *c, uint32_t place)
+{
+    uint32_t i = place - c->first_place;
+
+    return i < c->place_count ? c->vertices[i] : vertex_of(p, place);
+}
+
 static bool has_normal(const struct scene *s, uint32_t n)
 {
     return s->normals[n].x != 0 || s->normals[n].y != 0 || s->normals[n].z != 0;
 }
 
-/* Fills triangle i. Returns false if an index is out of range. */
-static bool fill_tri(const struct job *j, uint32_t i, struct tri *t)
+/* Fills triangle i of the primitive. Returns false if an index is out of range.
+ */
+static bool fill_tri(const struct job *j, const struct chunk *c, uint32_t i,
+                     struct tri *t)
 {
     const struct gltf_primitive *p = j->primitive;
     uint32_t places[3], v[3];
@@ -289,7 +322,7 @@ static bool fill_tri(const struct job *j, uint32_t i, struct tri *t)
 
     places_of(p->mode, i, places);
     for (int k = 0; k < 3; k++) {
-        v[k] = vertex_of(p, places[k]);
+        v[k] = chunk_vertex(p, c, places[k]);
         if (v[k] >= p->vertex_count)
             return false;
         has_normals =
@@ -303,21 +336,32 @@ static bool fill_tri(const struct job *j, uint32_t i, struct tri *t)
     return true;
 }
 
-static void fill_block(void *context, uint32_t block, int worker)
+static void fill_chunk(struct job *j, const struct chunk *c)
 {
-    struct job *j = context;
     struct scene *s = j->scene;
-    uint32_t begin = block * BLOCK_TRIS, count = j->primitive->tri_count;
-    uint32_t end = count - begin < BLOCK_TRIS ? count : begin + BLOCK_TRIS;
 
-    (void)worker;
-    for (uint32_t i = begin; i < end; i++) {
+    for (uint32_t i = c->first; i < c->first + c->count; i++) {
         uint32_t t = j->first_tri + i;
 
-        if (!fill_tri(j, i, &s->tris[t]))
+        if (!fill_tri(j, c, i, &s->tris[t]))
             atomic_store(&j->has_failed, true);
         s->tri_faces[t] = t;
         s->tri_objects[t] = 0;
+    }
+}
+
+static void fill_block(void *context, uint32_t block, int worker)
+{
+    struct job *j = context;
+    uint32_t begin = block * BLOCK_TRIS, count = j->primitive->tri_count;
+    uint32_t end = count - begin < BLOCK_TRIS ? count : begin + BLOCK_TRIS;
+    struct chunk c;
+
+    (void)worker;
+    for (c.first = begin; c.first < end; c.first += CHUNK_TRIS) {
+        c.count = end - c.first < CHUNK_TRIS ? end - c.first : CHUNK_TRIS;
+        read_chunk(j->primitive, &c);
+        fill_chunk(j, &c);
     }
 }
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/scene.h"
+#include "scene/mesh_transform.h"
 
 /* About 60 MB with their part of the tree. */
 #define COPIED_TRIS 250000
@@ -93,36 +93,12 @@ struct plan {
 /* A scene's arrays while they are made anew, and how much of them is used. */
 struct flattening {
     struct scene *scene;
+    struct pool *pool;
     struct tri *tris;
     uint32_t *faces, *objects;
     uint32_t tri_count;
     uint32_t position_count, normal_count;
 };
-
-static struct vec3 moved_normal(double rows[3][3], struct vec3 n)
-{
-    const double from[3] = {(double)n.x, (double)n.y, (double)n.z};
-    double to[3];
-
-    for (int i = 0; i < 3; i++)
-        to[i] = vec3d_dot(rows[i], from);
-    if (!vec3d_normalize(to))
-        return (struct vec3){0, 0, 0};
-    return (struct vec3){(float)to[0], (float)to[1], (float)to[2]};
-}
-
-/* Exchanges two corners, and so the sides of the face. */
-static void turn_over(struct tri *t)
-{
-    uint32_t *corners[] = {t->v, t->vn, t->vt};
-
-    for (int i = 0; i < 3; i++) {
-        uint32_t second = corners[i][1];
-
-        corners[i][1] = corners[i][2];
-        corners[i][2] = second;
-    }
-}
 
 /* Copies the vertices and normals of a mesh to the end of the scene's. */
 static void copy_vertices(struct flattening *f, const struct scene_mesh *mesh)
@@ -155,33 +131,11 @@ static void append_tris(struct flattening *f, const struct scene_mesh *mesh,
                 t.vn[k] += first_normal - mesh->first_normal;
         }
         if (is_mirror)
-            turn_over(&t);
+            tri_turn_over(&t);
         f->faces[f->tri_count] = f->scene->tri_faces[mesh->first_tri + i];
         f->objects[f->tri_count] = object;
         f->tris[f->tri_count++] = t;
     }
-}
-
-/* Moves vertices and normals. Returns true if the matrix mirrors. */
-static bool move_vertices(struct scene *s, const struct affine *matrix,
-                          const struct scene_mesh *mesh,
-                          uint32_t first_position, uint32_t first_normal)
-{
-    double rows[3][3];
-    bool is_mirror = affine_normals(matrix, rows);
-
-    for (uint32_t i = 0; i < mesh->position_count; i++) {
-        double *p = s->file_positions + 3 * (size_t)(first_position + i);
-        const double from[3] = {p[0], p[1], p[2]};
-
-        affine_point(matrix, from, p);
-    }
-    for (uint32_t i = 0; i < mesh->normal_count; i++) {
-        struct vec3 *n = &s->normals[first_normal + i];
-
-        *n = moved_normal(rows, *n);
-    }
-    return is_mirror;
 }
 
 /* Adds the triangles of an instance. The last copy of a mesh that is not kept
@@ -202,8 +156,8 @@ static void flatten_instance(struct flattening *f,
         f->position_count += mesh->position_count;
         f->normal_count += mesh->normal_count;
     }
-    is_mirror = move_vertices(f->scene, &instance->matrix, mesh, first_position,
-                              first_normal);
+    is_mirror = mesh_transform(f->scene, &instance->matrix, mesh,
+                               first_position, first_normal, f->pool);
     append_tris(f, mesh, instance->object, first_position, first_normal,
                 is_mirror);
 }
@@ -415,10 +369,12 @@ static void give_arrays(struct flattening *f)
 }
 
 /* Makes the copies, with the plans made. */
-static bool flatten(struct scene *scene, struct plan *plans, struct error *err)
+static bool copy_meshes(struct scene *scene, struct plan *plans,
+                        struct pool *pool, struct error *err)
 {
     struct scene_instances *s = &scene->instances;
     struct flattening f = {.scene = scene,
+                           .pool = pool,
                            .position_count = scene->position_count,
                            .normal_count = scene->normal_count};
     struct totals all = count_all(scene, plans);
@@ -443,7 +399,44 @@ static bool flatten(struct scene *scene, struct plan *plans, struct error *err)
     return true;
 }
 
-bool scene_flatten(struct scene *scene, struct error *err)
+/* Returns true if each mesh has one instance, in the order of the meshes, and
+ * all triangles are theirs. */
+static bool is_used_in_order(const struct scene *scene)
+{
+    const struct scene_instances *s = &scene->instances;
+    uint32_t tri_count = 0;
+
+    for (uint32_t i = 0; i < s->mesh_count && i < s->count; i++) {
+        if (s->items[i].mesh != i)
+            return false;
+        tri_count += s->meshes[i].tri_count;
+    }
+    return s->count == s->mesh_count && tri_count == scene->tri_count;
+}
+
+/* Makes the meshes of such a scene its triangles, without a copy. */
+static void take_meshes(struct scene *scene, struct pool *pool)
+{
+    struct scene_instances *s = &scene->instances;
+
+    for (uint32_t i = 0; i < s->count; i++) {
+        const struct scene_mesh *mesh = &s->meshes[i];
+        bool is_mirror =
+            mesh_transform(scene, &s->items[i].matrix, mesh,
+                           mesh->first_position, mesh->first_normal, pool);
+
+        for (uint32_t t = 0; t < mesh->tri_count; t++) {
+            scene->tri_objects[mesh->first_tri + t] = s->items[i].object;
+            if (is_mirror)
+                tri_turn_over(&scene->tris[mesh->first_tri + t]);
+        }
+    }
+    s->count = 0;
+    s->mesh_count = 0;
+}
+
+/* Makes copies of the meshes that shall have some. */
+static bool flatten(struct scene *scene, struct pool *pool, struct error *err)
 {
     struct scene_instances *s = &scene->instances;
     struct plan *plans = alloc_array(s->mesh_count, sizeof *plans);
@@ -452,13 +445,23 @@ bool scene_flatten(struct scene *scene, struct error *err)
 
     for (uint32_t i = 0; ok && i < s->count; i++)
         plans[s->items[i].mesh].use_count++;
-    if (ok && s->mesh_count > 0) {
+    if (ok) {
         choose_kept(scene, plans, savings);
-        ok = flatten(scene, plans, err);
-    } else if (!ok) {
+        ok = copy_meshes(scene, plans, pool, err);
+    } else {
         out_of_memory(scene, err);
     }
     free(plans);
     free(savings);
     return ok;
+}
+
+bool scene_flatten(struct scene *scene, struct pool *pool, struct error *err)
+{
+    if (scene->instances.mesh_count == 0)
+        return true;
+    if (!is_used_in_order(scene))
+        return flatten(scene, pool, err);
+    take_meshes(scene, pool);
+    return true;
 }

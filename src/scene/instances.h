@@ -28,6 +28,7 @@
 #include "base/error.h"
 #include "base/geometry.h"
 
+struct pool;
 struct scene;
 
 /* Ranges of the scene's arrays. */
@@ -71,8 +72,8 @@ bool scene_add_instance(struct scene *scene, uint32_t mesh,
 
 /* Replaces instances by copies of their meshes, removes meshes that have no
  * other instance, and puts the others behind all other triangles. Called by
- * scene_finish(). */
-bool scene_flatten(struct scene *scene, struct error *err);
+ * scene_finish(). The pool may be NULL. */
+bool scene_flatten(struct scene *scene, struct pool *pool, struct error *err);
 
 void scene_instances_free(struct scene_instances *instances);
 

@@ -13,8 +13,9 @@
 /* Fewest triangles that are worth the start of threads, about 0.1 ms. */
 #define POOL_TRIS_MIN 50000
 
-/* Triangles that are tested as one. */
-#define BLOCK_TRIS 16384u
+/* Triangles and vertices that a thread takes at once. */
+#define BLOCK_TRIS     16384u
+#define BLOCK_VERTICES 16384u
 
 /* Returns true if the triangle has an area, computed in double. */
 static bool has_area(const double a[3], const double b[3], const double c[3])
@@ -199,26 +200,63 @@ static uint32_t plain_count(const struct scene *scene)
                : scene->tri_count;
 }
 
-/* Computes the bounds of the vertices that triangles use: 0 without any. */
-static void tri_bounds(const struct scene *scene, uint32_t first,
-                       uint32_t count, double lo[3], double hi[3])
+struct bounds {
+    double lo[3], hi[3];
+};
+
+/* Bounds of some triangles, in blocks. */
+struct bounds_job {
+    const struct scene *scene;
+    uint32_t first, count;
+    struct bounds *blocks;
+};
+
+static void join_point(struct bounds *b, const double p[3])
 {
     for (int k = 0; k < 3; k++) {
-        lo[k] = count > 0 ? INFINITY : 0;
-        hi[k] = count > 0 ? -INFINITY : 0;
+        b->lo[k] = p[k] < b->lo[k] ? p[k] : b->lo[k];
+        b->hi[k] = p[k] > b->hi[k] ? p[k] : b->hi[k];
     }
-    for (uint32_t i = first; i < first + count; i++) {
-        for (int c = 0; c < 3; c++) {
-            size_t v = scene->tris[i].v[c];
+}
 
-            for (int k = 0; k < 3; k++) {
-                double x = scene->file_positions[3 * v + (size_t)k];
+static void bound_block(void *context, uint32_t block, int worker)
+{
+    const struct bounds_job *j = context;
+    const struct tri *tris = j->scene->tris + j->first;
+    uint32_t begin = block * BLOCK_TRIS;
+    struct bounds b = {{INFINITY, INFINITY, INFINITY},
+                       {-INFINITY, -INFINITY, -INFINITY}};
 
-                lo[k] = x < lo[k] ? x : lo[k];
-                hi[k] = x > hi[k] ? x : hi[k];
-            }
-        }
+    (void)worker;
+    for (uint32_t i = begin; i < j->count && i < begin + BLOCK_TRIS; i++)
+        for (int c = 0; c < 3; c++)
+            join_point(&b, j->scene->file_positions + 3 * (size_t)tris[i].v[c]);
+    j->blocks[block] = b;
+}
+
+/* Computes the bounds of the vertices that triangles use: 0 without any. */
+static bool tri_bounds(const struct scene *scene, uint32_t first,
+                       uint32_t count, struct pool *pool, double lo[3],
+                       double hi[3])
+{
+    uint32_t block_count = count / BLOCK_TRIS + (count % BLOCK_TRIS > 0);
+    struct bounds_job job = {scene, first, count,
+                             alloc_array(block_count, sizeof *job.blocks)};
+    struct bounds all = {{0}, {0}};
+
+    if (job.blocks == NULL)
+        return false;
+    pool_each(pool, block_count, bound_block, &job);
+    if (count > 0)
+        all = job.blocks[0];
+    for (uint32_t i = 1; i < block_count; i++) {
+        join_point(&all, job.blocks[i].lo);
+        join_point(&all, job.blocks[i].hi);
     }
+    memcpy(lo, all.lo, sizeof all.lo);
+    memcpy(hi, all.hi, sizeof all.hi);
+    free(job.blocks);
+    return true;
 }
 
 /* Computes the centre, and the scale that brings the largest extent into [1,
@@ -240,20 +278,25 @@ static void find_scale(const double lo[3], const double hi[3], double center[3],
     }
 }
 
-static void find_bounds(struct scene *scene)
+static bool find_bounds(struct scene *scene, struct pool *pool,
+                        struct error *err)
 {
     uint32_t plain = plain_count(scene);
+    bool ok =
+        tri_bounds(scene, 0, plain, pool, scene->bounds_lo, scene->bounds_hi);
 
-    tri_bounds(scene, 0, plain, scene->bounds_lo, scene->bounds_hi);
-    for (uint32_t i = 0; i < scene->instances.mesh_count; i++) {
+    for (uint32_t i = 0; ok && i < scene->instances.mesh_count; i++) {
         struct scene_mesh *m = &scene->instances.meshes[i];
 
-        tri_bounds(scene, m->first_tri, m->tri_count, m->lo, m->hi);
+        ok = tri_bounds(scene, m->first_tri, m->tri_count, pool, m->lo, m->hi);
         find_scale(m->lo, m->hi, m->center, &m->scale);
     }
+    if (!ok)
+        return fail(err, "%s: out of memory for its bounds", scene->path);
     instances_join_bounds(scene, plain > 0);
     find_scale(scene->bounds_lo, scene->bounds_hi, scene->center,
                &scene->scale);
+    return true;
 }
 
 /* Vertices that no triangle uses may be anywhere. */
@@ -264,21 +307,39 @@ static float normalized(double x, double center, double scale)
     return isfinite(y) ? y : 0;
 }
 
-static void normalize_range(struct scene *scene, uint32_t first, uint32_t count,
-                            const double center[3], double scale)
-{
-    for (size_t i = first; i < (size_t)first + count; i++) {
-        const double *p = scene->file_positions + 3 * i;
+/* Vertices from one index on that have the same centre and scale. */
+struct vertex_range {
+    struct scene *scene;
+    uint32_t first, count;
+    const double *center;
+    double scale;
+};
 
-        scene->positions[i] = (struct vec3){
-            normalized(p[0], center[0], scale),
-            normalized(p[1], center[1], scale),
-            normalized(p[2], center[2], scale),
+static void normalize_block(void *context, uint32_t block, int worker)
+{
+    const struct vertex_range *r = context;
+    uint32_t begin = block * BLOCK_VERTICES;
+
+    (void)worker;
+    for (uint32_t k = begin; k < r->count && k < begin + BLOCK_VERTICES; k++) {
+        size_t i = (size_t)r->first + k;
+        const double *p = r->scene->file_positions + 3 * i;
+
+        r->scene->positions[i] = (struct vec3){
+            normalized(p[0], r->center[0], r->scale),
+            normalized(p[1], r->center[1], r->scale),
+            normalized(p[2], r->center[2], r->scale),
         };
     }
 }
 
-static bool fill_positions(struct scene *scene, struct error *err)
+static void normalize_range(struct vertex_range r, struct pool *pool)
+{
+    pool_each(pool, r.count / BLOCK_VERTICES + 1, normalize_block, &r);
+}
+
+static bool fill_positions(struct scene *scene, struct pool *pool,
+                           struct error *err)
 {
     free(scene->positions);
     scene->positions =
@@ -286,13 +347,16 @@ static bool fill_positions(struct scene *scene, struct error *err)
     if (scene->positions == NULL)
         return fail(err, "%s: out of memory for %" PRIu32 " vertices",
                     scene->path, scene->position_count);
-    normalize_range(scene, 0, scene->position_count, scene->center,
-                    scene->scale);
+    normalize_range((struct vertex_range){scene, 0, scene->position_count,
+                                          scene->center, scene->scale},
+                    pool);
     for (uint32_t i = 0; i < scene->instances.mesh_count; i++) {
         const struct scene_mesh *m = &scene->instances.meshes[i];
 
-        normalize_range(scene, m->first_position, m->position_count, m->center,
-                        m->scale);
+        normalize_range((struct vertex_range){scene, m->first_position,
+                                              m->position_count, m->center,
+                                              m->scale},
+                        pool);
     }
     free(scene->file_positions);
     scene->file_positions = NULL;
@@ -357,25 +421,19 @@ uint64_t scene_geometry_bytes(const struct scene *s)
 static bool finish(struct scene *scene, struct pool *pool,
                    struct warnings *report, struct error *err)
 {
-    if (!drop_tris(scene, pool, report, file_tri_is_usable, err))
-        return false;
-    find_bounds(scene);
-    if (!fill_positions(scene, err))
-        return false;
-    return drop_tris(scene, pool, report, tri_gets_normal, err) &&
+    return drop_tris(scene, pool, report, file_tri_is_usable, err) &&
+           find_bounds(scene, pool, err) && fill_positions(scene, pool, err) &&
+           drop_tris(scene, pool, report, tri_gets_normal, err) &&
            instances_build(scene, report, err);
 }
 
 bool scene_finish(struct scene *scene, struct warnings *report,
                   struct error *err)
 {
-    struct pool *pool;
-    bool ok;
+    struct pool *pool = scene_pool(scene, scene->tri_count);
+    bool ok =
+        scene_flatten(scene, pool, err) && finish(scene, pool, report, err);
 
-    if (!scene_flatten(scene, err))
-        return false;
-    pool = scene_pool(scene, scene->tri_count);
-    ok = finish(scene, pool, report, err);
     pool_destroy(pool);
     if (ok && scene->tri_count == 0)
         warnings_add(

@@ -198,10 +198,11 @@ bench_load() {
     echo "load_s $(value load_s load) ($(divide "$bytes" \
         "($(value load_s load) * 1e6)") MB/s with textures and clean-up)," \
         "build_s $(value build_s load)"
-    for format in ply stl; do
+    for format in ply stl glb; do
         "$build/bench/grid" 1000 500 "$format" >"$work/grid.$format"
     done
-    "$build/bench/loads" "$work/grid.obj" "$work/grid.ply" "$work/grid.stl"
+    "$build/bench/loads" "$work/grid.obj" "$work/grid.ply" "$work/grid.stl" \
+        "$work/grid.glb"
 }
 
 bench_sampling() {

@@ -111,6 +111,47 @@ static void instances_place_their_mesh(void **state)
     warnings_free(&report);
 }
 
+/* Meshes that are used once, in any order, become the triangles of their
+ * objects. */
+static void meshes_used_once_are_moved(void **state)
+{
+    const char *meshes = strstr(faces, "o mesh\n");
+    struct affine at;
+    uint64_t seed = 6;
+
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        bool is_in_order = i % 2 == 0;
+        uint32_t first = is_in_order ? 0 : 1;
+        struct scene s = {.path = NULL};
+        struct warnings report = {0};
+        struct error err;
+        char text[400];
+
+        snprintf(text, sizeof text, "v 0 0 0\nv 0 0 0\nv 0 0 0\nvn 0 0 1\n%s",
+                 meshes);
+        instanced_parse(&s, "", text);
+        at = random_affine(&seed, 1, i % 4 < 2);
+        for (uint32_t k = 0; k < 2; k++)
+            assert_true(
+                scene_add_instance(&s, k ^ first, &at, k ^ first, &err));
+        check_or_say(scene_finish(&s, &report, &err), err.text);
+        assert_int_equal(s.tri_count, 4 + 1);
+        assert_int_equal(s.instances.mesh_count, 0);
+        for (int face = 0; face < 4; face++) {
+            const struct tri *t = &s.tris[face + (is_in_order ? 0 : 1)];
+
+            check_face(&s, t, &at, face);
+            if (face == 0)
+                check_normals(&s, t);
+            assert_int_equal(s.tri_objects[t - s.tris], 0);
+        }
+        assert_int_equal(s.tri_objects[is_in_order ? 4 : 0], 1);
+        scene_free(&s);
+        warnings_free(&report);
+    }
+}
+
 /* A matrix that flattens the mesh leaves the faces that have an area. */
 static void matrices_may_be_singular(void **state)
 {
@@ -156,6 +197,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(instances_place_their_mesh),
+        cmocka_unit_test(meshes_used_once_are_moved),
         cmocka_unit_test(matrices_may_be_singular),
         cmocka_unit_test(too_many_triangles_are_an_error),
     };
