@@ -345,6 +345,8 @@ bool import_stream_read(struct scene *scene, const char *bytes,
         return false;
     if (memcmp(s.head.magic, IMPORT_MAGIC, sizeof s.head.magic) != 0)
         return fail_stream(&s, "another version");
+    if (s.head.vertex_count == 0)
+        return fail_stream(&s, "no vertices");
     if (s.head.skipped_count > 0)
         warnings_add(report, "lights of other kinds",
                      "%s: found %u lights of an area or of no place, which are "
