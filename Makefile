@@ -126,7 +126,7 @@ GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
 # Uses all cores unless the caller gives -j.
 MAKE_ALL = $(MAKE) --no-print-directory \
 	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
-SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
+SCENE_FILES = $(foreach e,obj mtl glb view png hdr,$(wildcard scenes/*.$(e)))
 C_FILES = $(foreach d,include/glim src src/* kernels scenes tests/unit tests/unit/* \
 	tests/bench \
 	tests/api tests/bench/error tests/bench/rays tests/fuzz tests/stress tests/tools, \

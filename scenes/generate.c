@@ -7,6 +7,7 @@
  */
 #include "images.h"
 #include "mesh.h"
+#include "models.h"
 
 #include <errno.h>
 #include <stdint.h>
@@ -499,6 +500,32 @@ static void make_principled(void)
                "background .5 .55 .6\n");
 }
 
+/* --- glTF ----------------------------------------------------------------- */
+
+/* The models have cameras; the view files have the rest. */
+static void make_models(void)
+{
+    model_chess(folder);
+    write_text("chess", "view",
+               "res 1024 640\nbackground .03 .035 .045\ntone aces\n"
+               "exposure .6\n");
+    model_bottles(folder);
+    write_text("bottles", "view",
+               "res 1024 640\nbackground .05 .05 .055\ntone aces\n");
+    model_bubbles(folder);
+    write_text("bubbles", "view",
+               "res 1024 640\nbackground .006 .008 .014\ntone aces\n");
+    model_knot(folder);
+    write_text("knot", "view",
+               "res 1024 640\nbackground .02 .022 .028\ntone aces\n");
+    model_forest(folder);
+    write_text("forest", "view",
+               "res 1024 640\nsun 285 17\nexposure 1.2\ntone aces\n");
+    model_jellyfish(folder);
+    write_text("jellyfish", "view",
+               "res 1024 640\nbackground .002 .008 .022\ntone aces\n");
+}
+
 int main(int argc, char **argv)
 {
     if (argc != 2) {
@@ -513,6 +540,7 @@ int main(int argc, char **argv)
     make_skylit();
     make_lights200();
     make_principled();
+    make_models();
     images_write(folder);
     return 0;
 }

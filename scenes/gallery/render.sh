@@ -22,5 +22,19 @@ render interior 320 700
 render skylit 320 300
 render lights200 320 500
 render principled 480 400
+
+model() # model, samples, option...
+{
+    "$glim" -b -w 320 -s "$2" --denoise "${@:3}" \
+        -o "scenes/gallery/$1.png" "scenes/$1.glb"
+    echo "scenes/gallery/$1.png"
+}
+
+model chess 500
+model bottles 1500
+model bubbles 1500
+model knot 500
+model forest 400
+model jellyfish 500 --anim-time 0.75
 "$glim" -b -w 400 --show normals -o scenes/gallery/normals.png \
     scenes/materials.obj
