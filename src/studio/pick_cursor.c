@@ -35,7 +35,7 @@ static void describe(const struct pick_cursor *cursor, const struct pick *pick,
     const struct edit *edit = &cursor->control->session->edit;
     const char *material = edit->names[pick->material];
 
-    snprintf(text, TEXT_BYTES, "%.60s, %.60s, face %u, %.4g away",
+    snprintf(text, TEXT_BYTES, "%.60s / %.60s, face %u, %.4g away",
              pick_cursor_object_name(cursor, pick->object),
              *material ? material : "no material", pick->face + 1,
              pick->distance);

@@ -42,7 +42,7 @@ static const struct {
     [QUESTION_QUIT] = {"The render is not saved. Quit? y: yes, p: save it, "
                        "other: no",
                        end, 'p', save_render},
-    [QUESTION_EDIT] = {"Changes of materials or light are not saved. Quit? "
+    [QUESTION_EDIT] = {"Materials or light are not saved. Quit? "
                        "y: yes, s: save, other: no",
                        end, 's', save_and_quit},
     [QUESTION_LIVE] = {"The render is not saved. Leave it? y: yes, p: save "

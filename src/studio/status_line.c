@@ -21,6 +21,7 @@ enum field {
     FIELD_PERCENT,
     FIELD_NOISE,
     FIELD_TARGET, /* ends the field of noise */
+    FIELD_GAUGE,
     FIELD_ELAPSED,
     FIELD_LEFT,
     FIELD_SPEED,
@@ -35,9 +36,16 @@ enum field {
  * tell the effect of a key. */
 static const enum field dispensable[] = {FIELD_MACHINE, FIELD_SIZE,
                                          FIELD_SPEED,   FIELD_LEFT,
-                                         FIELD_ELAPSED, FIELD_PERCENT,
-                                         FIELD_TARGET,  FIELD_NOISE,
-                                         FIELD_COLORS,  FIELD_SAMPLES};
+                                         FIELD_ELAPSED, FIELD_GAUGE,
+                                         FIELD_PERCENT, FIELD_TARGET,
+                                         FIELD_NOISE,   FIELD_COLORS,
+                                         FIELD_SAMPLES};
+
+#define GAUGE_COLS 8
+
+/* Windows with fewer columns have the short name of the mode beside a message.
+ */
+#define WIDE_COLS 60
 
 void status_line_duration(char *text, size_t size_bytes, uint64_t ns)
 {
@@ -65,6 +73,15 @@ static const char *mode_word(const struct status_line *s)
     if (!s->is_started)
         return "NORMAL ready";
     return s->is_halted ? "NORMAL paused" : "NORMAL";
+}
+
+static enum text_role mode_role(const struct status_line *s)
+{
+    if (s->progress->state == RENDER_FAILED)
+        return ROLE_FAILED;
+    if (s->is_halted)
+        return ROLE_PAUSED;
+    return s->is_live ? ROLE_LIVE : ROLE_NORMAL;
 }
 
 /* Formats a time to come, rounded up, so that 0 s means done. */
@@ -136,6 +153,23 @@ static void format_noise(char text[FIELDS][FIELD_BYTES],
              duration);
 }
 
+/* Finds the part of the way to the nearest limit that is done. In a render
+ * without limits it is that of the time to the next round error. */
+static bool find_part(const struct render_progress *p, double *part)
+{
+    struct render_left left = render_left(p);
+    double ns;
+
+    *part = left.part;
+    if (left.limit != RENDER_LIMIT_NONE)
+        return true;
+    if (p->state != RENDER_RUNNING ||
+        !render_left_to_error(p, error_text_target(p->film_error.high), &ns))
+        return false;
+    *part = (double)p->render_ns / ((double)p->render_ns + ns);
+    return true;
+}
+
 static void format_speed(char text[FIELD_BYTES],
                          const struct render_progress *p)
 {
@@ -152,7 +186,7 @@ static void format_speed(char text[FIELD_BYTES],
 }
 
 static void format_fields(char text[FIELDS][FIELD_BYTES],
-                          const struct status_line *s)
+                          const struct status_line *s, double *part)
 {
     const struct render_progress *p = s->progress;
 
@@ -173,6 +207,8 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
     format_samples(text[FIELD_SAMPLES], p);
     format_left_fields(text, p);
     format_noise(text, p);
+    if (find_part(p, part))
+        snprintf(text[FIELD_GAUGE], FIELD_BYTES, "%*s", GAUGE_COLS, "");
     status_line_duration(text[FIELD_ELAPSED], FIELD_BYTES, p->render_ns);
     format_speed(text[FIELD_SPEED], p);
 }
@@ -192,38 +228,103 @@ static int length_of(char text[FIELDS][FIELD_BYTES])
     return length;
 }
 
-void status_line_format(char text[STATUS_BYTES], int cols,
+static void add_span(struct status_row *row, int col, int cols,
+                     enum text_role role)
+{
+    row->spans[row->span_count++] = (struct status_span){col, cols, role};
+}
+
+/* Returns the columns of the hints with a blank at the end. */
+static int hint_columns(const struct status_line *s)
+{
+    int cols = 0;
+
+    for (int i = 0; i < STATUS_LINE_HINTS && s->hints[i][0]; i++)
+        cols += (int)(strlen(s->hints[i][0]) + strlen(s->hints[i][1])) + 3;
+    return cols > 0 ? cols - 1 : 0;
+}
+
+static void add_hints(struct status_row *row, const struct status_line *s,
+                      int col)
+{
+    for (int i = 0; i < STATUS_LINE_HINTS && s->hints[i][0]; i++) {
+        int key = (int)strlen(s->hints[i][0]);
+        int word = (int)strlen(s->hints[i][1]);
+
+        memcpy(row->text + col, s->hints[i][0], (size_t)key);
+        memcpy(row->text + col + key + 1, s->hints[i][1], (size_t)word);
+        add_span(row, col, key, ROLE_STATUS_KEY);
+        col += key + 1 + word + 2;
+    }
+}
+
+/* Makes a row of blanks. All of it is set, so that rows can be compared. */
+static int begin_row(struct status_row *row, int cols, enum text_role role)
+{
+    int room = cols < STATUS_BYTES - 1 ? cols : STATUS_BYTES - 1;
+
+    memset(row, 0, sizeof *row);
+    row->role = role;
+    memset(row->text, ' ', (size_t)room);
+    return room;
+}
+
+/* Marks the name of the mode, which begins in column 1. */
+static void mark_mode(struct status_row *row, const struct status_line *s,
+                      int length, int room)
+{
+    int cols = length + 2;
+
+    add_span(row, 0, cols < room ? cols : room, mode_role(s));
+}
+
+void status_line_format(struct status_row *row, int cols,
                         const struct status_line *s)
 {
     char fields[FIELDS][FIELD_BYTES] = {{0}};
-    int room = cols < STATUS_BYTES - 1 ? cols : STATUS_BYTES - 1;
-    int hint = (int)strlen(s->hint);
+    int room = begin_row(row, cols, ROLE_STATUS);
+    int hint = hint_columns(s);
     int at = -1; /* the first field has a gap as well */
+    double part = 0;
 
-    format_fields(fields, s);
+    format_fields(fields, s, &part);
     for (size_t i = 0; i < sizeof dispensable / sizeof dispensable[0]; i++) {
-        if (1 + length_of(fields) + hint + 1 <= room)
+        if (1 + length_of(fields) + hint <= room)
             break;
         fields[dispensable[i]][0] = '\0';
     }
-    memset(text, ' ', (size_t)room);
-    text[room] = '\0';
+    mark_mode(row, s, (int)strlen(mode_word(s)), room);
     for (int i = 0; i < FIELDS; i++) {
         int length = (int)strlen(fields[i]);
         int begin = at + gap_before(i);
 
         if (length == 0 || begin + length > room)
             continue;
-        memcpy(text + begin, fields[i], (size_t)length);
+        memcpy(row->text + begin, fields[i], (size_t)length);
         at = begin + length;
+        if (i == FIELD_GAUGE) {
+            row->gauge_col = begin;
+            row->gauge_cols = length;
+            row->gauge = part;
+        }
     }
-    if (at + 2 + hint + 1 <= room)
-        memcpy(text + room - hint - 1, s->hint, (size_t)hint);
+    if (at + 2 + hint <= room)
+        add_hints(row, s, room - hint);
 }
 
-void status_line_message(char text[STATUS_BYTES], int cols, const char *message)
+void status_line_message(struct status_row *row, int cols,
+                         const struct status_line *s, const char *message,
+                         enum text_role role)
 {
-    if (cols > 0)
-        *text++ = ' ';
-    text_width_cut(text, STATUS_BYTES - 1, message, cols - 1);
+    const char *mode = mode_word(s);
+    int length = cols < WIDE_COLS ? (int)strcspn(mode, " ") : (int)strlen(mode);
+    int room = begin_row(row, cols, role);
+    int begin = length + 3;
+
+    if (begin >= room)
+        return;
+    memcpy(row->text + 1, mode, (size_t)length);
+    mark_mode(row, s, length, room);
+    text_width_cut(row->text + begin, sizeof row->text - (size_t)begin, message,
+                   room - begin);
 }

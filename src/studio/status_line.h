@@ -17,6 +17,8 @@
 #include "render/render_loop.h"
 #include "terminal/screen.h"
 
+#define STATUS_LINE_HINTS 2
+
 struct status_line {
     bool is_live;
     bool is_orbiting;
@@ -30,11 +32,13 @@ struct status_line {
     int thread_count;
     int width_px, height_px;
     const char *colors; /* name of the palette, such as "24 bit" */
-    const char *hint;   /* text at the right end */
+    /* keys at the right end with what they do; none after a NULL */
+    const char *hints[STATUS_LINE_HINTS][2];
 };
 
-/* Formats the line for `cols` columns. */
-void status_line_format(char text[STATUS_BYTES], int cols,
+/* Formats the line for `cols` columns. A gauge shows how much of the way to the
+ * nearest limit is done, or to the next round error. */
+void status_line_format(struct status_row *row, int cols,
                         const struct status_line *s);
 
 /* Formats a time in seconds, rounded down: 7 s, 1:07, 2:01:07. */
@@ -44,8 +48,10 @@ void status_line_duration(char *text, size_t size_bytes, uint64_t ns);
 bool status_line_left(char *text, size_t size_bytes,
                       const struct render_progress *p);
 
-/* Copies a message without its control characters, cut at `cols` columns. */
-void status_line_message(char text[STATUS_BYTES], int cols,
-                         const char *message);
+/* Formats a message beside the mode, without its control characters and cut at
+ * `cols` columns. */
+void status_line_message(struct status_row *row, int cols,
+                         const struct status_line *s, const char *message,
+                         enum text_role role);
 
 #endif

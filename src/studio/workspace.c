@@ -266,62 +266,52 @@ void workspace_turn_help(struct workspace *workspace, bool closes)
 
 /* ---- drawing ---- */
 
-static void format_status(struct workspace *workspace, char text[STATUS_BYTES])
+static void update_status(struct workspace *workspace, uint64_t now_ns)
 {
+    const struct render_control *control = workspace->control;
     const struct film *film = film_of(workspace);
-    const struct backend *backend =
-        render_backend(workspace->control->session->render);
-    struct keymap_name load =
-        render_control_key(workspace->control, ACTION_RELOAD);
-    char hint[48];
+    const struct backend *backend = render_backend(control->session->render);
+    struct keymap_name load = render_control_key(control, ACTION_RELOAD);
+    struct keymap_name help = render_control_key(control, ACTION_HELP);
+    struct keymap_name quit = render_control_key(control, ACTION_QUIT);
+    const char *legend = workspace->comparison.legend[0] != '\0'
+                             ? workspace->comparison.legend
+                             : workspace->inspector.view_mode.legend;
     struct status_line status = {
-        .is_live = workspace->control->is_live,
+        .is_live = control->is_live,
         .is_orbiting = workspace->camera->input.is_orbiting,
         .is_filtered = workspace->inspector.view_mode.is_filtered,
-        .is_halted = workspace->control->is_halted,
-        .is_started = workspace->control->is_started,
-        .load_key = workspace->control->has_changed_files ? load.text : NULL,
-        .progress = &workspace->control->progress,
+        .is_halted = control->is_halted,
+        .is_started = control->is_started,
+        .load_key = control->has_changed_files ? load.text : NULL,
+        .progress = &control->progress,
         .device = backend->device,
         .thread_count = backend->thread_count,
         .width_px = film->width,
         .height_px = film->height,
         .colors = palette_name(workspace->screen.display.palette),
-        .hint = hint,
+        .hints = {{help.text, "help"}, {quit.text, "quit"}},
     };
-
-    snprintf(hint, sizeof hint, "%s help  %s quit",
-             render_control_key(workspace->control, ACTION_HELP).text,
-             render_control_key(workspace->control, ACTION_QUIT).text);
-    status_line_format(text, term_size().cols, &status);
-}
-
-static void update_status(struct workspace *workspace, uint64_t now_ns)
-{
-    char text[STATUS_BYTES];
+    int cols = term_size().cols;
+    struct status_row row;
 
     if (workspace->prompt) {
-        status_line_message(text, term_size().cols, workspace->prompt);
-    } else if (now_ns < workspace->control->message.until_ns) {
-        status_line_message(text, term_size().cols,
-                            workspace->control->message.text);
-    } else if (workspace->screen.has_status_row &&
-               workspace->comparison.legend[0] != '\0') {
-        status_line_message(text, term_size().cols,
-                            workspace->comparison.legend);
-    } else if (workspace->screen.has_status_row &&
-               workspace->inspector.view_mode.legend[0] != '\0') {
-        status_line_message(text, term_size().cols,
-                            workspace->inspector.view_mode.legend);
-    } else if (workspace->screen.has_status_row) {
-        format_status(workspace, text);
-    } else {
+        status_line_message(&row, cols, &status, workspace->prompt,
+                            ROLE_MESSAGE);
+    } else if (now_ns < control->message.until_ns) {
+        status_line_message(&row, cols, &status, control->message.text,
+                            ROLE_MESSAGE);
+    } else if (!workspace->screen.has_status_row) {
         if (workspace->screen.has_status)
             workspace->is_settled = false; /* the picture is drawn there */
         screen_status(&workspace->screen, NULL);
         return;
+    } else if (legend[0] != '\0') {
+        status_line_message(&row, cols, &status, legend, ROLE_STATUS);
+    } else {
+        status_line_format(&row, cols, &status);
     }
-    screen_status(&workspace->screen, text);
+    screen_status(&workspace->screen, &row);
 }
 
 /* Processor time of the calling thread. */

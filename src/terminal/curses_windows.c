@@ -177,11 +177,6 @@ static int shown_columns(const char *text, int cols)
     return all < cols ? all : cols;
 }
 
-void windows_clear_status(void)
-{
-    windows_text(WINDOW_STATUS, 0, 0, COLS, ROLE_STATUS, "");
-}
-
 void windows_hide_status(void)
 {
     move(LINES - 1, 0);

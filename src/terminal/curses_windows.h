@@ -53,8 +53,7 @@ void windows_paint(enum window_part part, int row, int col,
 /* Draws a horizontal line from a cell of a part. */
 void windows_rule(enum window_part part, int row, int col, int cols);
 
-/* Makes the last row blank, or leaves it to the picture. */
-void windows_clear_status(void);
+/* Leaves the last row to the picture. */
 void windows_hide_status(void);
 
 /* Places of the window over the picture. */

@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "picture/frame.h"
+#include "terminal/gauge.h"
 
 /* Longest wait for answers in screen_drain(). */
 #define DRAIN_NS UINT64_C(500000000)
@@ -215,19 +216,36 @@ static struct ansi_diff_rect last_row(const struct screen *screen)
                                    screen->fit.cols, 1};
 }
 
-void screen_status(struct screen *screen, const char *text)
+static void draw_status(const struct screen *screen)
 {
-    if (text ? screen->has_status && strcmp(text, screen->status) == 0
-             : !screen->has_status)
+    const struct status_row *row = &screen->status;
+    const struct term_caps *d = &screen->display;
+    struct cell cells[STATUS_GAUGE_MAX];
+
+    windows_text(WINDOW_STATUS, 0, 0, term_size().cols, row->role, row->text);
+    for (int i = 0; i < row->span_count; i++)
+        windows_text(WINDOW_STATUS, 0, row->spans[i].col, row->spans[i].cols,
+                     row->spans[i].role, row->text + row->spans[i].col);
+    gauge_cells(cells, row->gauge_cols, row->gauge,
+                theme_style(screen->theme, d->palette, ROLE_GAUGE),
+                d->has_unicode);
+    windows_paint(WINDOW_STATUS, 0, row->gauge_col, cells, row->gauge_cols);
+}
+
+void screen_status(struct screen *screen, const struct status_row *row)
+{
+    if (row ? screen->has_status &&
+                  memcmp(row, &screen->status, sizeof *row) == 0
+            : !screen->has_status)
         return;
-    screen->has_status = text != NULL;
-    if (text)
-        snprintf(screen->status, sizeof screen->status, "%s", text);
+    screen->has_status = row != NULL;
     windows_hide_status();
-    if (text)
-        windows_text(WINDOW_STATUS, 0, 0, term_size().cols, ROLE_STATUS, text);
-    else
+    if (row) {
+        screen->status = *row;
+        draw_status(screen);
+    } else {
         give_to_picture(screen, last_row(screen));
+    }
     screen->must_update = true;
 }
 

@@ -25,6 +25,25 @@
 /* Bytes of the longest status line, with its final 0. */
 #define STATUS_BYTES 1024
 
+/* A part of the last row that is of another role, in columns. */
+struct status_span {
+    int col, cols;
+    enum text_role role;
+};
+
+#define STATUS_SPANS     6
+#define STATUS_GAUGE_MAX 16
+
+/* The last row. Text before the end of a span is ASCII. */
+struct status_row {
+    char text[STATUS_BYTES];
+    enum text_role role;
+    struct status_span spans[STATUS_SPANS];
+    int span_count;
+    int gauge_col, gauge_cols; /* no columns: there is no gauge */
+    double gauge;              /* its filled part */
+};
+
 struct screen {
     struct frame_pacing pace;
     struct term_caps display;
@@ -37,7 +56,7 @@ struct screen {
     struct cells cells;
     struct pixel_graphics graphics; /* used instead of cells unless NONE */
     struct ansi_diff ansi;
-    char status[STATUS_BYTES];
+    struct status_row status;
     bool has_status;
     struct ansi_diff_rect window; /* in the picture's cells; 0 cols: closed */
     bool must_update;    /* text has changed since screen_draw_text() */
@@ -66,8 +85,8 @@ bool screen_layout(struct screen *screen, int width_px, int height_px,
  * called, as it has to be after a change of screen->display. */
 bool screen_answer(struct screen *screen, const struct event *event);
 
-/* Sets the text of the last row; NULL leaves the row to the picture. */
-void screen_status(struct screen *screen, const char *text);
+/* Sets the last row, whose padding is 0; NULL leaves it to the picture. */
+void screen_status(struct screen *screen, const struct status_row *row);
 
 /* Returns true if the panel takes the whole window, and the picture is hidden
  * behind it. */

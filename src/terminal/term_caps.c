@@ -134,8 +134,8 @@ const char *term_caps_lack(const struct term_caps *d)
     if (d->palette == PALETTE_MONO)
         return is_sixel ? "sixels need colours" : "kitty pixels need colours";
     if (term_caps_pixels(d) == PIXEL_GRAPHICS_NONE)
-        return is_sixel ? "this terminal has not said it has sixels"
-                        : "this terminal has not said it has kitty pixels";
+        return is_sixel ? "the terminal reports no sixels"
+                        : "the terminal reports no kitty pixels";
     return "this terminal does not say how large a character is";
 }
 

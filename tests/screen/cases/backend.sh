@@ -7,7 +7,7 @@ cp /etc/OpenCL/vendors/pocl.icd . 2>/dev/null || {
 }
 export OCL_ICD_VENDORS=$PWD
 flat_scene
-size=140x21
+size=160x21
 start -t 1 flat.obj
 wait_for "LIVE .* 1 thread "
 keys b

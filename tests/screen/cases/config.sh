@@ -17,7 +17,7 @@ keys q
 wait_until_gone "any key closes"
 keys q # no more
 keys C
-wait_for "^ mono" # what is next after 16
+wait_for "  mono" # what is next after 16
 keys x
 expect_end 0
 fresh
@@ -25,7 +25,7 @@ fresh
 start_line "TERM=tmux-256color XDG_CONFIG_HOME=$PWD glim --color 256 flat.obj"
 wait_for "LIVE"
 keys C
-wait_for "^ 16 col" # what is next after 256
+wait_for "  16 col" # what is next after 256
 keys x
 expect_end 0
 fresh
@@ -33,7 +33,7 @@ start_line \
     "TERM=tmux-256color GLIM_COLOR=mono XDG_CONFIG_HOME=$PWD glim flat.obj"
 wait_for "LIVE"
 keys C
-wait_for "^ 24 bit"
+wait_for "LIVE  24 bit"
 keys x
 expect_end 0
 fresh

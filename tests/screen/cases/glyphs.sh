@@ -35,7 +35,7 @@ done
 for case in "sixel:sixels" "kitty:kitty pixels"; do
     fresh
     start --glyph ${case%%:*} lamp.obj
-    wait_for "half blocks: this terminal has not said it has ${case#*:}"
+    wait_for "half blocks: the terminal reports no ${case#*:}"
     keys q
     expect_end 0
 done
@@ -43,7 +43,7 @@ mkdir -p config/glim
 echo 'option glyph sixel' >config/glim/config
 fresh
 start_line "XDG_CONFIG_HOME=\$PWD/config TERM=tmux-256color glim lamp.obj"
-wait_for "half blocks: this terminal has not said it has sixels"
+wait_for "half blocks: the terminal reports no sixels"
 keys q
 expect_end 0
 fresh

@@ -18,7 +18,7 @@ has_colors() # true if the screen has as many different ones
 }
 colors_are() # as many different ones, and these
 {
-    wait_until_gone "LIVE"
+    wait_until_gone "LIVE .* spp"
     count=$1
     shift
     for color; do

@@ -70,7 +70,7 @@ keys x
 shows '255;0;0'
 # quitting asks, saving changes only what was changed
 keys q
-wait_for "Changes of materials or light are not saved. Quit?"
+wait_for "Materials or light are not saved. Quit?"
 keys n
 wait_for LIVE
 keys C-s

@@ -31,15 +31,15 @@ keys f
 wait_for "nothing is picked"
 keys v
 wait_for "\[+\]"
-wait_for "right, green, face 2, 5"
+wait_for "right / green, face 2, 5"
 keys Left Left Left Left
-wait_for "left, red, face 1, 5"
+wait_for "left / red, face 1, 5"
 keys Up Up Up Up Up Up Up Up
 wait_for "nothing but the sky"
 keys Enter # picks nothing there
 expect "\[+\]"
 keys Down Down Down Down Down Down Down Down Enter
-wait_for "left, red, face 1, .*o orbit, f focus, z frame"
+wait_for "left / red, face 1, .*o orbit"
 wait_until_gone "\[+\]"
 keys f
 wait_for "focus at 5, once the lens is open"
@@ -49,7 +49,7 @@ wait_for "aperture "
 keys '{' '{'
 wait_for "pinhole lens"
 keys z
-wait_for "^ left"
+wait_for "LIVE  left"
 is at 1 -1
 is at 2 0
 is eye 1 -1
@@ -58,16 +58,16 @@ wait_for "the whole scene"
 is at 1 0
 # a click in the right half, and one beside the picture
 raw_keys "$(printf '\033[<0;40;10M\033[<0;40;10m')"
-wait_for "right, green, face 2, "
+wait_for "right / green, face 2, "
 raw_keys "$(printf '\033[<0;2;1M\033[<0;2;1m')"
 keys z
-wait_for "^ right"
+wait_for "LIVE  right"
 is at 1 1
 keys v Escape
 wait_until_gone "\[+\]"
 # z picks what the cursor is on
 keys r v Left Left Left Left Left Left z
-wait_for "^ left"
+wait_for "LIVE  left"
 is at 1 -1
 # o orbits what the cursor is on, even if it was on before
 keys o v Right Right Right o
@@ -76,7 +76,7 @@ wait_for "orbit the picked point"
 keys Space
 wait_for "normal mode"
 raw_keys "$(printf '\033[<0;30;10M\033[<0;30;10m')"
-wait_for "left, red, "
+wait_for "left / red, "
 raw_keys "$(printf '\033[<0;30;10M\033[<32;40;10M\033[<0;40;10m')"
 wait_for "the camera moves only in live mode" # and nothing is picked there
 keys f
@@ -89,7 +89,7 @@ two_lamps
 start --crop 0,0,50,50 --cell-aspect 2 lamps.obj
 wait_for "▀"
 keys v
-wait_for "left, red, "
+wait_for "left / red, "
 # the cursor stays in the corner
 keys -N 60 Left
 keys -N 30 Up

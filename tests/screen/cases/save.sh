@@ -21,7 +21,7 @@ keys i
 wait_for "LIVE"
 cp sub/flat.view mine.view
 keys c
-wait_for "wrote the view to sub/flat.view, the old one is flat.view~"
+wait_for "wrote the view to sub/flat.view, the old one is"
 cmp sub/flat.view~ mine.view || die "the view before is lost"
 keys q
 expect_end 0

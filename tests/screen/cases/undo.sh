@@ -51,7 +51,7 @@ wait_for "view 4 is not set"
 keys s
 [ "$(line eye)" != "eye 0 0 5" ] || die "not moved"
 keys 3
-wait_for "^ view 3"
+wait_for "  view 3"
 [ "$(line eye)" = "eye 0 0 5" ] || die "not at view 3: $(line eye)"
 want="view 3 eye 0 0 5 at 0 0 0 up 0 1 0 fovy 40 aperture 0 focus 0"
 [ "$(line 'view 3')" = "$want" ] || die "found $(line 'view 3')"
@@ -63,7 +63,7 @@ printf 'view 7 eye 0 0 9 at 0 0 0\n' >>lamp.view
 start lamp.obj
 wait_for "▀"
 keys 7
-wait_for "^ view 7"
+wait_for "  view 7"
 [ "$(line eye)" = "eye 0 0 9" ] || die "not at view 7: $(line eye)"
 keys r
 wait_for "as it was opened"

@@ -18,13 +18,13 @@ awk "BEGIN { exit !($z > 5.71 && $z < 5.9) }" ||
     die "a tap from 5.7 came to $z, expected a small step before the wall at 6"
 reject "outside"
 tries=0
-until screen | grep -q "^ outside the scene, behind a wall: r returns"; do
+until screen | grep -q "  outside the scene, behind a wall: r returns"; do
     tries=$((tries + 1))
     [ $tries -lt 300 ] || die "never told that the wall was passed"
     keys s
 done
 keys r
-wait_for "^ the view as it was opened"
+wait_for "  the view as it was opened"
 z=$(eye_z)
 [ "$z" = 5.7 ] || die "r came to $z, expected 5.7"
 keys q

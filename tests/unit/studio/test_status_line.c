@@ -7,6 +7,22 @@
 
 #define SEC UINT64_C(1000000000)
 
+/* Formats the line, and checks that what is marked is within it. */
+static void format(char text[STATUS_BYTES], int cols,
+                   const struct status_line *s)
+{
+    struct status_row row;
+
+    status_line_format(&row, cols, s);
+    assert_in_range(row.span_count, 1, STATUS_SPANS);
+    for (int i = 0; i < row.span_count; i++)
+        assert_in_range(row.spans[i].col + row.spans[i].cols, 1, cols);
+    assert_in_range(row.gauge_cols, 0, STATUS_GAUGE_MAX);
+    for (int i = 0; i < row.gauge_cols; i++)
+        assert_int_equal(row.text[row.gauge_col + i], ' ');
+    memcpy(text, row.text, STATUS_BYTES);
+}
+
 static const char *duration(uint64_t ns)
 {
     static char text[32];
@@ -47,7 +63,7 @@ static struct status_line live_line(const struct render_progress *p)
                                 .width_px = 10,
                                 .height_px = 20,
                                 .colors = "mono",
-                                .hint = "? help  q quit"};
+                                .hints = {{"?", "help"}, {"q", "quit"}}};
 }
 
 /* A line of normal mode. */
@@ -80,31 +96,32 @@ static void normal_mode_shows_the_time_left(void **state)
 
     (void)state;
     s.thread_count = 2;
-    status_line_format(text, 120, &s);
+    format(text, 130, &s);
     assert_string_equal(
-        text, " NORMAL  8/16 spp  50 %  noise unknown  4 s  left 4 s  2.00 "
-              "Msamples/s  2 threads  10x20  mono           ? help  q quit ");
+        text, " NORMAL  8/16 spp  50 %  noise unknown            4 s  left 4 s "
+              " 2.00 Msamples/s  2 threads  10x20  mono           ? help  q "
+              "quit ");
     s.is_orbiting = true;
-    status_line_format(text, 120, &s);
+    format(text, 120, &s);
     check_has(text, " NORMAL orbit  8/16 spp  ");
     s.is_filtered = true;
-    status_line_format(text, 120, &s);
+    format(text, 120, &s);
     check_has(text, " NORMAL orbit filtered  8/16 spp  ");
     s.is_orbiting = s.is_filtered = false;
     p.state = RENDER_IDLE;
     s.is_halted = true;
-    status_line_format(text, 120, &s);
-    assert_non_null(
-        strstr(text,
-               "NORMAL paused  8/16 spp  50 %  noise unknown  4 s  2.00"));
+    format(text, 120, &s);
+    assert_non_null(strstr(
+        text,
+        "NORMAL paused  8/16 spp  50 %  noise unknown            4 s  2.00"));
     p.state = RENDER_DONE;
     p.samples = p.samples_limit;
-    status_line_format(text, 120, &s);
+    format(text, 120, &s);
     assert_non_null(strstr(text, "NORMAL done"));
     assert_non_null(strstr(text, "100 %"));
     s.is_started = false;
     p.state = RENDER_IDLE;
-    status_line_format(text, 120, &s);
+    format(text, 120, &s);
     assert_non_null(strstr(text, "NORMAL ready  2 threads"));
 }
 
@@ -116,13 +133,13 @@ static void live_mode_has_no_end(void **state)
 
     (void)state;
     p.spp_limit = p.samples_limit = 0;
-    status_line_format(text, 100, &s);
+    format(text, 100, &s);
     assert_non_null(strstr(text, " LIVE  8 spp  noise unknown  4 s  2.00 "
                                  "Msamples/s  1 thread  10x20  mono "));
     assert_null(strchr(text, '%'));
     p = (struct render_progress){.state = RENDER_RUNNING};
     /* No progress yet: no division by zero. */
-    status_line_format(text, 100, &s);
+    format(text, 100, &s);
     assert_non_null(strstr(text, "0 spp  noise unknown  0 s  0 ksamples/s"));
 }
 
@@ -136,29 +153,32 @@ static void noise_is_shown_with_the_time_to_a_target(void **state)
 
     (void)state;
     /* live: to 0.5 %, with 8 * 3.98^2 = 126.7, in blocks 128 samples */
-    status_line_format(text, 100, &s);
-    check_has(text, " LIVE  8 spp  noise 1.9 %, 0.5 % in 1:00  4 s  2.00 ");
+    format(text, 100, &s);
+    check_has(text,
+              " LIVE  8 spp  noise 1.9 %, 0.5 % in 1:00            4 s  2.00 ");
     p.state = RENDER_IDLE;
-    status_line_format(text, 100, &s);
+    format(text, 100, &s);
     check_has(text, "  8 spp  noise 1.9 %  4 s  2.00 ");
     p.state = RENDER_RUNNING;
     p.film_error.is_resolved = false;
-    status_line_format(text, 100, &s);
-    check_has(text, "  8 spp  noise 1.9 %, unresolved  4 s  ");
+    format(text, 100, &s);
+    check_has(text, "  8 spp  noise 1.9 %, unresolved");
     p.film_error.is_resolved = true;
     /* -e 1%: 8 * 1.99^2 = 31.7, so 32 samples */
     s = normal_line(&p);
     p.error_limit = 0.01;
-    status_line_format(text, 100, &s);
-    check_has(text,
-              " NORMAL  8 spp  25 %  noise 1.9 %, 1 % in 12 s  4 s  2.00");
+    format(text, 110, &s);
+    check_has(
+        text,
+        " NORMAL  8 spp  25 %  noise 1.9 %, 1 % in 12 s            4 s  2.00");
     p.time_limit_ns = 10 * SEC; /* before */
-    status_line_format(text, 100, &s);
-    check_has(text, "  8 spp  40 %  noise 1.9 %  4 s  left 6 s  2.00 ");
+    format(text, 110, &s);
+    check_has(text,
+              "  8 spp  40 %  noise 1.9 %            4 s  left 6 s  2.00 ");
     p.time_limit_ns = 0;
     p.film_error.high = 0.0099; /* reached, but not at 8 of 16 samples */
-    status_line_format(text, 100, &s);
-    check_has(text, "  8 spp  50 %  noise 1.9 %  4 s  2.00 ");
+    format(text, 110, &s);
+    check_has(text, "  8 spp  50 %  noise 1.9 %            4 s  2.00 ");
 }
 
 /* In narrow windows the time to the target goes before the noise. */
@@ -173,7 +193,7 @@ static void noise_outlives_its_target(void **state)
     for (int cols = 20; cols < 120; cols++) {
         bool has_noise, has_target;
 
-        status_line_format(text, cols, &s);
+        format(text, cols, &s);
         has_noise = strstr(text, "  noise 1.9 %") != NULL;
         has_target = strstr(text, "  noise 1.9 %, 0.5 % in 1:00 ") != NULL;
         assert_true(has_target == (strstr(text, "1:00") != NULL));
@@ -199,7 +219,7 @@ static void narrow_windows_drop_fields(void **state)
     s.width_px = s.height_px = 65536;
     s.colors = "256 colours";
     for (int cols = 1; cols < 3000; cols++) {
-        status_line_format(text, cols, &s);
+        format(text, cols, &s);
         assert_int_equal(strlen(text),
                          cols < STATUS_BYTES - 1 ? cols : STATUS_BYTES - 1);
         if (cols >= 24)
@@ -234,9 +254,9 @@ static void eighty_columns_have_the_colors(void **state)
         p.spp_limit = i & 32 ? 16 : 0;
         s.thread_count = 1024;
         s.colors = colors[i % 4];
-        status_line_format(text, 80, &s);
+        format(text, 80, &s);
         check_has(text, s.colors);
-        check_has(text, s.hint);
+        check_has(text, "? help  q quit ");
         if (s.load_key)
             check_has(text, "changed: l loads");
         if (s.is_live || s.is_started)
@@ -246,15 +266,22 @@ static void eighty_columns_have_the_colors(void **state)
 
 static void messages_have_no_control_characters(void **state)
 {
-    char text[STATUS_BYTES];
+    struct render_progress p = half_done();
+    struct status_line s = live_line(&p);
+    struct status_row row;
 
     (void)state;
-    status_line_message(text, 80, "a\033[2Jb\nc\177");
-    assert_string_equal(text, " a?[2Jb?c?");
-    status_line_message(text, 4, "abcdef");
-    assert_string_equal(text, " abc");
-    status_line_message(text, 0, "abcdef");
-    assert_string_equal(text, "");
+    status_line_message(&row, 80, &s, "a\033[2Jb\nc\177", ROLE_MESSAGE);
+    assert_string_equal(row.text, " LIVE  a?[2Jb?c?");
+    assert_int_equal(row.spans[0].cols, 6);
+    s.is_halted = true;
+    status_line_message(&row, 80, &s, "abcdef", ROLE_MESSAGE);
+    assert_string_equal(row.text, " LIVE paused  abcdef");
+    assert_int_equal(row.spans[0].role, ROLE_PAUSED);
+    status_line_message(&row, 10, &s, "abcdef", ROLE_MESSAGE);
+    assert_string_equal(row.text, " LIVE  abc");
+    status_line_message(&row, 0, &s, "abcdef", ROLE_MESSAGE);
+    assert_string_equal(row.text, "");
 }
 
 int main(void)
