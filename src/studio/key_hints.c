@@ -10,9 +10,6 @@
 const struct key_hint *key_hints_draw(enum window_part part, int row, int col,
                                       int cols, const struct key_hint *hints)
 {
-    bool is_status = part == WINDOW_STATUS;
-    enum text_role key = is_status ? ROLE_STATUS_KEY : ROLE_KEY;
-    enum text_role word = is_status ? ROLE_STATUS_FAINT : ROLE_FAINT;
     int end = col + cols;
 
     for (; hints->does; hints++) {
@@ -21,9 +18,9 @@ const struct key_hint *key_hints_draw(enum window_part part, int row, int col,
 
         if (col + key_cols + 1 + word_cols > end)
             break;
-        windows_text(part, row, col, key_cols, key, hints->key);
+        windows_text(part, row, col, key_cols, ROLE_KEY, hints->key);
         col += key_cols + 1;
-        windows_text(part, row, col, word_cols, word, hints->does);
+        windows_text(part, row, col, word_cols, ROLE_FAINT, hints->does);
         col += word_cols + GAP;
     }
     return hints;

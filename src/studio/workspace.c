@@ -86,6 +86,7 @@ void workspace_layout(struct workspace *workspace)
     struct error err;
 
     workspace->help_left = 0;
+    workspace->keys_bar = (struct keys_bar){KEYS_NONE, 0};
     workspace->width_px = film->width;
     workspace->height_px = film->height;
     workspace_refresh(workspace);
@@ -426,6 +427,26 @@ static enum screen_result send(struct workspace *workspace, bool has_frame)
     return result;
 }
 
+/* Finds what the person is doing, the innermost state first. */
+static enum keys_state keys_state(const struct workspace *workspace)
+{
+    const struct render_control *control = workspace->control;
+
+    if (workspace->screen.has_cursor)
+        return KEYS_CURSOR;
+    if (workspace->comparison.mode != COMPARISON_OFF)
+        return KEYS_COMPARE;
+    if (workspace->inspector.drawing != INSPECTOR_NOTHING)
+        return KEYS_DRAWING;
+    if (workspace->inspector.view_mode.kind != SHOW_LIGHT)
+        return KEYS_VIEW;
+    if (workspace->camera->input.is_orbiting)
+        return KEYS_ORBIT;
+    if (control->is_halted)
+        return KEYS_PAUSED;
+    return control->is_live ? KEYS_LIVE : KEYS_NORMAL;
+}
+
 bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
 {
     struct screen *screen = &workspace->screen;
@@ -436,6 +457,8 @@ bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
     enum screen_result result;
 
     show_messages(workspace, now_ns);
+    keys_bar_draw(&workspace->keys_bar, workspace->control, screen,
+                  keys_state(workspace));
     if (shows_progress(workspace) &&
         now_ns >= progress_panel_next_ns(&workspace->progress_panel,
                                          workspace->control))

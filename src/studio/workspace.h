@@ -23,6 +23,7 @@
 #include "studio/comparison.h"
 #include "studio/editor_panel.h"
 #include "studio/inspector.h"
+#include "studio/keys_bar.h"
 #include "studio/progress_panel.h"
 #include "studio/render_control.h"
 
@@ -35,8 +36,9 @@ struct workspace {
     struct comparison comparison;
     struct editor_panel panel;
     struct progress_panel progress_panel; /* hidden while the help is open */
-    int help_number;    /* the page of the help that is shown, from 0 */
-    int help_left;      /* pages from that one on; 0: the help is closed */
+    int help_number; /* the page of the help that is shown, from 0 */
+    int help_left;   /* pages from that one on; 0: the help is closed */
+    struct keys_bar keys_bar;
     const char *prompt; /* a question in the last line; NULL: none */
 
     uint64_t lack_ns; /* when the terminal's answers count as lost, and a

@@ -35,7 +35,7 @@ void windows_free(void);
 
 /* Parts of the screen that show text. */
 enum window_part {
-    WINDOW_STATUS, /* the last row */
+    WINDOW_STATUS, /* the last row, which is row 0; row -1 is above it */
     WINDOW_PANEL,  /* at the right edge */
     WINDOW_OVER,   /* the window over the picture */
     WINDOW_PARTS

@@ -14,7 +14,7 @@ two_walls()
 }
 has_colors() # true if the screen has as many different ones
 {
-    [ "$(screen_colors | sed '$d' | grep -o '48;2;[0-9;]*m' | sort -u | wc -l)" = "$1" ]
+    [ "$(screen_colors | head -n -2 | grep -o '48;2;[0-9;]*m' | sort -u | wc -l)" = "$1" ]
 }
 colors_are() # as many different ones, and these
 {
