@@ -81,7 +81,7 @@ FEATURES_shiny := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_SKY_IMAGE | \
 	FEATURE_GUIDE
 FEATURES_shiny_filter := $(FEATURES_shiny) | FEATURE_FILTER
 FEATURES_light := FEATURES_ALL & ~(FEATURE_AOV | FEATURE_TEXTURE_OPTIONS | \
-	FEATURE_INSTANCES)
+	FEATURE_INSTANCES | FEATURE_VERTEX_ALPHAS | FEATURE_TANGENTS)
 PATHS := $(patsubst %,$(B)/paths_%.o,$(ISAS) \
 	$(foreach isa,plain $(ISAS),$(SETS:%=$(isa)_%)))
 # src/filter/filter_loops.c is built for each instruction set.

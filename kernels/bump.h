@@ -2,7 +2,8 @@
 /*
  * bump.h - shading normals from bump and normal maps
  *
- * The tangents are the directions in which u and v grow. A bent shading normal
+ * The tangents are those of the vertices, or the directions in which u and v
+ * grow. A bent shading normal
  * may reflect the eye's direction to below the face, where surfaces are black.
  * Such normals are turned back until the reflection is just above the face (the
  * problem: Estevez, Lecocq and Stein 2019, "A microfacet-based shadowing
@@ -67,6 +68,51 @@ static inline bool uv_tangents(const struct world *w,
     return true;
 }
 
+/* Unit tangents at a hit from those of the vertices. n is the shading normal,
+ * on any side. Returns false if the triangle has none. */
+static inline bool vertex_tangents(const struct world *w, struct tri t,
+                                   uint32_t instance, struct hit h,
+                                   struct vec3 n, struct vec3 *along_u,
+                                   struct vec3 *along_v)
+{
+    const float b[3] = {h.b0, h.b1, h.b2};
+    struct vec3 up = v3(0.0f, 0.0f, 0.0f), u = up, v;
+    float sign = 0.0f, length_u, length_v;
+
+    if (t.vn[0] == NO_INDEX)
+        return false;
+    for (uint32_t i = 0; i < 3u; i++) {
+        struct tangent at = tangent_at(w, t.vn[i], instance);
+
+        up = v3_add(up, v3_scale(normal_at(w, t.vn[i], instance), b[i]));
+        u = v3_add(u, v3_scale(at.d, b[i]));
+        sign = at.sign;
+    }
+    v = v3_cross(n, u);
+    length_u = v3_length(u);
+    length_v = v3_length(v);
+    if (!(length_u > 1e-6f && length_v > 1e-6f * length_u))
+        return false;
+    /* n may be turned to the eye, and the vertices' normals are not */
+    sign *= minus_if(v3_dot(n, up) < 0.0f);
+    *along_u = v3_scale(u, 1.0f / length_u);
+    *along_v = v3_scale(v, sign / length_v);
+    return true;
+}
+
+/* Unit tangents at a hit with shading normal n: of the vertices, else of the
+ * face by these texture coordinates. Returns false if there are none. */
+static inline bool tangents_at(const struct world *w,
+                               GLOBAL const struct vec2 *uvs, struct tri t,
+                               uint32_t instance, struct hit h, struct vec3 n,
+                               struct vec3 *along_u, struct vec3 *along_v)
+{
+    if (HAS(FEATURE_TANGENTS) && w->settings.tangent_count > 0u &&
+        vertex_tangents(w, t, instance, h, n, along_u, along_v))
+        return true;
+    return uv_tangents(w, uvs, t, instance, along_u, along_v);
+}
+
 /* Slopes of the height map along u and v: central differences over one texel.
  */
 static inline struct vec2
@@ -104,9 +150,9 @@ static inline struct vec3 bent_normal(struct vec3 n, struct vec3 ng,
  * tangents are of the coordinates of the map of normals. */
 static inline struct vec3 bumped_normal(const struct world *w,
                                         const struct material *m, struct tri t,
-                                        uint32_t instance, struct uv_pair uv,
-                                        struct vec3 n, struct vec3 ng,
-                                        struct vec3 wo)
+                                        uint32_t instance, struct hit h,
+                                        struct uv_pair uv, struct vec3 n,
+                                        struct vec3 ng, struct vec3 wo)
 {
     bool is_second =
         has_second_uvs(w) &&
@@ -116,8 +162,8 @@ static inline struct vec3 bumped_normal(const struct world *w,
     struct vec3 slope = v3(0.0f, 0.0f, 1.0f); /* the normal in tangent space */
     float length;
 
-    if (!uv_tangents(w, is_second ? w->uvs2 : w->uvs, t, instance, &along_u,
-                     &along_v))
+    if (!tangents_at(w, is_second ? w->uvs2 : w->uvs, t, instance, h, n,
+                     &along_u, &along_v))
         return n;
     if (m->normal_texture != NO_INDEX) {
         struct vec3 c =

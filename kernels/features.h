@@ -35,10 +35,12 @@ enum feature {
     FEATURE_THIN_FILM = 4194304,    /* iridescence: thin_film.h */
     FEATURE_INSTANCES = 8388608,    /* instance.h */
     /* texture_flag beyond TEXTURE_CLAMP, channels, maps of rare parameters */
-    FEATURE_TEXTURE_OPTIONS = 16777216
+    FEATURE_TEXTURE_OPTIONS = 16777216,
+    FEATURE_VERTEX_ALPHAS = 33554432,
+    FEATURE_TANGENTS = 67108864 /* tangents of vertices */
 };
 
-#define FEATURES_ALL 33554431u
+#define FEATURES_ALL 134217727u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

@@ -177,6 +177,22 @@ static inline struct vec3 normal_at(const struct world *w, uint32_t index,
                : n;
 }
 
+/* The tangent beside normal `index` where the instance shows it. */
+static inline struct tangent tangent_at(const struct world *w, uint32_t index,
+                                        uint32_t instance)
+{
+    struct tangent t = w->tangents[index];
+
+    if (HAS(FEATURE_INSTANCES) && instance != NO_INDEX) {
+        struct instance at = w->instances[instance];
+
+        t.d = v3(v3_dot(at.rows[0], t.d), v3_dot(at.rows[1], t.d),
+                 v3_dot(at.rows[2], t.d));
+        t.sign = at.is_mirror != 0 ? -t.sign : t.sign;
+    }
+    return t;
+}
+
 /* A triangle with its corners, for those who do not render. */
 struct placed_tri {
     struct tri t;

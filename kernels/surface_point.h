@@ -52,13 +52,14 @@ static inline struct vec3 shading_normal(const struct world *w, struct tri t,
 /* Turns the frame of a surface with a grain: t along the grain, or along the
  * horizontal where there are no texture coordinates. */
 static inline void surface_turn_frame(const struct world *w, struct vec2 grain,
-                                      struct tri t, struct surface_point *v)
+                                      struct tri t, struct hit h,
+                                      struct surface_point *v)
 {
     struct vec3 along_u, along_v, d;
     float length;
 
     if (!v->has_uv ||
-        !uv_tangents(w, w->uvs, t, v->instance, &along_u, &along_v)) {
+        !tangents_at(w, w->uvs, t, v->instance, h, v->n, &along_u, &along_v)) {
         along_u = v3(v->n.z, 0.0f, -v->n.x);
         along_v = v3_cross(v->n, along_u);
     }
@@ -123,10 +124,10 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     if (has_vertex_colors(w))
         v->color = vertex_color(w, t, h);
     if (HAS(FEATURE_BUMPS) && v->has_uv && has_bumps(m))
-        v->n = bumped_normal(w, m, t, instance, v->uv, v->n, v->ng, wo);
+        v->n = bumped_normal(w, m, t, instance, h, v->uv, v->n, v->ng, wo);
     frame_around(v->n, &v->t, &v->b);
     if (HAS(FEATURE_ANISOTROPY) && m->anisotropy > 0.0f)
-        surface_turn_frame(w, m->grain, t, v);
+        surface_turn_frame(w, m->grain, t, h, v);
     return true;
 }
 

@@ -241,6 +241,14 @@ static inline float opacity_at(const struct world *w, struct material m,
     return m.opacity;
 }
 
+/* The alpha of the vertices at a hit. */
+static inline float vertex_alpha(const struct world *w, struct tri t,
+                                 struct hit h)
+{
+    return w->alphas[t.v[0]] * h.b0 + w->alphas[t.v[1]] * h.b1 +
+           w->alphas[t.v[2]] * h.b2;
+}
+
 /* The probability with which a hit stops a ray. */
 static inline float coverage_at(const struct world *w, struct hit h)
 {
@@ -248,6 +256,8 @@ static inline float coverage_at(const struct world *w, struct hit h)
     struct material m = w->materials[t.material];
     float opacity = opacity_at(w, m, t, h);
 
+    if (HAS(FEATURE_VERTEX_ALPHAS) && w->settings.alpha_count > 0u)
+        opacity *= vertex_alpha(w, t, h);
     if (m.cutoff > 0.0f)
         return opacity < m.cutoff ? 0.0f : 1.0f;
     return opacity;

@@ -24,6 +24,14 @@ struct vec3 {
     float x, y, z;
 };
 
+/* The tangent of a vertex, beside its normal: a unit vector along u, or 0 if
+ * there is none. Times `sign`, 1 or -1, the product normal x tangent points
+ * along v. */
+struct tangent {
+    struct vec3 d;
+    float sign;
+};
+
 /* Indices into positions, normals and uvs. vn and vt are NO_INDEX, all three
  * of them, where the file has no normals or no texture coordinates. */
 struct tri {
@@ -379,6 +387,8 @@ struct settings {
     uint32_t uv_count;
     uint32_t uv2_count;   /* uv_count, or 0 */
     uint32_t color_count; /* of vertices */
+    uint32_t alpha_count;
+    uint32_t tangent_count; /* normal_count, or 0 */
     uint32_t material_count;
     uint32_t texture_count;
     uint32_t texel_count;
@@ -404,6 +414,8 @@ struct world {
     GLOBAL const struct vec2 *uvs;
     GLOBAL const struct vec2 *uvs2;          /* second uvs; NULL: none */
     GLOBAL const struct vec3 *colors;        /* of vertices; NULL: none */
+    GLOBAL const float *alphas;              /* of vertices; NULL: all are 1 */
+    GLOBAL const struct tangent *tangents;   /* by normals; NULL: none */
     GLOBAL const struct tri *tris;           /* those of meshes are the last */
     GLOBAL const struct instance *instances; /* by first_tri */
     GLOBAL const struct material *materials;

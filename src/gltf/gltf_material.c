@@ -454,6 +454,19 @@ static bool read_material(struct gltf_textures *t, size_t i, size_t *capacity,
            fail(err, "%s: out of memory for the materials", t->document->path);
 }
 
+bool gltf_material_has_alpha(const struct gltf_document *document,
+                             uint32_t material, bool *does, struct error *err)
+{
+    const char *mode = "OPAQUE";
+    struct gltf_value v;
+
+    if (!gltf_entry(document, "materials", material, &v, err) ||
+        !gltf_string(&v, "alphaMode", &mode, err))
+        return false;
+    *does = strcmp(mode, "MASK") == 0 || strcmp(mode, "BLEND") == 0;
+    return true;
+}
+
 bool gltf_materials_read(const struct gltf_document *document,
                          struct scene *scene, struct warnings *report,
                          struct error *err)

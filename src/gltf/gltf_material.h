@@ -19,4 +19,9 @@ bool gltf_materials_read(const struct gltf_document *document,
                          struct scene *scene, struct warnings *report,
                          struct error *err);
 
+/* Sets *does if the alpha of the document's material counts: its alphaMode is
+ * MASK or BLEND. */
+bool gltf_material_has_alpha(const struct gltf_document *document,
+                             uint32_t material, bool *does, struct error *err);
+
 #endif

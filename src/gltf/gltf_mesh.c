@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/name_table.h"
 #include "gltf/gltf_instancing.h"
+#include "gltf/gltf_material.h"
 #include "gltf/gltf_primitive.h"
 #include "gltf/gltf_skin.h"
 #include "kernels/vec.h"
@@ -30,6 +31,7 @@ struct builder {
     struct made *made; /* for each mesh of the document */
     struct name_table objects;
     size_t position_capacity, normal_capacity, color_capacity;
+    size_t alpha_capacity, tangent_capacity;
     size_t uv_capacity, uv2_capacity;
     size_t tri_capacity, face_capacity, object_capacity;
     uint64_t memory_bytes; /* limit of the arrays */
@@ -52,6 +54,58 @@ static bool begin_colors(struct builder *b)
     for (uint32_t i = 0; s->colors != NULL && i < s->position_count; i++)
         s->colors[i] = v3(1, 1, 1);
     return s->colors != NULL;
+}
+
+/* Gives the vertices so far the alpha 1. */
+static bool begin_alphas(struct builder *b)
+{
+    struct scene *s = b->scene;
+
+    s->alphas = alloc_array(s->position_count, sizeof *s->alphas);
+    b->alpha_capacity = s->position_count;
+    for (uint32_t i = 0; s->alphas != NULL && i < s->position_count; i++)
+        s->alphas[i] = 1;
+    return s->alphas != NULL;
+}
+
+/* Gives the normals so far no tangents. */
+static bool begin_tangents(struct builder *b)
+{
+    struct scene *s = b->scene;
+
+    s->tangents = alloc_array(s->normal_count, sizeof *s->tangents);
+    b->tangent_capacity = s->normal_count;
+    return s->tangents != NULL;
+}
+
+/* Makes room for the arrays that few files have. Each begins with the first
+ * primitive that needs it. */
+static bool grow_rare(struct builder *b, const struct gltf_primitive *p,
+                      size_t positions, size_t normals)
+{
+    struct scene *s = b->scene;
+    void *array;
+
+    if ((p->has_colors && s->colors == NULL && !begin_colors(b)) ||
+        (p->has_alphas && s->alphas == NULL && !begin_alphas(b)) ||
+        (p->has_tangents && s->tangents == NULL && !begin_tangents(b)))
+        return false;
+    array = s->colors;
+    if (s->colors != NULL &&
+        !grow_array(&array, &b->color_capacity, positions, sizeof *s->colors))
+        return false;
+    s->colors = array;
+    array = s->alphas;
+    if (s->alphas != NULL &&
+        !grow_array(&array, &b->alpha_capacity, positions, sizeof *s->alphas))
+        return false;
+    s->alphas = array;
+    array = s->tangents;
+    if (s->tangents != NULL &&
+        !grow_array(&array, &b->tangent_capacity, normals, sizeof *s->tangents))
+        return false;
+    s->tangents = array;
+    return true;
 }
 
 /* Makes room for texture coordinates. The second set begins with the first
@@ -84,8 +138,6 @@ static bool grow_vertices(struct builder *b, const struct gltf_primitive *p)
     size_t normals = s->normal_count + (p->has_normals ? p->vertex_count : 0);
     void *array;
 
-    if (p->has_colors && s->colors == NULL && !begin_colors(b))
-        return false;
     array = s->file_positions;
     if (!grow_array(&array, &b->position_capacity, n,
                     3 * sizeof *s->file_positions))
@@ -95,14 +147,7 @@ static bool grow_vertices(struct builder *b, const struct gltf_primitive *p)
     if (!grow_array(&array, &b->normal_capacity, normals, sizeof *s->normals))
         return false;
     s->normals = array;
-    if (!grow_uvs(b, p))
-        return false;
-    array = s->colors;
-    if (s->colors != NULL &&
-        !grow_array(&array, &b->color_capacity, n, sizeof *s->colors))
-        return false;
-    s->colors = array;
-    return true;
+    return grow_uvs(b, p) && grow_rare(b, p, n, normals);
 }
 
 static bool grow_tris(struct builder *b, const struct gltf_primitive *p)
@@ -145,11 +190,51 @@ static bool reserve(struct builder *b, const struct gltf_primitive *p)
 
 /* ---- meshes ---- */
 
+/* Vertices whose colours are read at once. */
+#define CHUNK 128u
+
+static bool has_low_alpha(const struct gltf_accessor *colors)
+{
+    struct gltf_accessor a = *colors;
+    float numbers[4 * CHUNK];
+
+    a.is_normalized = true;
+    for (uint32_t first = 0; first < a.count; first += CHUNK) {
+        uint32_t n = a.count - first < CHUNK ? a.count - first : CHUNK;
+
+        gltf_accessor_floats(&a, first, n, numbers);
+        for (uint32_t i = 0; i < n; i++)
+            if (numbers[4 * i + 3] < 1)
+                return true;
+    }
+    return false;
+}
+
+/* Leaves out what the material of the primitive does not use: the alpha of
+ * opaque surfaces, and tangents of those without a map of normals or a
+ * grain. */
+static bool leave_out(const struct builder *b, struct gltf_primitive *p)
+{
+    const struct material *m = &b->scene->materials[p->material];
+
+    p->has_tangents =
+        p->has_tangents && (m->normal_texture != NO_INDEX || m->anisotropy > 0);
+    if (!p->has_alphas || !has_low_alpha(&p->colors)) {
+        p->has_alphas = false;
+        return true;
+    }
+    p->has_alphas = false;
+    return p->material == 0 ||
+           gltf_material_has_alpha(b->document, p->material - 1, &p->has_alphas,
+                                   b->err);
+}
+
 static bool add_primitive(struct builder *b, const struct gltf_value *value,
                           const struct gltf_shape *shape)
 {
     struct gltf_primitive p = {.mode = 0};
-    bool ok = gltf_primitive_open(value, shape, &p, b->report, b->err);
+    bool ok = gltf_primitive_open(value, shape, &p, b->report, b->err) &&
+              leave_out(b, &p);
 
     if (ok && p.tri_count > 0) {
         ok = reserve(b, &p) && scene_begin_mesh(b->scene, b->err) &&

@@ -105,7 +105,9 @@ static bool open_targets(const struct gltf_value *value,
             !open_optional(&v, "POSITION", 3, 3, p->vertex_count, &t->positions,
                            &t->has_positions, err) ||
             !open_optional(&v, "NORMAL", 3, 3, p->vertex_count, &t->normals,
-                           &t->has_normals, err))
+                           &t->has_normals, err) ||
+            !open_optional(&v, "TANGENT", 3, 3, p->vertex_count, &t->tangents,
+                           &t->has_tangents, err))
             return false;
         p->target_count++;
     }
@@ -189,6 +191,8 @@ static bool open_attributes(const struct gltf_value *v,
     return check_attribute(v, "POSITION", &p->positions, 3, 3, n, err) &&
            open_optional(v, "NORMAL", 3, 3, n, &p->normals, &p->has_normals,
                          err) &&
+           open_optional(v, "TANGENT", 4, 4, n, &p->tangents, &p->has_tangents,
+                         err) &&
            open_optional(v, "TEXCOORD_0", 2, 2, n, &p->uvs[0],
                          &p->has_uv_set[0], err) &&
            open_optional(v, "TEXCOORD_1", 2, 2, n, &p->uvs[1],
@@ -224,6 +228,8 @@ bool gltf_primitive_open(const struct gltf_value *value,
         !open_targets(value, shape, p, err))
         return false;
     p->has_uvs = p->has_uv_set[0] || p->has_uv_set[1];
+    p->has_tangents = p->has_tangents && p->has_normals;
+    p->has_alphas = p->has_colors && p->colors.component_count == 4;
     count = p->has_indices ? p->indices.count : p->vertex_count;
     if (p->mode == MODE_TRIANGLES && count % 3 != 0)
         warnings_add(report, "primitives with vertices left over",

@@ -18,8 +18,8 @@
 
 /* A morph target of a weight that is not 0. */
 struct gltf_target {
-    struct gltf_accessor positions, normals;
-    bool has_positions, has_normals;
+    struct gltf_accessor positions, normals, tangents;
+    bool has_positions, has_normals, has_tangents;
     double weight;
 };
 
@@ -27,9 +27,11 @@ struct gltf_primitive {
     uint32_t mode; /* 4 triangles, 5 strip, 6 fan; others draw no faces */
     uint32_t material;
     uint32_t vertex_count, tri_count;
-    struct gltf_accessor positions, normals, colors, indices;
+    struct gltf_accessor positions, normals, tangents, colors, indices;
     struct gltf_accessor uvs[2];
     bool has_normals, has_colors, has_indices;
+    bool has_tangents;  /* beside normals */
+    bool has_alphas;    /* the colours have a fourth number */
     bool has_uv_set[2]; /* each set */
     bool has_uvs;       /* one of them */
     struct gltf_accessor joints[GLTF_JOINT_SETS], weights[GLTF_JOINT_SETS];

@@ -21,10 +21,11 @@ struct job {
     atomic_bool has_failed;
 };
 
-/* Positions and normals of some vertices. */
+/* Positions, normals and tangents of some vertices. */
 struct chunk {
     uint32_t first, count;
-    double positions[3 * CHUNK], normals[3 * CHUNK];
+    double positions[3 * CHUNK], normals[3 * CHUNK], tangents[3 * CHUNK];
+    float signs[CHUNK]; /* of the tangents */
 };
 
 static void read_doubles(const struct gltf_accessor *a, const struct chunk *c,
@@ -35,6 +36,18 @@ static void read_doubles(const struct gltf_accessor *a, const struct chunk *c,
     gltf_accessor_floats(a, c->first, c->count, numbers);
     for (uint32_t i = 0; i < 3 * c->count; i++)
         to[i] += factor * (double)numbers[i];
+}
+
+static void read_tangents(const struct gltf_primitive *p, struct chunk *c)
+{
+    float numbers[4 * CHUNK];
+
+    gltf_accessor_floats(&p->tangents, c->first, c->count, numbers);
+    for (uint32_t i = 0; i < c->count; i++) {
+        for (uint32_t k = 0; k < 3; k++)
+            c->tangents[3 * i + k] = (double)numbers[4 * i + k];
+        c->signs[i] = numbers[4 * i + 3] < 0 ? -1 : 1;
+    }
 }
 
 /* ---- joints ---- */
@@ -65,28 +78,33 @@ static bool add_joints(const struct gltf_accessor *joints,
     return true;
 }
 
-/* Moves a vertex by the mean of its joints. Vertices without weights stay. */
-static bool bend_vertex(const struct job *j, uint32_t vertex,
-                        double position[3], double normal[3])
+/* Moves vertex i of a chunk by the mean of its joints. Vertices without weights
+ * stay. */
+static bool bend_vertex(const struct job *j, struct chunk *c, uint32_t i)
 {
     const struct gltf_primitive *p = j->primitive;
     struct affine sum = {{{0}}};
-    double rows[3][3], weight = 0;
-    double from[3] = {position[0], position[1], position[2]};
-    const double n[3] = {normal[0], normal[1], normal[2]};
+    double *position = c->positions + 3 * i, *normal = c->normals + 3 * i;
+    double *tangent = c->tangents + 3 * i;
+    double rows[3][3], weight = 0, from[3], n[3], t[3];
 
-    for (uint32_t i = 0; i < p->joint_set_count; i++)
-        if (!add_joints(&p->joints[i], &p->weights[i], j->shape, vertex, &sum,
-                        &weight))
+    memcpy(from, position, sizeof from);
+    memcpy(n, normal, sizeof n);
+    memcpy(t, tangent, sizeof t);
+    for (uint32_t k = 0; k < p->joint_set_count; k++)
+        if (!add_joints(&p->joints[k], &p->weights[k], j->shape, c->first + i,
+                        &sum, &weight))
             return false;
     if (!(weight > 0))
         return true;
-    for (int i = 0; i < 12; i++)
-        sum.m[i / 4][i % 4] /= weight;
+    for (int k = 0; k < 12; k++)
+        sum.m[k / 4][k % 4] /= weight;
     affine_point(&sum, from, position);
     affine_normals(&sum, rows);
-    for (int i = 0; i < 3; i++)
-        normal[i] = vec3d_dot(rows[i], n);
+    for (int k = 0; k < 3; k++) {
+        normal[k] = vec3d_dot(rows[k], n);
+        tangent[k] = vec3d_dot(sum.m[k], t);
+    }
     return true;
 }
 
@@ -100,6 +118,9 @@ static bool read_chunk(const struct job *j, struct chunk *c)
 
     memset(c->positions, 0, sizeof c->positions);
     memset(c->normals, 0, sizeof c->normals);
+    memset(c->tangents, 0, sizeof c->tangents);
+    if (p->has_tangents)
+        read_tangents(p, c);
     read_doubles(&p->positions, c, 1, c->positions);
     if (p->has_normals)
         read_doubles(&p->normals, c, 1, c->normals);
@@ -110,23 +131,36 @@ static bool read_chunk(const struct job *j, struct chunk *c)
             read_doubles(&t->positions, c, t->weight, c->positions);
         if (t->has_normals && p->has_normals)
             read_doubles(&t->normals, c, t->weight, c->normals);
+        if (t->has_tangents && p->has_tangents)
+            read_doubles(&t->tangents, c, t->weight, c->tangents);
     }
     for (uint32_t i = 0; j->shape->joint_count > 0 && i < c->count; i++)
-        ok = ok && bend_vertex(j, c->first + i, c->positions + 3 * i,
-                               c->normals + 3 * i);
+        ok = ok && bend_vertex(j, c, i);
     return ok;
+}
+
+static struct vec3 unit_vector(double v[3])
+{
+    return vec3d_normalize(v) ? v3((float)v[0], (float)v[1], (float)v[2])
+                              : v3(0, 0, 0);
 }
 
 static void put_normals(const struct job *j, struct chunk *c)
 {
     struct vec3 *to = j->scene->normals + j->first_normal + c->first;
 
-    for (uint32_t i = 0; i < c->count; i++) {
-        double *n = c->normals + 3 * i;
+    for (uint32_t i = 0; i < c->count; i++)
+        to[i] = unit_vector(c->normals + 3 * i);
+}
 
-        to[i] = vec3d_normalize(n) ? v3((float)n[0], (float)n[1], (float)n[2])
-                                   : v3(0, 0, 0);
-    }
+/* Puts tangents, 0 without them. */
+static void put_tangents(const struct job *j, struct chunk *c)
+{
+    struct tangent *to = j->scene->tangents + j->first_normal + c->first;
+
+    for (uint32_t i = 0; i < c->count; i++)
+        to[i] = (struct tangent){unit_vector(c->tangents + 3 * i),
+                                 j->primitive->has_tangents ? c->signs[i] : 1};
 }
 
 /* Puts a set of texture coordinates, 0 without one. glTF counts v from the
@@ -153,7 +187,8 @@ static float color_of(float x)
 /* Colours of integers are normalised, also where the file does not say it. */
 static void put_colors(const struct job *j, const struct chunk *c)
 {
-    struct vec3 *to = j->scene->colors + j->first_position + c->first;
+    size_t first = (size_t)j->first_position + c->first;
+    struct vec3 *to = j->scene->colors + first;
     struct gltf_accessor a = j->primitive->colors;
     float numbers[COMPONENTS_MAX * CHUNK];
 
@@ -163,6 +198,8 @@ static void put_colors(const struct job *j, const struct chunk *c)
         const float *rgb = numbers + (size_t)a.component_count * i;
 
         to[i] = v3(color_of(rgb[0]), color_of(rgb[1]), color_of(rgb[2]));
+        if (j->primitive->has_alphas)
+            j->scene->alphas[first + i] = color_of(rgb[3]);
     }
 }
 
@@ -175,6 +212,8 @@ static void put_chunk(const struct job *j, struct chunk *c)
            c->positions, 3 * c->count * sizeof *c->positions);
     if (p->has_normals)
         put_normals(j, c);
+    if (p->has_normals && s->tangents != NULL)
+        put_tangents(j, c);
     if (p->has_uvs)
         put_uvs(j, 0, c, s->uvs);
     if (p->has_uvs && s->uvs2 != NULL)
@@ -184,6 +223,9 @@ static void put_chunk(const struct job *j, struct chunk *c)
     for (uint32_t i = 0; s->colors != NULL && !p->has_colors && i < c->count;
          i++)
         s->colors[j->first_position + c->first + i] = v3(1, 1, 1);
+    for (uint32_t i = 0; s->alphas != NULL && !p->has_alphas && i < c->count;
+         i++)
+        s->alphas[j->first_position + c->first + i] = 1;
 }
 
 static void read_block(void *context, uint32_t block, int worker)

@@ -48,6 +48,14 @@ static void turn_vector(double v[3])
     v[2] = -y;
 }
 
+static void turn_float(struct vec3 *v)
+{
+    float y = v->y;
+
+    v->y = v->z;
+    v->z = -y;
+}
+
 static void turn_lamp(struct lamp *lamp)
 {
     double d[3];
@@ -72,13 +80,10 @@ static void turn_z_up(struct scene *scene)
     }
     for (uint32_t i = 0; i < scene->lamps.count; i++)
         turn_lamp(&scene->lamps.items[i]);
-    for (size_t i = 0; i < scene->normal_count; i++) {
-        struct vec3 *n = &scene->normals[i];
-        float y = n->y;
-
-        n->y = n->z;
-        n->z = -y;
-    }
+    for (size_t i = 0; i < scene->normal_count; i++)
+        turn_float(&scene->normals[i]);
+    for (size_t i = 0; scene->tangents != NULL && i < scene->normal_count; i++)
+        turn_float(&scene->tangents[i].d);
     for (uint32_t i = 0; i < scene->instances.count; i++)
         turn_matrix(&scene->instances.items[i].matrix);
 }

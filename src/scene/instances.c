@@ -111,6 +111,12 @@ static void copy_vertices(struct flattening *f, const struct scene_mesh *mesh)
     if (s->color_count > 0)
         memcpy(s->colors + f->position_count, s->colors + mesh->first_position,
                mesh->position_count * sizeof *s->colors);
+    if (s->alphas != NULL)
+        memcpy(s->alphas + f->position_count, s->alphas + mesh->first_position,
+               mesh->position_count * sizeof *s->alphas);
+    if (s->tangents != NULL)
+        memcpy(s->tangents + f->normal_count, s->tangents + mesh->first_normal,
+               mesh->normal_count * sizeof *s->tangents);
     if (mesh->normal_count > 0)
         memcpy(s->normals + f->normal_count, s->normals + mesh->first_normal,
                mesh->normal_count * sizeof *s->normals);
@@ -333,16 +339,22 @@ static bool grow_all(struct flattening *f, const struct totals *all)
 {
     struct scene *s = f->scene;
     void *positions = s->file_positions, *normals = s->normals;
-    void *colors = s->colors;
+    void *colors = s->colors, *alphas = s->alphas, *tangents = s->tangents;
     bool ok =
         grow_to(&positions, all->positions, 3 * sizeof *s->file_positions) &&
         (s->color_count == 0 ||
          grow_to(&colors, all->positions, sizeof *s->colors)) &&
+        (s->alphas == NULL ||
+         grow_to(&alphas, all->positions, sizeof *s->alphas)) &&
+        (s->tangents == NULL ||
+         grow_to(&tangents, all->normals, sizeof *s->tangents)) &&
         grow_to(&normals, all->normals, sizeof *s->normals);
 
     s->file_positions = positions;
     s->normals = normals;
     s->colors = colors;
+    s->alphas = alphas;
+    s->tangents = tangents;
     if (!ok || all->tris >= NO_INDEX)
         return false;
     f->tris = alloc_array((size_t)all->tris, sizeof *f->tris);

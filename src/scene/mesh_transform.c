@@ -9,6 +9,8 @@ struct job {
     double rows[3][3]; /* of the matrix for normals */
     double *positions;
     struct vec3 *normals;
+    struct tangent *tangents; /* NULL: none */
+    bool is_mirror;
     uint32_t position_count, normal_count;
 };
 
@@ -22,6 +24,20 @@ static struct vec3 moved_normal(const double rows[3][3], struct vec3 n)
     if (!vec3d_normalize(to))
         return (struct vec3){0, 0, 0};
     return (struct vec3){(float)to[0], (float)to[1], (float)to[2]};
+}
+
+/* Vectors along a surface move with it. */
+static void move_tangent(const struct job *j, struct tangent *t)
+{
+    const double from[3] = {(double)t->d.x, (double)t->d.y, (double)t->d.z};
+    double to[3];
+
+    for (int i = 0; i < 3; i++)
+        to[i] = vec3d_dot(j->matrix->m[i], from);
+    t->d = vec3d_normalize(to)
+               ? (struct vec3){(float)to[0], (float)to[1], (float)to[2]}
+               : (struct vec3){0, 0, 0};
+    t->sign = j->is_mirror ? -t->sign : t->sign;
 }
 
 static uint32_t least(uint32_t a, uint32_t b)
@@ -45,6 +61,10 @@ static void move_block(void *context, uint32_t block, int worker)
     for (size_t i = begin; i < least(begin + BLOCK_VERTICES, j->normal_count);
          i++)
         j->normals[i] = moved_normal(j->rows, j->normals[i]);
+    for (size_t i = begin; j->tangents != NULL &&
+                           i < least(begin + BLOCK_VERTICES, j->normal_count);
+         i++)
+        move_tangent(j, &j->tangents[i]);
 }
 
 bool mesh_transform(struct scene *scene, const struct affine *matrix,
@@ -57,15 +77,17 @@ bool mesh_transform(struct scene *scene, const struct affine *matrix,
     uint32_t most = mesh->position_count > mesh->normal_count
                         ? mesh->position_count
                         : mesh->normal_count;
-    bool is_mirror = affine_normals(matrix, job.rows);
 
+    job.is_mirror = affine_normals(matrix, job.rows);
     if (mesh->position_count > 0)
         job.positions = scene->file_positions + 3 * (size_t)first_position;
     if (mesh->normal_count > 0)
         job.normals = scene->normals + first_normal;
+    if (mesh->normal_count > 0 && scene->tangents != NULL)
+        job.tangents = scene->tangents + first_normal;
     pool_each(pool, most / BLOCK_VERTICES + (most % BLOCK_VERTICES > 0),
               move_block, &job);
-    return is_mirror;
+    return job.is_mirror;
 }
 
 void tri_turn_over(struct tri *t)

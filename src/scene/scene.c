@@ -414,6 +414,10 @@ uint64_t scene_geometry_bytes(const struct scene *s)
            s->uv_count * (uint64_t)sizeof *s->uvs +
            (s->uvs2 != NULL ? s->uv_count : 0) * (uint64_t)sizeof *s->uvs2 +
            s->color_count * (uint64_t)sizeof *s->colors +
+           (s->alphas != NULL ? s->position_count : 0) *
+               (uint64_t)sizeof *s->alphas +
+           (s->tangents != NULL ? s->normal_count : 0) *
+               (uint64_t)sizeof *s->tangents +
            s->tri_count * (uint64_t)(sizeof *s->tris + sizeof *s->tri_faces +
                                      sizeof *s->tri_objects);
 }
@@ -493,6 +497,8 @@ void scene_free(struct scene *scene)
     free(scene->images);
     free(scene->uvs2);
     free(scene->colors);
+    free(scene->alphas);
+    free(scene->tangents);
     free(scene->tris);
     free(scene->tri_faces);
     free(scene->tri_objects);

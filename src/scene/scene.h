@@ -81,6 +81,8 @@ struct scene {
     struct vec2 *uvs2;   /* second set, parallel to uvs; NULL: there is none */
     struct vec3 *colors; /* linear, of each vertex; NULL: the file has none */
     uint32_t color_count;
+    float *alphas; /* of each vertex, factors of opacity; NULL: all are 1 */
+    struct tangent *tangents; /* beside normals; NULL: the file has none */
 
     struct tri *tris;
     uint32_t *tri_faces;    /* number of the triangle's face, from 0 */

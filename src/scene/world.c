@@ -238,6 +238,8 @@ bool world_init(struct host_world *host, const struct scene *scene,
     for (int i = 0; i < 256; i++)
         host->linear_of_srgb[i] = (float)color_decoded(i / 255.0);
     host->has_vertex_colors = scene->color_count > 0;
+    host->has_vertex_alphas = scene->alphas != NULL;
+    host->has_tangents = scene->tangents != NULL;
     host->has_instances = scene->placed_count > 0;
     if (!find_used_materials(host, scene, err) ||
         !copy_materials(host, scene, err) ||
@@ -358,6 +360,8 @@ struct world world_arrays(const struct host_world *host,
         .uvs = scene->uvs,
         .uvs2 = scene->uvs2,
         .colors = scene->colors,
+        .alphas = scene->alphas,
+        .tangents = scene->tangents,
         .tris = world_tris(host, scene),
         .instances = world_instances(host, scene),
         .materials = host->materials,
@@ -377,6 +381,10 @@ struct world world_arrays(const struct host_world *host,
                 .uv_count = scene->uv_count,
                 .uv2_count = scene->uvs2 != NULL ? scene->uv_count : 0,
                 .color_count = scene->color_count,
+                .alpha_count =
+                    scene->alphas != NULL ? scene->position_count : 0,
+                .tangent_count =
+                    scene->tangents != NULL ? scene->normal_count : 0,
                 .material_count = host->material_count,
                 .texture_count = scene->texture_count,
                 .texel_count = (uint32_t)host->texel_count,
@@ -401,11 +409,16 @@ uint32_t world_features(const struct host_world *host)
         features |= FEATURE_DIRECTIONAL_LIGHTS;
     if (host->has_vertex_colors)
         features |= FEATURE_VERTEX_COLORS;
+    if (host->has_vertex_alphas)
+        features |= FEATURE_VERTEX_ALPHAS | FEATURE_COVERAGE;
     if (host->has_instances)
         features |= FEATURE_INSTANCES;
     for (uint32_t i = 0; i < host->material_count; i++)
         if (host->material_is_used[i])
             features |= material_features(&host->materials[i], host->textures);
+    if (host->has_tangents &&
+        (features & (FEATURE_BUMPS | FEATURE_ANISOTROPY)) != 0)
+        features |= FEATURE_TANGENTS;
     return features;
 }
 

@@ -63,7 +63,7 @@ struct host_world {
     struct material *materials;
     struct mtl_source *sources; /* statements of the materials */
     bool *material_is_used;     /* true if a triangle uses the material */
-    bool has_vertex_colors;
+    bool has_vertex_colors, has_vertex_alphas, has_tangents;
     bool has_instances;
     uint32_t material_count; /* materials of the scene and of edits */
 

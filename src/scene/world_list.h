@@ -22,6 +22,8 @@
     X(uvs, s->uv_count, WORLD_FIXED)                                    \
     X(uvs2, s->uv2_count, WORLD_FIXED)                                  \
     X(colors, s->color_count, WORLD_FIXED)                              \
+    X(alphas, s->alpha_count, WORLD_FIXED)                              \
+    X(tangents, s->tangent_count, WORLD_FIXED)                          \
     X(tris, s->tri_count, WORLD_TRIS)                                   \
     X(instances, s->instance_count, WORLD_TRIS)                         \
     X(materials, s->material_count, WORLD_MATERIALS)                    \

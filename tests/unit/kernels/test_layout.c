@@ -78,6 +78,7 @@
       M(guide_grid, width) M(guide_grid, height) M(guide_grid, depth)         \
       M(guide_grid, table_count)                                              \
     S(guide_cell) M(guide_cell, scatter) M(guide_cell, sky)                   \
+    S(tangent) M(tangent, d) M(tangent, sign)                                 \
     S(settings) M(settings, camera) M(settings, sky)                          \
       M(settings, max_vertices) M(settings, seed) M(settings, features)       \
       M(settings, direct) M(settings, order) M(settings, sample)              \
@@ -89,6 +90,7 @@
       M(settings, position_count)                                             \
       M(settings, normal_count) M(settings, uv_count)                         \
       M(settings, uv2_count) M(settings, color_count)                         \
+      M(settings, alpha_count) M(settings, tangent_count)                     \
       M(settings, material_count) M(settings, texture_count)                  \
       M(settings, texel_count) M(settings, light_count)                       \
       M(settings, light_node_count) M(settings, sky_cdf_count)                \

@@ -509,7 +509,7 @@ static struct vec3 bumped(const struct loaded *l, float u, float v,
     struct uv_pair uv = {{u, v}, {u, v}};
 
     return bumped_normal(&l->world, &l->material, l->scene.tris[0], NO_INDEX,
-                         uv, up, up, wo);
+                         (struct hit){.b0 = 1}, uv, up, up, wo);
 }
 
 static void check_direction(struct vec3 n, double x, double y, double z)
@@ -541,6 +541,39 @@ static void normal_maps_turn_the_normal(void **state)
     l.scene.uvs[1].x = -1;
     check_direction(bumped(&l, 0.5f, 0.5f, up), -85. / 255, -51. / 255,
                     187. / 255);
+    unload(&l);
+}
+
+/* With tangents of vertices, x of the map is along them, and y along the normal
+ * times the tangent, times its sign. From behind only z is reversed. */
+static void normal_maps_use_tangents(void **state)
+{
+    static const struct vec3 normals[3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+    static const struct tangent tangents[3] = {{{0, 1, 0}, -1},
+                                               {{0, 1, 0}, -1},
+                                               {{0, 1, 0}, -1}};
+    static const struct vec3 down = {0, 0, -1};
+    const uint8_t tilted[3] = {170, 102, 221};
+    struct uv_pair uv = {{0.5f, 0.5f}, {0.5f, 0.5f}};
+    struct hit h = {.b0 = 1};
+    struct loaded l;
+    struct tri t;
+
+    (void)state;
+    write_image("two.tga", 1, 1, 3, tilted);
+    load(&l, "Kd 1\nnorm two.tga");
+    l.world.normals = normals;
+    l.world.tangents = tangents;
+    l.world.settings.tangent_count = 3;
+    t = l.scene.tris[0];
+    for (uint32_t k = 0; k < 3; k++)
+        t.vn[k] = k;
+    check_direction(bumped_normal(&l.world, &l.material, t, NO_INDEX, h, uv, up,
+                                  up, up),
+                    -51. / 255, 85. / 255, 187. / 255);
+    check_direction(bumped_normal(&l.world, &l.material, t, NO_INDEX, h, uv,
+                                  down, down, down),
+                    -51. / 255, 85. / 255, -187. / 255);
     unload(&l);
 }
 
@@ -653,6 +686,7 @@ int main(void)
         cmocka_unit_test(layers_are_weighed_by_their_maps),
         cmocka_unit_test(maps_are_the_share_of_stopped_rays),
         cmocka_unit_test(normal_maps_turn_the_normal),
+        cmocka_unit_test(normal_maps_use_tangents),
         cmocka_unit_test(bump_maps_tilt_by_their_slope),
         cmocka_unit_test(bent_normals_reflect_upwards),
         cmocka_unit_test(vertices_have_colors),
