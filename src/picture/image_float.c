@@ -8,6 +8,7 @@
 
 #include "base/decimal.h"
 #include "base/memory.h"
+#include "picture/image_exr_read.h"
 #include "picture/image_header.h"
 
 static size_t pixels_of(const struct image_file *f)
@@ -260,6 +261,8 @@ static float *hdr_pixels(const struct image_file *f, struct error *err)
 
 enum image_kind image_float_kind(const struct image_file *file)
 {
+    if (image_exr_is(file))
+        return IMAGE_EXR;
     if (is_pfm(file))
         return IMAGE_PFM;
     return is_hdr(file) ? IMAGE_HDR : IMAGE_UNKNOWN;
@@ -267,12 +270,16 @@ enum image_kind image_float_kind(const struct image_file *file)
 
 bool image_float_header(struct image_file *file, struct error *err)
 {
+    if (file->kind == IMAGE_EXR)
+        return image_exr_header(file, err);
     return file->kind == IMAGE_PFM ? pfm_header(file, err)
                                    : hdr_header(file, err);
 }
 
 float *image_float_decode(const struct image_file *file, struct error *err)
 {
+    if (file->kind == IMAGE_EXR)
+        return image_exr_decode(file, err);
     return file->kind == IMAGE_PFM ? pfm_pixels(file, err)
                                    : hdr_pixels(file, err);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * image_float.h - Radiance HDR and PFM files
+ * image_float.h - Radiance HDR, PFM and OpenEXR files
  *
  * Units:     pixels, row 0 at the top; linear floats
  * Ownership: image_float_decode() returns memory for free()
@@ -14,7 +14,7 @@
 
 #include "picture/image_read.h"
 
-/* Returns IMAGE_HDR, IMAGE_PFM or IMAGE_UNKNOWN by the file's first bytes. */
+/* Returns the kind by the file's first bytes, or IMAGE_UNKNOWN. */
 enum image_kind image_float_kind(const struct image_file *file);
 
 /* Finds the sides and the offset of the pixels in a file of these kinds. */

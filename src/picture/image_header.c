@@ -304,6 +304,6 @@ bool image_header(struct image_file *f, struct error *err)
     }
     return fail(err,
                 "%s: found no image that can be read, expected PNG, JPEG, BMP, "
-                "TGA, PNM, GIF, PSD, Radiance HDR or PFM",
+                "TGA, PNM, GIF, PSD, Radiance HDR, PFM or OpenEXR",
                 f->path);
 }

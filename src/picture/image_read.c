@@ -35,7 +35,7 @@ static size_t pixels_of(const struct image_file *f)
 
 static bool is_float(const struct image_file *f)
 {
-    return f->kind == IMAGE_HDR || f->kind == IMAGE_PFM;
+    return f->kind == IMAGE_HDR || f->kind == IMAGE_PFM || f->kind == IMAGE_EXR;
 }
 
 /* True for the kinds of 8 bits a channel that stb_image does not decode. */

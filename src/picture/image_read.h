@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
  * image_read.h - reads image files: PNG, JPEG, BMP and TGA through stb_image,
- * WebP through libwebp, PNM, GIF, PSD, PFM and Radiance HDR by our own code
+ * WebP through libwebp, PNM, GIF, PSD, PFM, OpenEXR and Radiance HDR by our
+ * own code
  *
  * image_open() reads the header and finds the number of pixels and the memory
  * that they take. It fails if the file is too short for them or if there is not
@@ -39,6 +40,7 @@ enum image_kind {
     IMAGE_WEBP,
     IMAGE_HDR,
     IMAGE_PFM,
+    IMAGE_EXR,
 };
 
 enum image_form {

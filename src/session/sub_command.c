@@ -10,7 +10,8 @@ static const struct sub_command_rule rules[] = {
     [COMMAND_RENDER] = {"", "", NULL},
     [COMMAND_COMPARE] =
         {" compare", "[options] picture.pfm reference.pfm",
-         "compare two .pfm, .hdr or .png pictures of one size: errors, and the "
+         "compare two .pfm, .exr, .hdr or .png pictures of one size: errors, "
+         "and the "
          "tiles that differ by more than noise; -o writes a picture of the "
          "differences"},
     [COMMAND_CURVE] =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_image_exr.c - OpenEXR files, read again by OpenEXR's own library
+ * test_image_exr.c - OpenEXR files that OpenEXR's own library reads, and
+ * reading those that it writes
  */
 #include <math.h>
 #include <stdlib.h>
@@ -11,6 +12,7 @@
 #include "picture/image_exr.h"
 #include "tests/unit/files.h"
 #include "tests/unit/picture/written_films.h"
+#include "tests/unit/whole_image.h"
 
 static void succeeds(exr_result_t result)
 {
@@ -173,6 +175,176 @@ static void pictures_are_the_linear_film_with_its_texts(void **state)
     film_free(&film);
 }
 
+static float *read_rgb(const char *path, int width, int height)
+{
+    struct image image;
+    uint64_t clamped_count;
+    struct error err;
+
+    check_or_say(image_read_linear(&image, path, &clamped_count, &err),
+                 err.text);
+    assert_int_equal(image.width, width);
+    assert_int_equal(image.height, height);
+    return image.rgb;
+}
+
+static void pictures_are_read_again(void **state)
+{
+    float *values = pixels(37, 35, 0), *found;
+    const struct exr_layer layers[] = {{"N.", "XYZ", values},
+                                       {"", "RGB", values}};
+    struct error err;
+    size_t size;
+    uint8_t *bytes = image_exr_encode(layers, 2, 37, 35, NULL, &size);
+
+    (void)state;
+    assert_true(file_write("r.exr", bytes, size, false, NULL, &err));
+    found = read_rgb("r.exr", 37, 35);
+    assert_memory_equal(found, values, 3 * 37 * 35 * sizeof *found);
+    free(found);
+    free(bytes);
+    free(values);
+}
+
+/* Returns numbers that halves hold. Lines shrink when they are packed: the
+ * library of OpenEXR 3.1.5 writes packed lines of their full length, too, which
+ * readers take as not packed. */
+static float step(int x, int y, int c)
+{
+    return (float)((x / 8 + y / 8 + c) % 5) / 8;
+}
+
+/* Writes a file with OpenEXR's library: channels of a type in this order, with
+ * values of step(). */
+static void write_other(const char *path, exr_compression_t packing,
+                        exr_pixel_type_t type, const char *channels, int height)
+{
+    exr_attr_box2i_t window = {.min.x = 3,
+                               .min.y = -5,
+                               .max.x = 3 + WIDTH - 1,
+                               .max.y = height - 6};
+    exr_attr_v2f_t center = {.x = 0};
+    exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+    exr_context_t file;
+    int part, lines;
+
+    succeeds(exr_start_write(&file, path, EXR_WRITE_FILE_DIRECTLY, NULL));
+    succeeds(exr_add_part(file, "p", EXR_STORAGE_SCANLINE, &part));
+    succeeds(exr_initialize_required_attr(file, part, &window, &window, 1,
+                                          &center, 1,
+                                          EXR_LINEORDER_INCREASING_Y, packing));
+    for (const char *c = channels; *c != '\0'; c++)
+        succeeds(exr_add_channel(file, part, (char[2]){*c, 0}, type,
+                                 EXR_PERCEPTUALLY_LINEAR, 1, 1));
+    succeeds(exr_write_header(file));
+    succeeds(exr_get_scanlines_per_chunk(file, part, &lines));
+    for (int y = 0; y < height; y += lines) {
+        float *rows =
+            calloc((size_t)(lines * WIDTH) * strlen(channels), sizeof *rows);
+        exr_chunk_info_t block;
+
+        succeeds(exr_write_scanline_chunk_info(file, part, y - 5, &block));
+        succeeds(y == 0 ? exr_encoding_initialize(file, part, &block, &pipeline)
+                        : exr_encoding_update(file, part, &block, &pipeline));
+        for (int c = 0; c < pipeline.channel_count; c++) {
+            float *row = rows + c * lines * WIDTH;
+            const char *name = pipeline.channels[c].channel_name;
+            int k = *name == 'R' ? 0 : *name == 'B' ? 2 : 1;
+
+            for (int i = 0; i < lines * WIDTH; i++)
+                row[i] = step(i % WIDTH, y + i / WIDTH, k);
+            pipeline.channels[c].encode_from_ptr = (uint8_t *)row;
+            pipeline.channels[c].user_bytes_per_element = 4;
+            pipeline.channels[c].user_data_type = EXR_PIXEL_FLOAT;
+            pipeline.channels[c].user_pixel_stride = 4;
+            pipeline.channels[c].user_line_stride = 4 * WIDTH;
+        }
+        if (y == 0)
+            succeeds(
+                exr_encoding_choose_default_routines(file, part, &pipeline));
+        succeeds(exr_encoding_run(file, part, &pipeline));
+        free(rows);
+    }
+    succeeds(exr_encoding_destroy(file, &pipeline));
+    succeeds(exr_finish(&file));
+}
+
+static void other_files_are_read(void **state)
+{
+    static const exr_compression_t packings[] = {EXR_COMPRESSION_NONE,
+                                                 EXR_COMPRESSION_RLE,
+                                                 EXR_COMPRESSION_ZIPS,
+                                                 EXR_COMPRESSION_ZIP};
+    static const char *const channels[] = {"ABGR", "BGRZ", "Y"};
+
+    (void)state;
+    for (int i = 0; i < 4 * 2 * 3; i++) {
+        const char *named = channels[i % 3];
+        bool is_half = i / 3 % 2;
+        float *rgb;
+
+        write_other("o.exr", packings[i / 6],
+                    is_half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT, named, 35);
+        rgb = read_rgb("o.exr", WIDTH, 35);
+        for (int p = 0; p < 35 * WIDTH; p++)
+            for (int c = 0; c < 3; c++) {
+                float expected =
+                    step(p % WIDTH, p / WIDTH, *named == 'Y' ? 1 : c);
+
+                assert_memory_equal(&rgb[3 * p + c], &expected, 4);
+            }
+        free(rgb);
+    }
+}
+
+/* Files that are cut or changed anywhere are read or refused. */
+static void broken_files_are_refused(void **state)
+{
+    float *values = pixels(9, 20, 1);
+    const struct exr_layer layer = {"", "RGB", values};
+    struct error err;
+    struct image image;
+    uint64_t clamped_count, random = 5;
+    size_t size;
+    uint8_t *bytes = image_exr_encode(&layer, 1, 9, 20, NULL, &size);
+
+    (void)state;
+    for (size_t cut = 0; cut < size; cut++) {
+        assert_true(file_write("b.exr", bytes, cut, false, NULL, &err));
+        assert_false(image_read_linear(&image, "b.exr", &clamped_count, &err));
+        assert_non_null(strstr(err.text, "b.exr: "));
+    }
+    for (int i = 0; i < 3000; i++) {
+        size_t at = (size_t)(check_random(&random) * (double)size);
+        uint8_t before = bytes[at];
+
+        bytes[at] = (uint8_t)(check_random(&random) * 256);
+        assert_true(file_write("b.exr", bytes, size, false, NULL, &err));
+        if (image_read_linear(&image, "b.exr", &clamped_count, &err))
+            image_free(&image);
+        bytes[at] = before;
+    }
+    free(bytes);
+    free(values);
+}
+
+static void other_kinds_are_named(void **state)
+{
+    struct error err;
+    struct image image;
+    uint64_t clamped_count;
+
+    (void)state;
+    write_other("p.exr", EXR_COMPRESSION_PIZ, EXR_PIXEL_HALF, "BGR", 35);
+    assert_false(image_read_linear(&image, "p.exr", &clamped_count, &err));
+    assert_string_equal(err.text, "p.exr: found the compression PIZ, expected "
+                                  "none, RLE, ZIPS or ZIP");
+    write_other("p.exr", EXR_COMPRESSION_ZIP, EXR_PIXEL_HALF, "A", 35);
+    assert_false(image_read_linear(&image, "p.exr", &clamped_count, &err));
+    assert_string_equal(err.text, "p.exr: found an OpenEXR file with no "
+                                  "channels R, G and B, or Y");
+}
+
 /* A picture of one colour is much smaller than its floats. */
 static void blocks_are_packed(void **state)
 {
@@ -194,6 +366,10 @@ int main(void)
         cmocka_unit_test(layers_are_read_bit_for_bit),
         cmocka_unit_test(pictures_are_the_linear_film_with_its_texts),
         cmocka_unit_test(blocks_are_packed),
+        cmocka_unit_test(pictures_are_read_again),
+        cmocka_unit_test(other_files_are_read),
+        cmocka_unit_test(broken_files_are_refused),
+        cmocka_unit_test(other_kinds_are_named),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
