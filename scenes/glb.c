@@ -45,6 +45,9 @@ static void append_text(struct glb_list *list, const char *text)
 }
 
 static uint32_t add(struct glb_list *list, const char *format, va_list values)
+    __attribute__((format(printf, 2, 0)));
+
+static uint32_t add(struct glb_list *list, const char *format, va_list values)
 {
     char text[4096];
     int length = vsnprintf(text, sizeof text, format, values);

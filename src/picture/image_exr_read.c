@@ -224,9 +224,10 @@ static bool unpack_runs(const unsigned char *from, size_t size_bytes,
     size_t done = 0;
 
     while (end - from >= 2) {
-        int run = (signed char)*from++;
+        int run = *from < 128 ? *from : *from - 256;
         size_t count = (size_t)(run < 0 ? -run : run + 1);
 
+        from++;
         if (count > expected - done ||
             (run < 0 && end - from < (ptrdiff_t)count))
             return false;
