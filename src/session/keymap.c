@@ -129,10 +129,10 @@ static const struct line {
     {NULL, {ACTION_START}, "start, pause, continue"},
     {NULL, {ACTION_STEP}, "one more sample, then pause"},
     {NULL, {ACTION_RESTART}, "render again from sample 0"},
+    {NULL, {ACTION_BACKEND}, "OpenCL device, or CPU"},
     {NULL, {ACTION_SAVE}, "save a new PNG file"},
     {NULL, {ACTION_SAVE_LINEAR}, "save a linear HDR file"},
     {NULL, {ACTION_SAVE_TEXT}, "save coloured text"},
-    {NULL, {ACTION_BACKEND}, "OpenCL device, or CPU"},
     {NULL, {ACTION_RELOAD}, "load changed files"},
     {NULL, {ACTION_COLORS, ACTION_GLYPHS}, "colours, glyphs, pixels"},
     {NULL, {ACTION_METER}, "times, speeds, threads"},
@@ -143,6 +143,18 @@ static const struct line {
     {NULL, {ACTION_SUSPEND}, "suspend"},
     {NULL, {ACTION_INTERRUPT, ACTION_ABORT}, "exit at once"},
     {NULL, {ACTION_QUIT}, "quit"},
+};
+
+/* Groups of the help, each with the action that its first line begins with. */
+static const struct group {
+    enum action first;
+    const char *title;
+} groups[] = {
+    {ACTION_FORWARD, "Move"},    {ACTION_CURSOR, "Pick"},
+    {ACTION_NARROWER, "Camera"}, {ACTION_VIEW_1, "Views"},
+    {ACTION_VIEW_NEXT, "Look"},  {ACTION_PANEL, "Edit"},
+    {ACTION_MODE, "Render"},     {ACTION_SAVE, "Files"},
+    {ACTION_COLORS, "Screen"},
 };
 
 /* Lines of the help for the panel. `keys` replaces the keys' names. */
@@ -342,6 +354,15 @@ static void add_action(struct keymap_help *help, const struct keymap *k,
     }
 }
 
+/* Returns the title of the group that begins with the action, or NULL. */
+static const char *group_of(enum action first)
+{
+    for (size_t i = 0; i < COUNT(groups); i++)
+        if (groups[i].first == first)
+            return groups[i].title;
+    return NULL;
+}
+
 bool keymap_help(const struct keymap *k, int line, struct keymap_help *help)
 {
     const struct line *l;
@@ -350,7 +371,8 @@ bool keymap_help(const struct keymap *k, int line, struct keymap_help *help)
     if (line < 0 || (size_t)line >= COUNT(lines))
         return false;
     l = &lines[line];
-    *help = (struct keymap_help){.text = l->text};
+    *help =
+        (struct keymap_help){.text = l->text, .group = group_of(l->actions[0])};
     for (size_t i = 0; i < COUNT(l->actions); i++)
         is_chosen |= k->is_chosen[l->actions[i]];
     if (l->keys && !is_chosen) {
@@ -382,7 +404,8 @@ bool keymap_panel_help(int line, struct keymap_help *help)
     if (line < 0 || (size_t)line >= COUNT(panel_lines))
         return false;
     l = &panel_lines[line];
-    *help = (struct keymap_help){.text = l->text};
+    *help = (struct keymap_help){.text = l->text,
+                                 .group = line == 0 ? "Panel" : NULL};
     if (l->keys)
         snprintf(help->keys, sizeof help->keys, "%s", l->keys);
     for (int j = 0; !l->keys && l->does[j].key != 0; j++)

@@ -149,6 +149,7 @@ struct keymap_name keymap_first_name(const struct keymap *k,
 struct keymap_help {
     char keys[32];
     const char *text;
+    const char *group; /* title of the group that it begins, or NULL */
 };
 
 /* Fills line `line` of the help, from 0. Returns false after the last line. */

@@ -100,8 +100,8 @@ static void take_key(struct studio *studio, int key)
         return;
     if (is_urgent(action))
         command_run(studio, action);
-    else if (workspace->help_left > 0)
-        workspace_turn_help(workspace, action == ACTION_CANCEL);
+    else if (workspace->help.is_open)
+        workspace_help_key(workspace, key);
     else if (workspace->screen.is_too_small && action != ACTION_QUIT)
         return;
     else if (!panel_takes(studio, key) &&
@@ -144,7 +144,7 @@ static void take_event(struct studio *studio, const struct event *event)
     if (event->kind == EVENT_KEY) {
         take_key(studio, event->key);
     } else if (event->kind == EVENT_MOUSE) {
-        if (studio->has_mouse && workspace->help_left == 0 &&
+        if (studio->has_mouse && !workspace->help.is_open &&
             !workspace->screen.is_too_small)
             take_mouse(studio, event);
     } else {

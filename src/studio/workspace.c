@@ -5,8 +5,6 @@
 #include <time.h>
 
 #include "base/clock.h"
-#include "glim/version.h"
-#include "studio/help.h"
 #include "studio/panel_draw.h"
 #include "studio/screen_draft.h"
 #include "studio/status_line.h"
@@ -85,7 +83,7 @@ void workspace_layout(struct workspace *workspace)
     const struct film *film = film_of(workspace);
     struct error err;
 
-    workspace->help_left = 0;
+    workspace->help.is_open = false;
     workspace->keys_bar = (struct keys_bar){KEYS_NONE, 0};
     workspace->width_px = film->width;
     workspace->height_px = film->height;
@@ -137,7 +135,7 @@ void workspace_ask(struct workspace *workspace, const char *prompt)
 
 static bool shows_progress(const struct workspace *workspace)
 {
-    return workspace->progress_panel.is_on && workspace->help_left == 0 &&
+    return workspace->progress_panel.is_on && !workspace->help.is_open &&
            !workspace->screen.is_too_small;
 }
 
@@ -155,13 +153,10 @@ void workspace_switch_progress(struct workspace *workspace)
     workspace_refresh(workspace);
 }
 
-static void open_help_page(struct workspace *workspace, int number)
+static void draw_help(struct workspace *workspace)
 {
     const struct frame_pacing *pace = &workspace->screen.pace;
-    const char *lines[HELP_ROWS_MAX];
-    struct tty_size size = term_size();
-    struct help_page page;
-    char note[64], title[64];
+    char note[64];
 
     snprintf(note, sizeof note, "%s, %s",
              palette_name(workspace->screen.display.palette),
@@ -171,34 +166,16 @@ static void open_help_page(struct workspace *workspace, int number)
                  palette_name(workspace->screen.display.palette),
                  screen_glyphs_name(&workspace->screen),
                  (double)pace->rtt_min_ns * 1e-6);
-    /* The window has a border, a blank at each side of the text, and the status
-     * line below. */
-    help_page(&page, &workspace->control->session->options->keys,
-              workspace->panel.is_open, note, number, size.cols - 4,
-              size.rows - 3);
-    if (number + 1 < page.page_count)
-        snprintf(title, sizeof title, " keys %d/%d - any key goes on ",
-                 number + 1, page.page_count);
-    else
-        snprintf(title, sizeof title,
-                 " glim " GLIM_VERSION " - any key closes ");
-    for (int i = 0; i < page.line_count; i++)
-        lines[i] = page.lines[i];
-    if (workspace->help_left > 0 || workspace->progress_panel.is_on)
-        screen_close_window(&workspace->screen);
-    inspector_close_table(&workspace->inspector);
-    screen_open_window(&workspace->screen, WINDOW_MIDDLE, title, lines,
-                       page.line_count);
-    workspace->help_number = number;
-    workspace->help_left = page.page_count - number;
-    workspace->is_settled = false;
+    screen_close_window(&workspace->screen);
+    help_draw(&workspace->help, &workspace->control->session->options->keys,
+              workspace->panel.is_open, note, &workspace->screen);
+    workspace_refresh(workspace);
 }
 
 static void close_help(struct workspace *workspace)
 {
     screen_close_window(&workspace->screen);
     inspector_open_table(&workspace->inspector);
-    workspace->help_left = 0;
     panel_draw(&workspace->panel);
     workspace_refresh(workspace);
 }
@@ -254,13 +231,16 @@ void workspace_open_panel(struct workspace *workspace)
 
 void workspace_open_help(struct workspace *workspace)
 {
-    open_help_page(workspace, 0);
+    inspector_close_table(&workspace->inspector);
+    workspace->help = (struct help){.is_open = true};
+    draw_help(workspace);
 }
 
-void workspace_turn_help(struct workspace *workspace, bool closes)
+void workspace_help_key(struct workspace *workspace, int key)
 {
-    if (workspace->help_left > 1 && !closes)
-        open_help_page(workspace, workspace->help_number + 1);
+    help_key(&workspace->help, key);
+    if (workspace->help.is_open)
+        draw_help(workspace);
     else
         close_help(workspace);
 }
@@ -390,20 +370,35 @@ static void outline_selection(struct workspace *workspace)
     editor_panel_outline(&workspace->panel, &camera, &workspace->frame);
 }
 
-/* Makes the frame. A comparison is of light as it was rendered, without the
- * filter: kept renders have none. */
+/* Shows light as it was rendered, without the filter: kept renders have none.
+ */
+static void compare(struct workspace *workspace)
+{
+    struct session *session = workspace->control->session;
+
+    film_preview(render_film(session->render), NULL, session_develop(session),
+                 &workspace->frame);
+    comparison_paint(&workspace->comparison, &workspace->frame);
+}
+
+static void dim(struct frame *frame)
+{
+    size_t count = 3 * (size_t)frame->width * (size_t)frame->height;
+
+    for (size_t i = 0; i < count; i++)
+        frame->rgb[i] = (uint8_t)(frame->rgb[i] * 2 / 5);
+}
+
 static void paint(struct workspace *workspace)
 {
-    struct frame *frame = &workspace->frame;
-
-    if (workspace->comparison.mode == COMPARISON_OFF) {
-        inspector_preview(&workspace->inspector, frame);
+    if (workspace->comparison.mode != COMPARISON_OFF) {
+        compare(workspace);
+    } else {
+        inspector_preview(&workspace->inspector, &workspace->frame);
         outline_selection(workspace);
-        return;
     }
-    film_preview(render_film(workspace->control->session->render), NULL,
-                 session_develop(workspace->control->session), frame);
-    comparison_paint(&workspace->comparison, frame);
+    if (workspace->help.is_open)
+        dim(&workspace->frame);
 }
 
 /* Writes text that has changed, then makes and writes a frame if `has_frame`.

@@ -22,6 +22,7 @@
 #include "studio/camera_control.h"
 #include "studio/comparison.h"
 #include "studio/editor_panel.h"
+#include "studio/help.h"
 #include "studio/inspector.h"
 #include "studio/keys_bar.h"
 #include "studio/progress_panel.h"
@@ -36,8 +37,7 @@ struct workspace {
     struct comparison comparison;
     struct editor_panel panel;
     struct progress_panel progress_panel; /* hidden while the help is open */
-    int help_number; /* the page of the help that is shown, from 0 */
-    int help_left;   /* pages from that one on; 0: the help is closed */
+    struct help help;
     struct keys_bar keys_bar;
     const char *prompt; /* a question in the last line; NULL: none */
 
@@ -83,9 +83,8 @@ void workspace_switch_status(struct workspace *workspace);
 
 void workspace_open_help(struct workspace *workspace);
 
-/* Goes to the next page of the open help; closes it after the last page, or if
- * `closes`. */
-void workspace_turn_help(struct workspace *workspace, bool closes);
+/* Gives a key to the open help. */
+void workspace_help_key(struct workspace *workspace, int key);
 
 /* Takes a scene that was loaded anew; what had these names stays selected. */
 void workspace_renew(struct workspace *workspace,

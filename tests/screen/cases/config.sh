@@ -10,11 +10,12 @@ wait_for "LIVE.*F1 help  x quit"
 reject "▀"
 keys '?' # does nothing now
 keys y
-wait_for "any key closes"
+wait_for "Esc closes"
+keys Down
 expect "F1 y *this help"
 expect "x *quit"
-keys q
-wait_until_gone "any key closes"
+keys Escape
+wait_until_gone "Esc closes"
 keys q # no more
 keys C
 wait_for "  mono" # what is next after 16

@@ -100,7 +100,7 @@ keys '<'
 wait_for "sample 0 of pixel"
 # help closes and opens it, a resize leaves it
 keys '?'
-wait_for "any key"
+wait_for "Esc closes"
 reject "sample 0 of"
 keys Escape
 wait_for "sample 0 of pixel"

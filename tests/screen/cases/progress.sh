@@ -17,9 +17,9 @@ wait_for "samples  *200 k .*/s"
 wait_for "busy 0 %"
 # it is still there after the help and after another size, and at rest
 keys '?'
-wait_for "glim .* any key closes"
+wait_for "Esc closes"
 reject "progress ─"
-keys x
+keys Escape
 wait_for "┌─ progress ─"
 wait_for "40 of 40 spp  *100.0 %"
 mux resize-window -x 60 -y 20

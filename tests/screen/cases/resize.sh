@@ -22,9 +22,9 @@ mux resize-window -x 60 -y 21
 wait_for_rows 15 "48;2;188;124;0"
 wait_for "LIVE"
 keys '?'
-wait_for "any key goes on"
+wait_for "Esc closes"
 mux resize-window -x 80 -y 31
-wait_until_gone "any key goes on"
+wait_until_gone "Esc closes"
 wait_for_rows 20 "48;2;188;124;0"
 keys q
 expect_end 0

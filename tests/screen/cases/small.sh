@@ -6,17 +6,17 @@ start --cell-aspect 2 flat.obj
 wait_for_rows 10 "48;2;188;124;0"
 expect "LIVE"
 keys '?'
-wait_for "keys 1/5 - any key goes on"
+wait_for "keys 1/9"
 expect "w s *move forward, back"
-keys x
-wait_for "keys 2/5 - any key goes on"
-keys Escape # closes it at once
-wait_until_gone "any key"
-keys '?' x x x x
-wait_for "any key closes"
+keys Down
+wait_for "keys 2/9"
+keys Escape
+wait_until_gone "keys 2/9"
+keys '?' Up
+wait_for "keys 9/9"
 expect "q *quit"
-keys x
-wait_until_gone "any key"
+keys Enter
+wait_until_gone "keys 9/9"
 keys v
 wait_for "\[+\]"
 wait_for "nothing but the sky"
@@ -27,9 +27,13 @@ wait_for "window 40x11: at least 40x12 is needed"
 mux resize-window -x 80 -y 24
 wait_for_rows 20 "48;2;188;124;0"
 keys '?'
-wait_for "any key closes" # all on one page
+wait_for "keys 1/2"
 expect "w s *move forward, back"
+raw_keys 'quit' # a search: one page
+wait_for "search: quit_"
 expect "q *quit"
-keys x
+reject "move forward"
+keys Escape
+wait_until_gone "search"
 keys q
 expect_end 0

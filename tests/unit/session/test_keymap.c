@@ -333,50 +333,6 @@ static void manual_lists_the_actions(void **state)
     free(text);
 }
 
-/* All entries appear once, for any size of the window. */
-static void help_has_every_entry_on_some_page(void **state)
-{
-    static const struct {
-        int cols, rows, columns;
-    } cases[] = {
-        {76, 22, 2}, /* 80x24 */
-        {36, 10, 1}, /* 40x12 */
-        {73, 60, 1}, {74, 60, 2}, {200, 7, 2}, {10, 1, 1},
-    };
-    struct keymap k = table_keys(false);
-    struct keymap_help help;
-    struct help_page page;
-
-    (void)state;
-    for (size_t i = 0; i < 2 * sizeof cases / sizeof cases[0]; i++) {
-        bool in_panel = i % 2 == 1;
-        int cols = cases[i / 2].cols, rows = cases[i / 2].rows;
-        int room = cases[i / 2].columns * rows;
-        int total = 1; /* the note */
-        int found = 0;
-
-        for (int line = 0; keymap_help(&k, line, &help); line++)
-            total++;
-        for (int line = 0; in_panel && keymap_panel_help(line, &help); line++)
-            total++;
-        for (int n = 0; n == 0 || n < page.page_count; n++) {
-            help_page(&page, &k, in_panel, "the note", n, cols, rows);
-            assert_int_equal(page.page_count, (total + room - 1) / room);
-            assert_in_range(page.line_count, 1, rows);
-            for (int row = 0; row < page.line_count; row++) {
-                if (cols >= HELP_ENTRY_COLS)
-                    check_at_most((double)strlen(page.lines[row]), cols);
-                for (int line = 0; keymap_help(&k, line, &help); line++)
-                    found += strstr(page.lines[row], help.text) != NULL;
-                for (int line = 0; keymap_panel_help(line, &help); line++)
-                    found += strstr(page.lines[row], help.text) != NULL;
-                found += strstr(page.lines[row], "the note") != NULL;
-            }
-        }
-        assert_int_equal(found, total);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -392,7 +348,6 @@ int main(void)
         cmocka_unit_test(panel_keys_are_in_the_help),
         cmocka_unit_test(readme_lists_the_same_keys),
         cmocka_unit_test(manual_lists_the_actions),
-        cmocka_unit_test(help_has_every_entry_on_some_page),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
