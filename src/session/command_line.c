@@ -194,9 +194,9 @@ void options_init(struct options *o)
 static bool is_configurable(enum option_id id)
 {
     return id == OPTION_THREADS || id == OPTION_BACKEND || id == OPTION_COLOR ||
-           id == OPTION_GLYPH || id == OPTION_CELL_ASPECT ||
-           id == OPTION_PHOE_KEYS || id == OPTION_FILTER ||
-           id == OPTION_NO_FILTER;
+           id == OPTION_GLYPH || id == OPTION_THEME ||
+           id == OPTION_CELL_ASPECT || id == OPTION_PHOE_KEYS ||
+           id == OPTION_FILTER || id == OPTION_NO_FILTER;
 }
 
 bool options_set_configured(struct options *o, const char *name,

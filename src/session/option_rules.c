@@ -162,6 +162,9 @@ static const struct option_rule screen[] = {
      "characters: half, upper, lower, quadrant, sextant, braille, space "
      "or ascii; pixels: sixel or kitty; or auto: half or space, without "
      "colours braille or ascii (default: auto)"},
+    {"theme", OPTION_THEME, "auto, dark, light or plain", "NAME",
+     "colours of the text: dark, light, plain (the terminal's own) or auto: "
+     "as the terminal's background (default: auto)"},
     {"cell-aspect", OPTION_CELL_ASPECT, "a number", "R",
      "height of a character over its width, 0.25 to 8 (default: ask the "
      "terminal)"},

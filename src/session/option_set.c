@@ -355,6 +355,8 @@ static bool set_word(struct options *o, const struct option_given *g,
                                          "lower",   "quadrant", "sextant",
                                          "braille", "space",    "ascii",
                                          "sixel",   "kitty",    NULL};
+    static const char *const themes[] = {"auto", "dark", "light", "plain",
+                                         NULL};
     const char *tones[TONES + 1] = {NULL}; /* ends with NULL */
     int index = 0;
 
@@ -372,6 +374,11 @@ static bool set_word(struct options *o, const struct option_given *g,
         o->display.color =
             index > COLOR_24BIT ? COLOR_24BIT : (enum color_mode)index;
         o->has_color = true;
+        return true;
+    case OPTION_THEME:
+        if (!choice(g, themes, &index, err))
+            return false;
+        o->display.theme = (enum theme_mode)index;
         return true;
     case OPTION_TONE:
         memcpy(tones, view_tones, sizeof view_tones);
@@ -474,6 +481,7 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_BACKEND:
     case OPTION_COLOR:
     case OPTION_SHOW:
+    case OPTION_THEME:
     case OPTION_GLYPH: return set_word(o, g, err);
     case OPTION_RANKS: return whole_int(g, 1, RANKS_MAX, &o->ranks, err);
     case OPTION_WORKER: o->is_worker = true; return true;

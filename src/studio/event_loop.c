@@ -140,6 +140,7 @@ static void take_event(struct studio *studio, const struct event *event)
 {
     struct workspace *workspace = &studio->workspace;
     enum palette palette = workspace->screen.display.palette;
+    enum theme theme = workspace->screen.display.theme;
 
     if (event->kind == EVENT_KEY) {
         take_key(studio, event->key);
@@ -150,7 +151,8 @@ static void take_event(struct studio *studio, const struct event *event)
     } else {
         if (screen_answer(&workspace->screen, event))
             workspace_layout(workspace);
-        if (workspace->screen.display.palette != palette)
+        if (workspace->screen.display.palette != palette ||
+            workspace->screen.display.theme != theme)
             draw_panel(studio);
     }
 }

@@ -269,7 +269,7 @@ static void add_slider(const struct editor_panel *p, const struct sheet *s,
         gauge_handle(cells, cols, v->fraction, d->palette, d->has_unicode);
     } else {
         gauge_cells(cells, cols, v->fraction,
-                    theme_style(s->screen->theme, d->palette, ROLE_GAUGE),
+                    theme_style(d->theme, d->palette, ROLE_GAUGE),
                     d->has_unicode);
     }
     windows_paint(WINDOW_PANEL, s->row - 1, PANEL_SLIDER_COL, cells, cols);

@@ -156,7 +156,7 @@ bool screen_layout(struct screen *screen, int width_px, int height_px,
     size = term_size();
     screen->window = (struct ansi_diff_rect){0};
     screen->has_status = false;
-    windows_use_theme(screen->theme, screen->display.palette);
+    windows_use_theme(screen->display.theme, screen->display.palette);
     screen->must_update = true;
     screen->is_too_small = is_too_small(&size);
     if (screen->is_too_small) {
@@ -178,10 +178,11 @@ bool screen_layout(struct screen *screen, int width_px, int height_px,
 bool screen_answer(struct screen *screen, const struct event *event)
 {
     enum palette palette = screen->display.palette;
+    enum theme theme = screen->display.theme;
     bool is_other = term_caps_answer(&screen->display, event);
 
-    if (screen->display.palette != palette) {
-        windows_use_theme(screen->theme, screen->display.palette);
+    if (screen->display.palette != palette || screen->display.theme != theme) {
+        windows_use_theme(screen->display.theme, screen->display.palette);
         screen->must_update = true;
     }
     if (event->kind == EVENT_READY)
@@ -227,8 +228,7 @@ static void draw_status(const struct screen *screen)
         windows_text(WINDOW_STATUS, 0, row->spans[i].col, row->spans[i].cols,
                      row->spans[i].role, row->text + row->spans[i].col);
     gauge_cells(cells, row->gauge_cols, row->gauge,
-                theme_style(screen->theme, d->palette, ROLE_GAUGE),
-                d->has_unicode);
+                theme_style(d->theme, d->palette, ROLE_GAUGE), d->has_unicode);
     windows_paint(WINDOW_STATUS, 0, row->gauge_col, cells, row->gauge_cols);
 }
 

@@ -61,9 +61,8 @@ struct screen {
     struct ansi_diff_rect window; /* in the picture's cells; 0 cols: closed */
     bool must_update;    /* text has changed since screen_draw_text() */
     bool has_drawn_text; /* screen_draw() has to end its update */
-    enum theme theme;
-    bool has_panel; /* the next layout leaves room for the panel */
-    int panel_cols; /* columns at the right edge; 0: none */
+    bool has_panel;      /* the next layout leaves room for the panel */
+    int panel_cols;      /* columns at the right edge; 0: none */
     bool has_cursor;
     int cursor_col, cursor_row; /* from the picture's corner */
 };

@@ -2,6 +2,8 @@
 #include "terminal/term_caps.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "terminal/tty.h"
 
@@ -71,6 +73,24 @@ static void choose_glyphs(struct term_caps *d, enum glyph_mode mode)
     d->glyphs = glyphs_of(d, mode);
 }
 
+/* Chooses the theme. COLORFGBG ends with the number of the background among 16
+ * colours, where it is set. */
+static void choose_theme(struct term_caps *d, enum theme_mode mode)
+{
+    const char *colors = getenv("COLORFGBG");
+    const char *ground = colors ? strrchr(colors, ';') : NULL;
+    bool is_light =
+        ground && (strcmp(ground, ";7") == 0 || strcmp(ground, ";15") == 0);
+
+    d->theme_is_final = mode != THEME_MODE_AUTO;
+    if (mode == THEME_MODE_AUTO)
+        d->theme = is_light ? THEME_LIGHT : THEME_DARK;
+    else
+        d->theme = mode == THEME_MODE_PLAIN   ? THEME_PLAIN
+                   : mode == THEME_MODE_LIGHT ? THEME_LIGHT
+                                              : THEME_DARK;
+}
+
 void term_caps_init(struct term_caps *d, const struct term_caps_choice *choice)
 {
     bool may_learn;
@@ -80,6 +100,7 @@ void term_caps_init(struct term_caps *d, const struct term_caps_choice *choice)
     d->has_unicode = tty_is_utf8(&may_learn);
     d->unicode_is_final = !may_learn;
     choose_palette(d, choice->color);
+    choose_theme(d, choice->theme);
     choose_glyphs(d, choice->glyph);
 }
 
@@ -189,6 +210,10 @@ bool term_caps_answer(struct term_caps *d, const struct event *event)
 {
     switch (event->kind) {
     case EVENT_TRUE_COLOR: return take_true_color(d);
+    case EVENT_BACKGROUND:
+        if (!d->theme_is_final)
+            d->theme = event->x > 0 ? THEME_LIGHT : THEME_DARK;
+        break;
     case EVENT_SYNC: tty_use_sync(); break;
     case EVENT_CELL_SIZE: return take_cell_size(d, event);
     case EVENT_CURSOR: return take_cursor(d, event);

@@ -15,6 +15,7 @@
 
 #include "terminal/palette.h"
 #include "terminal/pixel_graphics.h"
+#include "terminal/theme.h"
 #include "terminal/tty.h"
 #include "terminal/tty_input.h"
 
@@ -36,8 +37,16 @@ enum glyph_mode {
     GLYPH_KITTY
 };
 
+enum theme_mode {
+    THEME_MODE_AUTO,
+    THEME_MODE_DARK,
+    THEME_MODE_LIGHT,
+    THEME_MODE_PLAIN
+};
+
 /* Settings from the user. */
 struct term_caps_choice {
+    enum theme_mode theme;
     enum color_mode color;
     enum glyph_mode glyph;
     double cell_aspect; /* height over width; 0: ask the terminal */
@@ -50,8 +59,10 @@ struct term_caps {
     enum glyphs glyphs;         /* glyphs of the cells, chosen for it */
     bool has_unicode;           /* the terminal shows characters beyond ASCII */
     bool unicode_is_final;      /* no answer of the terminal changes it */
-    bool has_sixel, has_kitty;  /* reported by the terminal */
-    int sixel_colors;           /* 0 if not reported */
+    enum theme theme;
+    bool theme_is_final;       /* no answer of the terminal changes it */
+    bool has_sixel, has_kitty; /* reported by the terminal */
+    int sixel_colors;          /* 0 if not reported */
     int cell_width_px, cell_height_px; /* 0 if not reported */
     double cell_aspect;                /* 0 if unknown */
     bool aspect_is_final;

@@ -31,6 +31,9 @@
 /* Asks for the number of colours in a sixel image (XTSMGRAPHICS of xterm). */
 #define SIXEL_QUESTION "\033[?1;1;0S"
 
+/* Asks for the colour of the background. */
+#define BACKGROUND_QUESTION "\033]11;?\033\\"
+
 /* Draws a half block in the corner and asks for the cursor position. */
 #define GLYPH_QUESTION "\033[H\xe2\x96\x80\033[6n"
 
@@ -244,8 +247,10 @@ static void ask(void)
         tty_write(COLOR_QUESTION, sizeof COLOR_QUESTION - 1);
         tty_write(SIXEL_QUESTION, sizeof SIXEL_QUESTION - 1);
     }
-    if (term.may_ask_colors && !is_inside_another())
+    if (term.may_ask_colors && !is_inside_another()) {
         tty_write(KITTY_QUESTION, sizeof KITTY_QUESTION - 1);
+        tty_write(BACKGROUND_QUESTION, sizeof BACKGROUND_QUESTION - 1);
+    }
     tty_write(QUESTIONS, sizeof QUESTIONS - 1);
     /* clears whatever a simple terminal printed of the questions */
     length = snprintf(text, sizeof text, "\033[2J\033[%d;1H", LINES);

@@ -210,10 +210,45 @@ static bool accepts_kitty(const unsigned char *p, size_t length)
     return length >= 4 && p[0] == 'G' && memcmp(p + length - 3, ";OK", 3) == 0;
 }
 
+static int digit_of(unsigned char c)
+{
+    if (c >= '0' && c <= '9')
+        return c - '0';
+    c |= 0x20;
+    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+}
+
+/* Reads a background: 11;rgb:RRRR/GGGG/BBBB with one to four digits a channel.
+ * *is_light tells if it is nearer to white than to black. */
+static bool reads_background(const unsigned char *p, size_t length,
+                             bool *is_light)
+{
+    static const int weights[3] = {2, 5, 1};
+    int sum = 0, channel = 0, digits = 0;
+
+    if (length < 12 || memcmp(p, "11;rgb:", 7) != 0)
+        return false;
+    for (size_t i = 7; i < length && channel < 3; i++) {
+        if (p[i] == '/' && digits > 0) {
+            channel++;
+            digits = 0;
+        } else if (digit_of(p[i]) >= 0) {
+            if (digits++ == 0) /* the first digit says enough */
+                sum += weights[channel] * digit_of(p[i]);
+        } else {
+            return false;
+        }
+    }
+    *is_light = sum > 8 * 15 / 2;
+    return channel == 2 && digits > 0;
+}
+
 /* Takes ESC P, ], ^, _ or X and the text up to ESC \ or BEL. */
 static void take_string(struct sequence *s, const unsigned char *p,
                         size_t length)
 {
+    bool is_light;
+
     for (size_t i = 2; i < length; i++) {
         bool ends = p[i] == 7;
 
@@ -233,6 +268,8 @@ static void take_string(struct sequence *s, const unsigned char *p,
             set_answer(s, EVENT_TRUE_COLOR, 0, 0);
         else if (p[1] == '_' && accepts_kitty(p + 2, i - 2))
             set_answer(s, EVENT_KITTY, 0, 0);
+        else if (p[1] == ']' && reads_background(p + 2, i - 2, &is_light))
+            set_answer(s, EVENT_BACKGROUND, is_light, 0);
         return;
     }
 }

@@ -36,6 +36,7 @@ enum event_kind {
     EVENT_SIXEL_COLORS, /* x: number of colours in a sixel image */
     EVENT_KITTY,        /* kitty's graphics are supported */
     EVENT_TRUE_COLOR,   /* 24-bit colours are supported */
+    EVENT_BACKGROUND,   /* x: 1 if the terminal's background is light */
     EVENT_SYNC,         /* synchronized updates are supported */
     EVENT_CELL_SIZE,    /* x, y: size of a cell in pixels */
     EVENT_CURSOR        /* x, y: position of the cursor */

@@ -84,8 +84,8 @@ run()
     wait $terminal 2>/dev/null
 }
 
-for theme in dark light; do
-    for size in 80x24 120x40; do
+for theme in ${THEMES:-dark light}; do
+    for size in ${SIZES:-80x24 120x40}; do
         run $theme $size
     done
 done

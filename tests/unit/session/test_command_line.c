@@ -122,6 +122,8 @@ static void words_select_values(void **state)
     assert_int_equal(good("a --color 16").display.color, COLOR_16);
     assert_int_equal(good("a --color mono").display.color, COLOR_MONO);
     assert_int_equal(good("a --color auto").display.color, COLOR_AUTO);
+    assert_int_equal(good("a --theme light").display.theme, THEME_MODE_LIGHT);
+    assert_int_equal(good("a --theme plain").display.theme, THEME_MODE_PLAIN);
     assert_int_equal(good("a --glyph auto").display.glyph, GLYPH_AUTO);
     assert_int_equal(good("a --glyph upper").display.glyph, GLYPH_UPPER);
     assert_int_equal(good("a --glyph lower").display.glyph, GLYPH_LOWER);
