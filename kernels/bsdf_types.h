@@ -29,6 +29,9 @@ struct bsdf {
     float film_ior, film_thickness; /* refractive index; nanometres */
 };
 
+/* The widths of a highlight have the ratio 1 - ANISOTROPY_SHARE anisotropy. */
+#define ANISOTROPY_SHARE 0.9f
+
 /* Returns the microfacets of metal, plastic and sheets. The widths have the
  * ratio of Burley 2012, "Physically based shading at Disney", B.1. */
 static inline struct ggx bsdf_facets(const struct bsdf *m)
@@ -36,7 +39,7 @@ static inline struct ggx bsdf_facets(const struct bsdf *m)
     struct ggx g = {m->alpha, 1.0f};
 
     if (HAS(FEATURE_ANISOTROPY) && m->anisotropy > 0.0f)
-        g.stretch = 1.0f / sqrtf(1.0f - 0.9f * m->anisotropy);
+        g.stretch = 1.0f / sqrtf(1.0f - ANISOTROPY_SHARE * m->anisotropy);
     return g;
 }
 

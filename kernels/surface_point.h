@@ -49,6 +49,34 @@ static inline struct vec3 shading_normal(const struct world *w, struct tri t,
     return v3_dot(n, wo) > 0.0f ? n : ng;
 }
 
+/* True if a map turns the grain of the material. */
+static inline bool has_grain_map(const struct material *m,
+                                 const struct surface_point *v)
+{
+    return HAS(FEATURE_TEXTURE_OPTIONS) && v->has_uv &&
+           m->grain_texture != NO_INDEX;
+}
+
+/* The direction of the grain, turned by its map. */
+static inline struct vec2 grain_at(const struct world *w,
+                                   const struct material *m,
+                                   const struct surface_point *v)
+{
+    struct vec2 grain = m->grain;
+    float x, y;
+
+    if (has_grain_map(m, v)) {
+        struct vec3 c =
+            texture_at(w, m->grain_texture, uv_for(w, m->grain_texture, v->uv))
+                .color;
+
+        x = 2.0f * c.x - 1.0f;
+        y = 2.0f * c.y - 1.0f;
+        grain = v2(x * grain.x - y * grain.y, x * grain.y + y * grain.x);
+    }
+    return grain;
+}
+
 /* Turns the frame of a surface with a grain: t along the grain, or along the
  * horizontal where there are no texture coordinates. */
 static inline void surface_turn_frame(const struct world *w, struct vec2 grain,
@@ -127,7 +155,7 @@ static inline bool surface_at(const struct world *w, const struct material *m,
         v->n = bumped_normal(w, m, t, instance, h, v->uv, v->n, v->ng, wo);
     frame_around(v->n, &v->t, &v->b);
     if (HAS(FEATURE_ANISOTROPY) && m->anisotropy > 0.0f)
-        surface_turn_frame(w, m->grain, t, h, v);
+        surface_turn_frame(w, grain_at(w, m, v), t, h, v);
     return true;
 }
 
@@ -147,6 +175,20 @@ static inline float map_number_at(const struct world *w,
     return HAS(FEATURE_TEXTURES) && v->has_uv && texture != NO_INDEX
                ? surface_texel(w, v, texture).alpha
                : 1.0f;
+}
+
+/* Multiplies the stretch of a highlight by a map. The factor squared multiplies
+ * how much wider it is along the grain than across, and the width across stays:
+ * KHR_materials_anisotropy of glTF. */
+static inline void stretch_at(const struct world *w, const struct material *m,
+                              const struct surface_point *v, struct bsdf *b)
+{
+    float factor = surface_texel(w, v, m->grain_texture).color.z;
+    float q = 1.0f - ANISOTROPY_SHARE * m->anisotropy;
+    float ratio = 1.0f + (1.0f / q - 1.0f) * factor * factor;
+
+    b->alpha *= sqrtf(q * ratio);
+    b->anisotropy = (1.0f - 1.0f / ratio) * (1.0f / ANISOTROPY_SHARE);
 }
 
 /* Multiplies members of a mixture by maps that few materials have. */
@@ -189,6 +231,8 @@ static inline void principled_at(const struct world *w,
     b->film_thickness = m->film_thickness;
     if (HAS(FEATURE_TEXTURE_OPTIONS))
         principled_maps_at(w, m, v, b);
+    if (HAS(FEATURE_ANISOTROPY) && m->anisotropy > 0.0f && has_grain_map(m, v))
+        stretch_at(w, m, v, b);
 }
 
 static inline struct bsdf bsdf_at(const struct world *w,

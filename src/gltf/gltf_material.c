@@ -332,21 +332,18 @@ static void stretch(struct mtl_source *s, double strength)
 static bool read_anisotropy(struct reader *r)
 {
     double strength = 0, angle = 0;
-    struct gltf_value v, texture;
+    struct gltf_value v;
 
     if (!gltf_extension(&r->v, "KHR_materials_anisotropy", &v, r->err) ||
         !read_number(r, &v, "anisotropyStrength", &strength) ||
-        !read_number(r, &v, "anisotropyRotation", &angle) ||
-        !gltf_object(&v, "anisotropyTexture", &texture, r->err))
+        !read_number(r, &v, "anisotropyRotation", &angle))
         return false;
     if (!(strength > 0))
         return true;
     stretch(&r->source, fmin(strength, 1));
     if (angle != 0)
         set_number(&r->source.anisor, angle / (2 * M_PI));
-    if (texture.json != NULL)
-        warn(r, "maps of anisotropy", "anisotropyTexture, which is not used");
-    return true;
+    return read_map(r, &v, "anisotropyTexture", of_alpha, MTL_MAP_GRAIN);
 }
 
 static bool read_film(struct reader *r)

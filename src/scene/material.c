@@ -46,6 +46,7 @@ struct material material_default(void)
         .sheen_alpha_texture = NO_INDEX,
         .film_texture = NO_INDEX,
         .film_thickness_texture = NO_INDEX,
+        .grain_texture = NO_INDEX,
         .opacity = 1,
         .grain = {1, 0},
     };
@@ -72,6 +73,7 @@ uint32_t *material_map(struct material *m, uint32_t number)
         &m->sheen_alpha_texture,
         &m->film_texture,
         &m->film_thickness_texture,
+        &m->grain_texture,
     };
 
     return all[number];
@@ -385,6 +387,8 @@ static void set_sheen_and_grain(struct material *m, const struct mtl_source *s,
     if (ps > 0)
         m->sheen_alpha = fmaxf((float)(roughness * roughness), SHEEN_ALPHA_MIN);
     m->anisotropy = (float)statement_unit(&s->aniso, "aniso", at);
+    if (m->anisotropy > 0)
+        m->grain_texture = mtl_source_map(s, MTL_MAP_GRAIN);
     if (m->anisotropy > 0 && isfinite(turn)) {
         turn = 2 * M_PI * (turn - floor(turn));
         m->grain = (struct vec2){(float)cos(turn), (float)sin(turn)};
@@ -496,7 +500,8 @@ struct material material_from_source(const struct mtl_source *s,
                                              MTL_MAP_PS_ROUGHNESS,
                                              MTL_MAP_KS_WEIGHT,
                                              MTL_MAP_PF,
-                                             MTL_MAP_PF_THICKNESS};
+                                             MTL_MAP_PF_THICKNESS,
+                                             MTL_MAP_GRAIN};
     struct statement_place at = {path, report};
     struct material m = material_default();
     struct mtl_color light = mtl_source_light(s);

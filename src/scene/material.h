@@ -32,7 +32,7 @@
  * Tf_distance, in place of Tf. Ks_full is used in place of MATERIAL_SPECULAR.
  * Ps_color, or map_Ps_color, colours sheen. map_Ks_weight, map_Ps_roughness and
  * map_Pf multiply Ks, Ps_roughness and Pf; map_Pf_thickness goes from
- * Pf_thinnest to Pf_thickness.
+ * Pf_thinnest to Pf_thickness. map_grain turns the grain and reduces aniso.
  *
  * In files of Blender (enum mtl_dialect), Ks never is a colour of metal; Pm is
  * Ka with illum 3 and 6 if there is no Pm; roughness is 1 - sqrt(Ns / 1000);
@@ -68,7 +68,7 @@
 #define MATERIAL_FILM_THICKNESS_MAX 2000
 
 /* Maps of a material. */
-#define MATERIAL_MAPS 16
+#define MATERIAL_MAPS 17
 
 struct material material_default(void);
 

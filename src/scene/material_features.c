@@ -42,7 +42,8 @@ static bool needs_options(const struct material *m,
             return true;
     return m->specular_weight_texture != NO_INDEX ||
            m->sheen_alpha_texture != NO_INDEX || m->film_texture != NO_INDEX ||
-           m->film_thickness_texture != NO_INDEX;
+           m->film_thickness_texture != NO_INDEX ||
+           m->grain_texture != NO_INDEX;
 }
 
 static bool is_translucent(const struct texture *textures, uint32_t texture)

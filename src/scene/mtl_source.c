@@ -55,6 +55,7 @@ const char *const mtl_map_keys[MTL_MAPS] = {
     [MTL_MAP_KS_WEIGHT] = "map_Ks_weight",
     [MTL_MAP_PF] = "map_Pf",
     [MTL_MAP_PF_THICKNESS] = "map_Pf_thickness",
+    [MTL_MAP_GRAIN] = "map_grain",
     [MTL_MAP_NORM] = "norm",
     [MTL_MAP_BUMP] = "map_Bump",
 };

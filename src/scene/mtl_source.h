@@ -41,6 +41,7 @@ enum mtl_map {
     MTL_MAP_KS_WEIGHT,
     MTL_MAP_PF,
     MTL_MAP_PF_THICKNESS,
+    MTL_MAP_GRAIN,
     MTL_MAP_NORM,
     MTL_MAP_BUMP,
     MTL_MAPS

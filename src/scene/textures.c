@@ -421,6 +421,7 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
     resolve_data_map(host, &m->specular_weight_texture);
     resolve_data_map(host, &m->film_texture);
     resolve_data_map(host, &m->film_thickness_texture);
+    resolve_data_map(host, &m->grain_texture);
     resolve_data_map(host, &m->opacity_texture);
     resolve_data_map(host, &m->normal_texture);
     resolve_bump_map(host, scene, m, report);

@@ -431,7 +431,8 @@ static const char all_of_it[] =
     "\"sheenColorFactor\":[0.2,0.4,0.1],\"sheenRoughnessFactor\":0.6,"
     "\"sheenColorTexture\":{\"index\":1},\"sheenRoughnessTexture\":{"
     "\"index\":1}},\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.5,"
-    "\"anisotropyRotation\":0.9},\"KHR_materials_iridescence\":{"
+    "\"anisotropyRotation\":0.9,\"anisotropyTexture\":{\"index\":1}},\"KHR_"
+    "materials_iridescence\":{"
     "\"iridescenceFactor\":0.7,\"iridescenceTexture\":{\"index\":1},"
     "\"iridescenceThicknessTexture\":{\"index\":1}}}}";
 

@@ -35,6 +35,7 @@
       M(material, normal_depth) M(material, specular_weight_texture)          \
       M(material, sheen_alpha_texture) M(material, film_texture)              \
       M(material, film_thickness_texture) M(material, film_thinnest)          \
+      M(material, grain_texture)                                              \
       M(material, transmission) M(material, coat)                             \
       M(material, coat_alpha) M(material, sheen) M(material, sheen_alpha)     \
       M(material, anisotropy) M(material, grain)                              \

@@ -250,6 +250,39 @@ static void rare_maps_multiply(void **state)
     unload(&l);
 }
 
+/* A map of the grain gives the direction x + i y times that of anisor, and
+ * highlights of glTF's widths: a + (1 - a) (s f)^2 and a, of which s = 1 is Pr
+ * and aniso here. */
+static void maps_turn_and_scale_the_grain(void **state)
+{
+    const uint8_t pixel[3] = {204, 51, 153};
+    struct ray r = {.o = {0.3f, 0.3f, 1}, .d = {0, 0, -1}};
+    struct hit h = {.t = 1, .b0 = 0.4f, .b1 = 0.3f, .b2 = 0.3f, .tri = 0};
+    double x = 2 * 204 / 255. - 1, y = 2 * 51 / 255. - 1, f = 153 / 255.;
+    double along, across, turn = 2 * M_PI * 0.1;
+    struct surface_point v;
+    struct loaded l;
+    struct bsdf b;
+    struct ggx g;
+
+    (void)state;
+    write_image("two.tga", 1, 1, 3, pixel);
+    load(&l, "Kd 1\nPm 1\nPr .7\naniso .8\nanisor .1\nmap_grain two.tga");
+    assert_true(surface_at(&l.world, &l.material, r, h, &v));
+    check_close((double)v.t.x,
+                (x * cos(turn) - y * sin(turn)) / sqrt(x * x + y * y), 1e-5);
+    check_close((double)v.t.y,
+                (x * sin(turn) + y * cos(turn)) / sqrt(x * x + y * y), 1e-5);
+    b = bsdf_at(&l.world, &l.material, &v);
+    g = bsdf_facets(&b);
+    along = 0.49 / sqrt(1 - 0.9 * 0.8);
+    across = 0.49 * sqrt(1 - 0.9 * 0.8);
+    check_close((double)(g.alpha * g.stretch),
+                across + (along - across) * f * f, 1e-5);
+    check_close((double)(g.alpha / g.stretch), across, 1e-5);
+    unload(&l);
+}
+
 /* Each texture is looked up by the texture coordinates that it names. */
 static void second_coordinates_are_used(void **state)
 {
@@ -675,6 +708,7 @@ int main(void)
         cmocka_unit_test(options_rotate),
         cmocka_unit_test(numbers_come_from_their_channels),
         cmocka_unit_test(rare_maps_multiply),
+        cmocka_unit_test(maps_turn_and_scale_the_grain),
         cmocka_unit_test(second_coordinates_are_used),
         cmocka_unit_test(options_move_and_scale),
         cmocka_unit_test(extreme_coordinates_have_colors),
