@@ -156,7 +156,7 @@ static void other_sequences_are_dropped(void **state)
         "\033P1$r0;48:5:16m\033\\", /* rounded to 256 colours */
         "\033P0$r\033\\",           /* the question is unknown */
         "\033P>|XTerm(379)\033\\",
-        "\033]11;rgb:0000/0000/0000\033\\",
+        "\033]10;rgb:0000/0000/0000\033\\",
         "\033]11;rgb:0000/00x0/0000\007",
         "\033]11;rgb:0000/0000\007",
         "\033]11;?\007",
