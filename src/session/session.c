@@ -229,6 +229,7 @@ static bool begin(struct session *s, struct render_limits limits,
     }
     s->restart_ns = clock_ns();
     s->speeds = (struct speeds){0};
+    s->errors.count = 0;
     thread_load_begin(&s->load, render_backend(s->render));
     if (!render_start(s->render, &job, err))
         return false;
@@ -273,6 +274,7 @@ struct render_progress session_progress(struct session *s)
     struct render_progress p = render_progress(s->render);
 
     speeds_update(&s->speeds, p.render_ns, p.samples);
+    error_history_update(&s->errors, &p);
     return p;
 }
 

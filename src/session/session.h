@@ -12,6 +12,7 @@
 #define GLIM_SESSION_H
 
 #include "scene/world.h"
+#include "render/error_history.h"
 #include "render/render_loop.h"
 #include "render/render_metadata.h"
 #include "render/render_rates.h"
@@ -55,6 +56,7 @@ struct session {
     struct film_file *from;
     /* measured since restart_ns */
     struct speeds speeds;
+    struct error_history errors;
     struct thread_load load;
 };
 
@@ -102,8 +104,8 @@ struct develop session_develop(const struct session *s);
 /* Returns the kernel features that renders of the session need. */
 uint32_t session_features(const struct session *s);
 
-/* Returns the progress of the render and adds it to the speeds. Call it several
- * times per second. */
+/* Returns the progress of the render and adds it to the speeds and errors. Call
+ * it several times per second. */
 struct render_progress session_progress(struct session *s);
 
 /* Returns the metadata of the picture as it is now, or of its filtered copy. */

@@ -4,11 +4,16 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
+#include "terminal/gauge.h"
 #include "terminal/xmalloc.h"
 #include "studio/progress_text.h"
+#include "studio/status_line.h"
 
 /* Time between two updates, long enough to read the numbers. */
 #define UPDATE_NS UINT64_C(500000000)
+
+/* Row of the gauge in the window. */
+#define GAUGE_ROW 2
 
 static const struct backend *backend_of(const struct render_control *control)
 {
@@ -49,6 +54,19 @@ static void measure_loads(struct progress_panel *panel,
     panel->load_ns = now_ns;
 }
 
+/* Draws the gauge in place of its text. */
+static void draw_gauge(const struct render_progress *p, struct screen *screen)
+{
+    const struct term_caps *d = &screen->display;
+    struct cell cells[PROGRESS_TEXT_COLS];
+    double part = 0;
+
+    status_line_part(p, &part);
+    gauge_cells(cells, PROGRESS_TEXT_COLS, part,
+                theme_style(d->theme, d->palette, ROLE_GAUGE), d->has_unicode);
+    windows_paint(WINDOW_OVER, GAUGE_ROW, 2, cells, PROGRESS_TEXT_COLS);
+}
+
 void progress_panel_draw(struct progress_panel *panel,
                          const struct render_control *control,
                          struct screen *screen, uint64_t now_ns)
@@ -62,6 +80,7 @@ void progress_panel_draw(struct progress_panel *panel,
     struct progress_text_facts facts = {
         .progress = &control->progress,
         .speeds = &control->session->speeds,
+        .errors = &control->session->errors,
         .loads = loads,
         .has_unicode = screen->display.has_unicode,
         .ranks = ranks,
@@ -82,6 +101,7 @@ void progress_panel_draw(struct progress_panel *panel,
                            row_count);
     else
         screen_set_window(screen, lines, row_count);
+    draw_gauge(&control->progress, screen);
     panel->due_ns = now_ns + UPDATE_NS;
 }
 

@@ -7,6 +7,7 @@
 
 #include "render/error_text.h"
 #include "render/render_left.h"
+#include "studio/error_plot.h"
 #include "studio/status_line.h"
 
 #define PLOT_ROWS 3
@@ -243,6 +244,30 @@ static void format_load_title(char *line, const struct progress_text_facts *f)
     put_sides(line, left, right);
 }
 
+/* Formats the plot of the error with the time to its target. */
+static int format_errors(char lines[][PROGRESS_TEXT_BYTES],
+                         const struct progress_text_facts *f)
+{
+    const struct render_progress *p = f->progress;
+    double target = p->error_limit > 0 ? p->error_limit
+                                       : error_text_target(p->film_error.high);
+    char right[48] = "";
+    double ns = 0;
+
+    if (p->state == RENDER_RUNNING && p->film_error.is_known &&
+        p->film_error.high > target && render_left_to_error(p, target, &ns)) {
+        char left[24];
+
+        status_line_duration(left, sizeof left, ns < 1e18 ? (uint64_t)ns : 0);
+        snprintf(right, sizeof right, "%g %% in %s", 100 * target, left);
+    }
+    put_sides(lines[0], "error over time", right);
+    error_plot_format(lines + 1, f->errors, target,
+                      ns > 0 ? (ns + (double)p->render_ns) * 1e-9 : 0,
+                      f->has_unicode);
+    return 1 + ERROR_PLOT_ROWS;
+}
+
 /* ---- ranks ---- */
 
 /* Returns true if rank a is to be shown before rank b. */
@@ -320,6 +345,7 @@ int progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],
         format_plot(lines[row++], f, i);
     format_load_title(lines[row++], f);
     format_loads(lines[row++], f);
+    row += format_errors(lines + row, f);
     if (count > 0)
         format_rank_title(lines[row++], f);
     for (int i = 0; i < count; i++)

@@ -17,6 +17,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "render/error_history.h"
 #include "render/render_loop.h"
 #include "render/render_rates.h"
 
@@ -25,8 +26,8 @@
 /* Ranks that have a line: the late ones first, then the slow ones. */
 #define PROGRESS_TEXT_RANKS 8
 
-/* Most lines: those of one process, a title, and the ranks. */
-#define PROGRESS_TEXT_ROWS (12 + 1 + PROGRESS_TEXT_RANKS)
+/* Most lines: those of one process, the errors, a title, and the ranks. */
+#define PROGRESS_TEXT_ROWS (12 + 5 + 1 + PROGRESS_TEXT_RANKS)
 
 /* Size of a line: characters of the diagrams take three bytes in UTF-8. */
 #define PROGRESS_TEXT_BYTES (3 * PROGRESS_TEXT_COLS + 1)
@@ -34,6 +35,7 @@
 struct progress_text_facts {
     const struct render_progress *progress;
     const struct speeds *speeds;
+    const struct error_history *errors;
     const double *loads; /* load of each thread, from 0 to 1 */
     int load_count;      /* 0 if an OpenCL device renders */
     bool has_unicode;

@@ -153,9 +153,7 @@ static void format_noise(char text[FIELDS][FIELD_BYTES],
              duration);
 }
 
-/* Finds the part of the way to the nearest limit that is done. In a render
- * without limits it is that of the time to the next round error. */
-static bool find_part(const struct render_progress *p, double *part)
+bool status_line_part(const struct render_progress *p, double *part)
 {
     struct render_left left = render_left(p);
     double ns;
@@ -207,7 +205,7 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
     format_samples(text[FIELD_SAMPLES], p);
     format_left_fields(text, p);
     format_noise(text, p);
-    if (find_part(p, part))
+    if (status_line_part(p, part))
         snprintf(text[FIELD_GAUGE], FIELD_BYTES, "%*s", GAUGE_COLS, "");
     status_line_duration(text[FIELD_ELAPSED], FIELD_BYTES, p->render_ns);
     format_speed(text[FIELD_SPEED], p);

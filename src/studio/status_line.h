@@ -41,6 +41,11 @@ struct status_line {
 void status_line_format(struct status_row *row, int cols,
                         const struct status_line *s);
 
+/* Finds the part of the way to the nearest limit that is done, or without one
+ * the part of the time to the next round error. Returns false if it is unknown.
+ */
+bool status_line_part(const struct render_progress *p, double *part);
+
 /* Formats a time in seconds, rounded down: 7 s, 1:07, 2:01:07. */
 void status_line_duration(char *text, size_t size_bytes, uint64_t ns);
 

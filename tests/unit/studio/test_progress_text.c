@@ -11,6 +11,8 @@
 
 #define S_NS UINT64_C(1000000000)
 
+static const struct error_history no_errors;
+
 static char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES];
 
 static int cols_of(const char *text)
@@ -53,7 +55,8 @@ static void half_done_renders_show_their_progress(void **state)
                                 .render_ns = 100 * S_NS};
     struct speeds speeds = {0};
     double loads[] = {1, 0.5};
-    struct progress_text_facts f = {&p, &speeds, loads, 2, false, NULL, 0};
+    struct progress_text_facts f = {&p, &speeds, &no_errors, loads,
+                                    2,  false,   NULL,       0};
 
     (void)state;
     speeds_update(&speeds, 100 * S_NS, 25000000);
@@ -85,7 +88,8 @@ static void plots_are_to_scale(void **state)
 {
     struct render_progress p = {.state = RENDER_RUNNING};
     struct speeds speeds = {.count = 4, .span_ns = S_NS, .time_ns = 4 * S_NS};
-    struct progress_text_facts f = {&p, &speeds, NULL, 0, true, NULL, 0};
+    struct progress_text_facts f = {&p, &speeds, &no_errors, NULL,
+                                    0,  true,    NULL,       0};
 
     (void)state;
     speeds.samples[0] = 1200;
@@ -123,13 +127,13 @@ static void lines_have_room(void **state)
                                     .rays = big,
                                     .render_ns = big};
         struct rank_progress ranks[] = {{big, 1, 1, 0}, {0, 0, 0, big}};
-        struct progress_text_facts f = {&p,       &speeds, loads, 1 + bits * 16,
-                                        bits % 2, ranks,   2};
+        struct progress_text_facts f = {
+            &p, &speeds, &no_errors, loads, 1 + bits * 16, bits % 2, ranks, 2};
         int row_count;
 
         speeds_update(&speeds, (uint64_t)bits * S_NS, big);
         row_count = progress_text_format(lines, &f);
-        assert_int_equal(row_count, 15);
+        assert_int_equal(row_count, 20);
         for (int i = 0; i < row_count; i++)
             assert_true(cols_of(lines[i]) <= PROGRESS_TEXT_COLS);
     }
@@ -139,7 +143,8 @@ static void live_mode_device_and_nothing_are_shown(void **state)
 {
     struct render_progress p = {.state = RENDER_IDLE};
     struct speeds speeds = {0};
-    struct progress_text_facts f = {&p, &speeds, NULL, 0, true, NULL, 0};
+    struct progress_text_facts f = {&p, &speeds, &no_errors, NULL,
+                                    0,  true,    NULL,       0};
 
     (void)state;
     progress_text_format(lines, &f);
@@ -155,27 +160,28 @@ static void late_and_slow_ranks_are_shown(void **state)
     static struct rank_progress ranks[100];
     struct render_progress p = {.state = RENDER_RUNNING};
     struct speeds speeds = {0};
-    struct progress_text_facts f = {&p, &speeds, NULL, 0, false, ranks, 2};
+    struct progress_text_facts f = {&p, &speeds, &no_errors, NULL,
+                                    0,  false,   ranks,      2};
 
     (void)state;
     for (int i = 0; i < 100; i++)
         ranks[i] = (struct rank_progress){(uint64_t)(2000 - i) * 1000, 20,
                                           2 * S_NS, S_NS / 2};
-    assert_int_equal(progress_text_format(lines, &f), 15);
-    assert_string_equal(lines[12], "2 ranks                             ");
-    assert_string_equal(lines[13], "rank 0        2.00 M        1.00 M/s");
-    assert_string_equal(lines[14], "rank 1        2.00 M        1.00 M/s");
+    assert_int_equal(progress_text_format(lines, &f), 20);
+    assert_string_equal(lines[17], "2 ranks                             ");
+    assert_string_equal(lines[18], "rank 0        2.00 M        1.00 M/s");
+    assert_string_equal(lines[19], "rank 1        2.00 M        1.00 M/s");
     f.rank_count = 100;
     assert_int_equal(progress_text_format(lines, &f), PROGRESS_TEXT_ROWS);
-    assert_string_equal(lines[12], "100 ranks              the slowest 8");
-    assert_string_equal(lines[13], "rank 92       1.91 M         954 k/s");
+    assert_string_equal(lines[17], "100 ranks              the slowest 8");
+    assert_string_equal(lines[18], "rank 92       1.91 M         954 k/s");
     /* 20 times its usual tenth of a second is 2 s */
     ranks[70].silent_ns = 75 * S_NS;
     progress_text_format(lines, &f);
-    assert_string_equal(lines[12], "100 ranks                     1 late");
-    assert_string_equal(lines[13], "rank 70       1.93 M       late 1:15");
-    assert_string_equal(lines[14], "rank 93       1.91 M         954 k/s");
-    assert_string_equal(lines[20], "rank 99       1.90 M         950 k/s");
+    assert_string_equal(lines[17], "100 ranks                     1 late");
+    assert_string_equal(lines[18], "rank 70       1.93 M       late 1:15");
+    assert_string_equal(lines[19], "rank 93       1.91 M         954 k/s");
+    assert_string_equal(lines[25], "rank 99       1.90 M         950 k/s");
 }
 
 int main(void)
