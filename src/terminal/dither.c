@@ -40,6 +40,14 @@ static const uint8_t levels[6] = {0, 95, 135, 175, 215, 255};
 #define GRAIN_WEIGHT 0.6f
 #define GRAIN_FREE   0.0012f
 
+/* A colour with less chroma than GREY is mixed of greys alone: complementary
+ * colours whose mean is grey are seen as violet and teal specks. Others are
+ * mixed of greys and of colours whose hue differs by at most 60 degrees. The
+ * error of five shipped scenes, blurred over 3x3 pixels, grows by 0 to 13 % by
+ * this, and the bytes of a frame shrink by 0 to 11 %. */
+#define GREY       0.025f
+#define HUE_COSINE 0.5f
+
 /* Bayer matrix: thresholds that distribute a level over 4x4 pixels. */
 #define THRESHOLDS 16
 static const int8_t bayer[4][4] = {{0, 8, 2, 10},
@@ -171,6 +179,22 @@ uint32_t dither_nearest_256(struct rgb c)
                : cube;
 }
 
+static float chroma_of(struct vec3 lab)
+{
+    return sqrtf(lab.y * lab.y + lab.z * lab.z);
+}
+
+/* Returns true if a colour may be in the mix for `wanted`. */
+static bool may_mix(struct vec3 color, struct vec3 wanted)
+{
+    float chroma = chroma_of(color), wanted_chroma = chroma_of(wanted);
+
+    if (chroma < 1e-3f)
+        return true;
+    return wanted_chroma >= GREY && color.y * wanted.y + color.z * wanted.z >=
+                                        HUE_COSINE * chroma * wanted_chroma;
+}
+
 /* Finds the colours nearest to `lab`, by insertion. */
 static void find_candidates(const struct dither *d, struct vec3 lab,
                             struct candidate found[CANDIDATES])
@@ -181,7 +205,7 @@ static void find_candidates(const struct dither *d, struct vec3 lab,
         float distance = distance_of(d->colors[i].lab, lab);
         int at = CANDIDATES - 1;
 
-        if (distance >= found[at].distance)
+        if (distance >= found[at].distance || !may_mix(d->colors[i].lab, lab))
             continue;
         for (; at > 0 && found[at - 1].distance > distance; at--)
             found[at] = found[at - 1];

@@ -149,6 +149,53 @@ static void ramps_have_no_bands(void **state)
     dither_free(&d);
 }
 
+/* Returns OKLab's a and b of an sRGB colour, after Ottosson 2020. */
+static void chroma_of(const double light[3], double ab[2])
+{
+    double l = cbrt(0.4122214708 * light[0] + 0.5363325363 * light[1] +
+                    0.0514459929 * light[2]);
+    double m = cbrt(0.2119034982 * light[0] + 0.6806995451 * light[1] +
+                    0.1073969566 * light[2]);
+    double s = cbrt(0.0883024619 * light[0] + 0.2817188376 * light[1] +
+                    0.6299787005 * light[2]);
+
+    ab[0] = 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s;
+    ab[1] = 0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s;
+}
+
+/* Greys are mixed of greys, and no colour of specks of another hue. */
+static void hues_stay(void **state)
+{
+    struct dither d = make_dither();
+    uint64_t seed = 3;
+
+    (void)state;
+    for (int n = 0; n < 4000; n++) {
+        int grey = (int)(check_random(&seed) * 230);
+        int spread = n % 2 == 0 ? 3 : 120;
+        struct rgb c = {grey + (int)(check_random(&seed) * spread) % 26,
+                        grey + (int)(check_random(&seed) * spread) % 26, grey};
+        double want[3], got[3], a[2], b[2];
+
+        want[0] = light_of_srgb(c.r);
+        want[1] = light_of_srgb(c.g);
+        want[2] = light_of_srgb(c.b);
+        chroma_of(want, a);
+        for (int i = 0; i < 16; i++) {
+            uint32_t number = dither_color(&d, c, i % 4, i / 4, PALETTE_256);
+
+            light_of_256((int)number, got);
+            chroma_of(got, b);
+            if (hypot(b[0], b[1]) < 1e-3)
+                continue;
+            assert_true(hypot(a[0], a[1]) > 0.015);
+            assert_true(a[0] * b[0] + a[1] * b[1] >
+                        0.3 * hypot(a[0], a[1]) * hypot(b[0], b[1]));
+        }
+    }
+    dither_free(&d);
+}
+
 /* A flat area of any colour is closer to it than the nearest palette colour. */
 static void flat_areas_come_closer(void **state)
 {
@@ -249,6 +296,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_are_those_of_xterm),
         cmocka_unit_test(ramps_have_no_bands),
+        cmocka_unit_test(hues_stay),
         cmocka_unit_test(flat_areas_come_closer),
         cmocka_unit_test(corners_stay_pure),
         cmocka_unit_test(small_changes_change_little),
