@@ -61,13 +61,14 @@ FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
 # src/render/cpu_kernel.c is built for each instruction set and each set of
 # features. cpu_dispatch.c uses the first set that covers the scene: walls and
-# lamps, images on them, most materials, each also with what the filter needs,
-# all of light, or all features.
+# lamps, images on them, most materials, those of typical glTF files, each also
+# with what the filter needs, all of light, or all features.
 ISAS := $(if $(X86_64),avx2 avx512)
 FLAGS_avx2 := -mavx2 -mfma -mbmi
 FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
 	-mprefer-vector-width=256
-SETS := lamps lamps_filter images images_filter shiny shiny_filter light
+SETS := lamps lamps_filter images images_filter shiny shiny_filter gltf \
+	gltf_filter light
 FEATURES_lamps := FEATURE_EMITTERS
 FEATURES_lamps_filter := $(FEATURES_lamps) | FEATURE_FILTER
 FLAGS_lamps := -DFLATTEN
@@ -80,6 +81,11 @@ FEATURES_shiny := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_SKY_IMAGE | \
 	FEATURE_DIRECTIONAL_LIGHTS | \
 	FEATURE_GUIDE
 FEATURES_shiny_filter := $(FEATURES_shiny) | FEATURE_FILTER
+FEATURES_gltf := $(FEATURES_images) | FEATURE_TEXTURE_OPTIONS | \
+	FEATURE_SKY_IMAGE | FEATURE_DIRECTIONAL_LIGHTS | FEATURE_POINT_LIGHTS | \
+	FEATURE_METAL | FEATURE_PLASTIC | FEATURE_ROUGH | FEATURE_ROUGH_DIFFUSE | \
+	FEATURE_PRINCIPLED | FEATURE_BUMPS
+FEATURES_gltf_filter := $(FEATURES_gltf) | FEATURE_FILTER
 FEATURES_light := FEATURES_ALL & ~(FEATURE_AOV | FEATURE_TEXTURE_OPTIONS | \
 	FEATURE_INSTANCES | FEATURE_VERTEX_ALPHAS | FEATURE_TANGENTS)
 PATHS := $(patsubst %,$(B)/paths_%.o,$(ISAS) \

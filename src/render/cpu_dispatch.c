@@ -14,18 +14,20 @@ static bool always(void)
 
 /* Builds of the kernel that the Makefile makes for each instruction set, from
  * the fewest features to all. */
-enum { BUILDS = 8, FULL = BUILDS - 1 };
+enum { BUILDS = 10, FULL = BUILDS - 1 };
 
 #define DECLARE(isa)                                      \
     extern const struct cpu_kernel paths_##isa##_lamps,   \
         paths_##isa##_lamps_filter, paths_##isa##_images, \
         paths_##isa##_images_filter, paths_##isa##_shiny, \
-        paths_##isa##_shiny_filter, paths_##isa##_light, paths_##isa
+        paths_##isa##_shiny_filter, paths_##isa##_gltf,   \
+        paths_##isa##_gltf_filter, paths_##isa##_light, paths_##isa
 #define BUILDS_OF(isa)                                           \
     {                                                            \
         &paths_##isa##_lamps, &paths_##isa##_lamps_filter,       \
             &paths_##isa##_images, &paths_##isa##_images_filter, \
             &paths_##isa##_shiny, &paths_##isa##_shiny_filter,   \
+            &paths_##isa##_gltf, &paths_##isa##_gltf_filter,     \
             &paths_##isa##_light, &paths_##isa,                  \
     }
 
