@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "inspect/overlay.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "render/projection.h"
-#include "kernels/vec.h"
+#include "kernels/traverse.h"
 
 #define BOX_COLOR   0x40ff60u
 #define BOX_DIMMEST 0.25
@@ -13,6 +14,11 @@
 #define TRAIL_COLOR  0xb0b0b0u
 #define STEP_COLOR   0xffff40u
 #define VERTEX_COLOR 0xff4040u
+
+/* Pixels of a dash, and the part of the way to a point within which a surface
+ * hides it. */
+#define DASH   3
+#define NEARER 0.999f
 
 #define NORMAL_COLOR  0x40ff40u
 #define TANGENT_COLOR 0xff4040u
@@ -139,14 +145,55 @@ uint32_t overlay_boxes(struct frame *frame, const struct camera *camera,
 
 /* ---- paths ---- */
 
+/* Returns true if a surface is between the eye and a point. */
+static bool is_behind(const struct world *w, struct vec3 eye, struct vec3 p)
+{
+    struct vec3 way = v3_sub(p, eye);
+    float length = v3_length(way);
+    struct ray r = {.o = eye, .t_max = length * NEARER};
+    struct hit h;
+
+    if (w == NULL || !(length > 0.0f))
+        return false;
+    r.d = v3_scale(way, 1.0f / length);
+    return hit_closest(w, r, &h);
+}
+
+/* Draws a step of a path in pieces; of those behind surfaces every other one.
+ */
+static void draw_step(struct frame *f, const struct camera *c,
+                      const struct world *w,
+                      const struct path_record_step *step, uint32_t rgb)
+{
+    struct vec3 way = v3_sub(step->to, step->from);
+    struct projected ends[2];
+    int count;
+
+    if (!projection_line(c, step->from, step->to, ends))
+        return;
+    count = 1 + (int)(fmin(hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y),
+                           f->width + f->height) /
+                      DASH);
+    for (int i = 0; i < count; i++) {
+        struct vec3 a =
+            v3_add(step->from, v3_scale(way, (float)i / (float)count));
+        struct vec3 b =
+            v3_add(step->from, v3_scale(way, (float)(i + 1) / (float)count));
+
+        if (i % 2 == 0 || !is_behind(w, c->eye, v3_scale(v3_add(a, b), 0.5f)))
+            line(f, c, a, b, rgb);
+    }
+}
+
 void overlay_path(struct frame *frame, const struct camera *camera,
-                  const struct path_record *path, int count)
+                  const struct world *world, const struct path_record *path,
+                  int count)
 {
     struct projected p;
 
     for (int i = 0; i < count; i++)
-        line(frame, camera, path->steps[i].from, path->steps[i].to,
-             i == count - 1 ? STEP_COLOR : TRAIL_COLOR);
+        draw_step(frame, camera, world, &path->steps[i],
+                  i == count - 1 ? STEP_COLOR : TRAIL_COLOR);
     for (int i = 0; i < count; i++) {
         if (path->steps[i].way != PATH_RECORD_SKY &&
             projection_point(camera, path->steps[i].to, &p))

@@ -24,9 +24,12 @@
 uint32_t overlay_boxes(struct frame *frame, const struct camera *camera,
                        const struct bvh *bvh, uint32_t level);
 
-/* Draws the first `count` steps of a path, the last of them bright. */
+/* Draws the first `count` steps of a path, the last of them bright. What is
+ * behind surfaces of the world is dashed; NULL: nothing is. The world has a
+ * binary tree. */
 void overlay_path(struct frame *frame, const struct camera *camera,
-                  const struct path_record *path, int count);
+                  const struct world *world, const struct path_record *path,
+                  int count);
 
 /* Draws the frame of a surface (normal green, tangents red and blue), the ray
  * to the eye in orange, and directions of scattering. The colour of a direction

@@ -12,9 +12,11 @@
 #define MATERIAL_COLS  10
 #define LOBES_COLS     40 /* width of the material's name on its line */
 #define MATERIAL_BYTES 160
+#define EVENT_COLS     24 /* and in a sentence */
 #define PLACE_COLS     17
 #define PDF_COLS       6
 #define NUMBERS_BYTES  64
+#define WEIGHT_BYTES   32
 
 /* Returns the name of a triangle's material, or words for none. */
 static const char *material_of(const struct overlay_names *names, uint32_t tri)
@@ -96,6 +98,68 @@ static void add_step(struct overlay_text *l, const struct scene *scene,
              (double)s->throughput.x, (double)s->throughput.y,
              (double)s->throughput.z, PDF_COLS, pdf_text, (double)s->light.x,
              (double)s->light.y, (double)s->light.z);
+}
+
+static double luminance(struct vec3 c)
+{
+    return 0.2126 * (double)c.x + 0.7152 * (double)c.y + 0.0722 * (double)c.z;
+}
+
+/* Formats the factor of a step. It is above 1 where the direction was chosen
+ * less often than light goes there. */
+static void format_weight(char text[WEIGHT_BYTES], double factor)
+{
+    if (factor < 1.005)
+        snprintf(text, WEIGHT_BYTES, ", keeps %.0f %%", 100 * factor);
+    else
+        snprintf(text, WEIGHT_BYTES, ", counts %.2g times", factor);
+}
+
+/* Says what happens at the end of a step. `next` is the throughput after it, or
+ * NULL if that is unknown. */
+static void add_event(struct overlay_text *l, const struct overlay_names *names,
+                      const struct path_record_step *s, const struct vec3 *next,
+                      int number)
+{
+    static const char *const ends[] = {
+        [PATH_RECORD_SKY] = "leaves the scene for the sky",
+        [PATH_RECORD_ENDED] = "ends there",
+        [PATH_RECORD_ROULETTE] = "ends by Russian roulette",
+        [PATH_RECORD_REFLECTED] = "is reflected",
+        [PATH_RECORD_TRANSMITTED] = "goes through",
+    };
+    double before = luminance(s->throughput);
+    char material[MATERIAL_BYTES], keeps[WEIGHT_BYTES] = "";
+    const char *light = luminance(s->light) > 0 ? ", finds light" : "";
+
+    if (s->way == PATH_RECORD_SKY) {
+        snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%2d  %s%s", number,
+                 ends[s->way], light);
+        return;
+    }
+    text_width_cut(material, sizeof material, material_of(names, s->hit.tri),
+                   EVENT_COLS);
+    if (next && before > 0)
+        format_weight(keeps, luminance(*next) / before);
+    snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%2d  hits %s%s%s, %s", number,
+             material, light, keeps, ends[s->way]);
+}
+
+void overlay_text_events(struct overlay_text *l,
+                         const struct overlay_names *names,
+                         const struct path_record *path, int count)
+{
+    int first = count > OVERLAY_TEXT_STEPS ? count - OVERLAY_TEXT_STEPS : 0;
+
+    l->count = 0;
+    for (int i = first; i < count; i++)
+        add_event(l, names, &path->steps[i],
+                  i + 1 < path->count ? &path->steps[i + 1].throughput : NULL,
+                  i + 1);
+    snprintf(next_line(l), OVERLAY_TEXT_BYTES,
+             "step %d of %d; the path brings light %.3g %.3g %.3g", count,
+             path->vertices, (double)path->radiance.x, (double)path->radiance.y,
+             (double)path->radiance.z);
 }
 
 void overlay_text_path(struct overlay_text *l, const struct scene *scene,

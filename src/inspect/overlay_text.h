@@ -30,8 +30,13 @@ struct overlay_names {
     char *const *materials;
 };
 
-/* Lists the first `count` steps, or the last ones of them that fit, and the
- * light that the whole path has gathered. */
+/* Says what happens in the first `count` steps, or in the last ones of them
+ * that fit, and which light the whole path brings. */
+void overlay_text_events(struct overlay_text *l,
+                         const struct overlay_names *names,
+                         const struct path_record *path, int count);
+
+/* The same as a table of numbers. */
 void overlay_text_path(struct overlay_text *l, const struct scene *scene,
                        const struct overlay_names *names,
                        const struct path_record *path, int count);

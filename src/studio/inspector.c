@@ -19,6 +19,12 @@ static struct session *session_of(const struct inspector *inspector)
 
 /* ---- drawings ---- */
 
+static bool draws_path(const struct inspector *inspector)
+{
+    return inspector->drawing == INSPECTOR_PATH ||
+           inspector->drawing == INSPECTOR_NUMBERS;
+}
+
 static void draw_over(struct inspector *inspector, struct frame *frame)
 {
     struct world w;
@@ -33,8 +39,8 @@ static void draw_over(struct inspector *inspector, struct frame *frame)
                       inspector->level);
     else if (inspector->drawing == INSPECTOR_LOBES && inspector->is_surface)
         overlay_lobes(frame, &camera, &inspector->lobes);
-    else if (inspector->drawing == INSPECTOR_PATH)
-        overlay_path(frame, &camera, &inspector->trail, inspector->step);
+    else if (draws_path(inspector))
+        overlay_path(frame, &camera, &w, &inspector->trail, inspector->step);
 }
 
 void inspector_preview(struct inspector *inspector, struct frame *frame)
@@ -74,9 +80,13 @@ void inspector_open_table(struct inspector *inspector)
         overlay_text_lobes(&legend, &names, &inspector->lobes);
         snprintf(title, sizeof title, " directions from pixel %u %u ",
                  inspector->x, inspector->y);
-    } else if (inspector->drawing == INSPECTOR_PATH) {
-        overlay_text_path(&legend, &s->scene, &names, &inspector->trail,
-                          inspector->step);
+    } else if (draws_path(inspector)) {
+        if (inspector->drawing == INSPECTOR_PATH)
+            overlay_text_events(&legend, &names, &inspector->trail,
+                                inspector->step);
+        else
+            overlay_text_path(&legend, &s->scene, &names, &inspector->trail,
+                              inspector->step);
         snprintf(title, sizeof title, " sample %llu of pixel %u %u - %s %s ",
                  (unsigned long long)inspector->sample, inspector->x,
                  inspector->y,
@@ -237,7 +247,7 @@ static void change(struct inspector *inspector, int by)
     inspector->control->has_changed = true;
     if (inspector->drawing == INSPECTOR_BOXES)
         change_level(inspector, by);
-    else if (inspector->drawing == INSPECTOR_PATH)
+    else if (draws_path(inspector))
         change_step(inspector, by);
     else
         render_control_say(
@@ -390,8 +400,7 @@ void inspector_previous_view(struct inspector *inspector)
 
 void inspector_step(struct inspector *inspector)
 {
-    if ((inspector->drawing == INSPECTOR_LOBES ||
-         inspector->drawing == INSPECTOR_PATH) &&
+    if ((inspector->drawing == INSPECTOR_LOBES || draws_path(inspector)) &&
         is_new_pick(inspector)) {
         begin_at_pick(inspector);
         say_drawing(inspector);

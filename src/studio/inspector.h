@@ -26,7 +26,8 @@ enum inspector_drawing {
     INSPECTOR_NOTHING,
     INSPECTOR_BOXES,
     INSPECTOR_LOBES,
-    INSPECTOR_PATH,
+    INSPECTOR_PATH,    /* with words, */
+    INSPECTOR_NUMBERS, /* or as a table */
     INSPECTOR_DRAWINGS
 };
 

@@ -92,6 +92,9 @@ keys v Left Left Left Left Left Left Enter
 wait_for "red, seen"
 keys t
 wait_for "sample 0 of pixel 40 2[0-9]"
+expect "1  hits red, finds light, ends there"
+expect "step 1 of 1; the path brings light 3 0 0"
+keys t
 expect "1 red .* end "
 expect "step 1 of 1; radiance of the whole path 3 0 0"
 keys '>'

@@ -275,9 +275,56 @@ static void colours_distinguish_numbers(void **state)
     }
 }
 
+/* Draws a path from left to right behind a wall in the right half, and counts
+ * the pixels of each half. */
+static void count_path(const struct world *w, const struct camera *camera,
+                       int halves[2])
+{
+    struct path_record path = {.count = 1};
+    struct frame frame;
+    struct error err;
+
+    path.steps[0] = (struct path_record_step){.from = {-0.9f, 0, 0},
+                                              .to = {0.9f, 0, 0},
+                                              .way = PATH_RECORD_SKY};
+    assert_true(frame_init(&frame, 100, 100, &err));
+    memset(frame.rgb, 0, 30000);
+    overlay_path(&frame, camera, w, &path, 1);
+    halves[0] = halves[1] = 0;
+    for (int i = 0; i < 10000; i++)
+        halves[i % 100 / 50] += frame.rgb[3 * i] > 0;
+    frame_free(&frame);
+}
+
+static void hidden_paths_are_dashed(void **state)
+{
+    struct mesh m = {.tri_count = 0};
+    struct camera camera = {.eye = {0, 0, 4},
+                            .forward = {0, 0, -1},
+                            .right = {0.25f, 0, 0},
+                            .up = {0, 0.25f, 0},
+                            .width = 100,
+                            .height = 100,
+                            .focus = 1};
+    int open[2], hidden[2];
+
+    (void)state;
+    mesh_add_quad(&m, v3(0, -1, 1), v3(2, -1, 1), v3(2, 1, 1), v3(0, 1, 1), 0);
+    mesh_finish(&m);
+    count_path(NULL, &camera, open);
+    count_path(&m.world, &camera, hidden);
+    assert_in_range(open[0], 44, 46);
+    assert_in_range(open[1], 44, 46);
+    assert_int_equal(hidden[0], open[0]);
+    /* pieces of three pixels and one, since ends are drawn */
+    assert_in_range(hidden[1], open[1] / 2, 3 * open[1] / 4);
+    mesh_free(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hidden_paths_are_dashed),
         cmocka_unit_test(lines_are_drawn_without_gaps),
         cmocka_unit_test(far_lines_take_little_time),
         cmocka_unit_test(projection_inverts_the_camera_ray),

@@ -49,6 +49,44 @@ static void paths_show_their_last_steps(void **state)
     check_has(l.lines[6], " sky ");
 }
 
+/* A path in words: .35 of its luminance is left after the first step, and half
+ * as much again is counted at the second. */
+static void paths_are_told(void **state)
+{
+    struct path_record trail = {.count = 4,
+                                .vertices = 5,
+                                .radiance = {0.5f, 0.25f, 0}};
+    struct overlay_text l;
+
+    (void)state;
+    trail.steps[0] = (struct path_record_step){.throughput = {1, 1, 1},
+                                               .hit.tri = 1,
+                                               .way = PATH_RECORD_REFLECTED};
+    trail.steps[1] = (struct path_record_step){.throughput = {.35f, .35f, .35f},
+                                               .light = {0, 1, 0},
+                                               .hit.tri = 0,
+                                               .way = PATH_RECORD_TRANSMITTED};
+    trail.steps[2] = (struct path_record_step){.throughput = {.7f, .7f, .7f},
+                                               .hit.tri = 1,
+                                               .way = PATH_RECORD_ROULETTE};
+    trail.steps[3] =
+        (struct path_record_step){.way = PATH_RECORD_SKY, .light = {1, 1, 1}};
+    overlay_text_events(&l, &names, &trail, 4);
+    assert_int_equal(l.count, 5);
+    assert_string_equal(l.lines[0],
+                        " 1  hits red paint, keeps 35 %, is reflected");
+    assert_string_equal(l.lines[1], " 2  hits no material, finds light, counts "
+                                    "2 times, goes through");
+    assert_string_equal(l.lines[2],
+                        " 3  hits red paint, keeps 0 %, ends by Russian "
+                        "roulette");
+    assert_string_equal(l.lines[3],
+                        " 4  leaves the scene for the sky, finds light");
+    check_has(l.lines[4], "step 4 of 5; the path brings light 0.5 0.25 0");
+    overlay_text_events(&l, &names, &trail, 1);
+    assert_int_equal(l.count, 2);
+}
+
 /* Numbers lose digits where space is short, but are never cut off. */
 static void numbers_are_not_cut(void **state)
 {
@@ -119,6 +157,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(paths_show_their_last_steps),
+        cmocka_unit_test(paths_are_told),
         cmocka_unit_test(numbers_are_not_cut),
         cmocka_unit_test(surfaces_show_their_frame),
         cmocka_unit_test(names_are_cut_whole),
