@@ -91,12 +91,13 @@ static void format_legend(struct comparison *c)
     else if (c->blocks.blocks == NULL)
         snprintf(c->legend, sizeof c->legend, "DIFFERENCES");
     else
-        snprintf(c->legend, sizeof c->legend,
-                 "DIFFERENCES  to kept %d of %d in %.1f %% of the picture: "
-                 "red is brighter now, blue darker",
-                 c->chosen + 1, c->count,
-                 100.0 * c->blocks.significant_count /
-                     (c->blocks.cols * c->blocks.rows));
+        snprintf(
+            c->legend, sizeof c->legend,
+            "DIFFERENCES  to kept %d of %d in %.1f %%: red is brighter, blue "
+            "darker",
+            c->chosen + 1, c->count,
+            100.0 * c->blocks.significant_count /
+                (c->blocks.cols * c->blocks.rows));
 }
 
 /* Shows what has changed. */

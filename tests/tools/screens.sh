@@ -41,8 +41,8 @@ compare 1.5 g K Tab Tab Down Down Down Down Down Down Return Down Down bracketle
 differences 5 y
 normals 2 Escape n n
 path 2 N N t t t greater greater
-boxes 1.5 t t greater greater greater
-question 1 t t t q
+boxes 1.5 t t t greater greater greater
+question 1 t t t t q
 normal 3 n space Return
 '
 
@@ -58,7 +58,7 @@ take()
     done
     sleep "$pause"
     import -window "$window" "$home/shot.png" &&
-        convert "$home/shot.png" -strip +dither -colors 96 \
+        convert "$home/shot.png" -strip +dither -colors 48 -define png:compression-level=9 \
             "PNG8:$out/$name-$theme-$size.png"
 }
 

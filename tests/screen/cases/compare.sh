@@ -45,9 +45,9 @@ wait_until shows both
 keys K
 wait_for "kept render 2"
 keys y
-wait_for "DIFFERENCES  to kept 2 of 2 in 0.0 % of the picture"
+wait_for "DIFFERENCES  to kept 2 of 2 in 0.0 %: red is brighter, blue darker"
 keys Up
-wait_for "DIFFERENCES  to kept 1 of 2 in 100.0 % of the picture"
+wait_for "DIFFERENCES  to kept 1 of 2 in 100.0 %: red is brighter, blue darker"
 # neither, and the camera has its keys again
 keys Escape
 wait_for "LIVE .* spp"
