@@ -50,6 +50,11 @@ bool kept_render_take(struct kept_render *k, struct film *film,
     return true;
 }
 
+uint64_t kept_render_bytes(const struct kept_render *k)
+{
+    return (uint64_t)k->width * (uint64_t)k->height * sizeof *k->pixels;
+}
+
 void kept_render_free(struct kept_render *k)
 {
     free(k->pixels);

@@ -35,6 +35,8 @@ struct kept_pixel {
 bool kept_render_take(struct kept_render *kept, struct film *film,
                       struct error *err);
 
+uint64_t kept_render_bytes(const struct kept_render *kept);
+
 /* Develops it into a frame of any size, as film_preview() does. */
 void kept_render_paint(const struct kept_render *kept, struct develop how,
                        struct frame *frame);

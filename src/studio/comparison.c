@@ -8,8 +8,12 @@
 
 #include "base/clock.h"
 #include "render/error_text.h"
+#include "terminal/dither.h"
 
 #define WIPE_STEP 0.05
+
+/* Most memory of all kept renders; one is kept whatever it takes. */
+#define BYTES_MAX (UINT64_C(512) << 20)
 
 /* Time between two searches for differences. */
 #define SEARCH_NS UINT64_C(500000000)
@@ -126,7 +130,9 @@ void comparison_keep(struct comparison *c)
         render_control_say_error(c->control, err.text);
         return;
     }
-    if (c->count == COMPARISON_KEPT_MAX)
+    while (c->count == COMPARISON_KEPT_MAX ||
+           (c->count > 0 &&
+            (uint64_t)(c->count + 1) * kept_render_bytes(&kept) > BYTES_MAX))
         drop(c, 0);
     kept.spp = p->spp_done;
     kept.error = p->film_error;
@@ -230,11 +236,18 @@ static void paint_wipe(struct comparison *c, struct frame *frame)
         frame_line(frame, x, 0, x, frame->height - 1, LINE_COLOR);
 }
 
+static uint8_t dim_grey(const uint8_t *rgb)
+{
+    struct rgb c = {rgb[0], rgb[1], rgb[2]};
+
+    return (uint8_t)(BEHIND * rgb_brightness(c));
+}
+
 /* Mixes a colour into grey. */
 static void mark(uint8_t *rgb, double difference)
 {
     double share = fmin(0.35 + 0.65 * fabs(difference) / FULL, 1);
-    double grey = BEHIND * (2 * rgb[0] + 5 * rgb[1] + rgb[2]) / 8;
+    double grey = dim_grey(rgb);
     double color[3] = {difference > 0 ? 255 : 40, 60,
                        difference > 0 ? 40 : 255};
 
@@ -262,13 +275,11 @@ static void paint_differences(struct comparison *c, struct frame *frame)
                 &c->blocks.blocks[y * c->blocks.rows / frame->height *
                                       c->blocks.cols +
                                   x * c->blocks.cols / frame->width];
-            uint8_t grey =
-                (uint8_t)(BEHIND * (2 * rgb[0] + 5 * rgb[1] + rgb[2]) / 8);
 
             if (b->is_significant)
                 mark(rgb, (double)b->difference);
             else
-                rgb[0] = rgb[1] = rgb[2] = grey;
+                rgb[0] = rgb[1] = rgb[2] = dim_grey(rgb);
         }
     }
 }

@@ -90,11 +90,6 @@ static struct rgb mean_of(const struct dots *dots, unsigned mask, unsigned bit)
                         (sum.b + count / 2) / count};
 }
 
-static int brightness(struct rgb c)
-{
-    return (2 * c.r + 5 * c.g + c.b) / 8;
-}
-
 static int largest(struct rgb c)
 {
     int m = c.r > c.g ? c.r : c.g;
@@ -107,7 +102,7 @@ static struct cell ascii_cell(struct cells *cells, struct rgb c)
 {
     struct cell cell = {CELL_DEFAULT, CELL_DEFAULT, ' '};
     bool is_mono = cells->palette == PALETTE_MONO;
-    int light = is_mono ? brightness(c) : largest(c);
+    int light = is_mono ? rgb_brightness(c) : largest(c);
     int index = light * RAMP_LENGTH / 256;
 
     if (index == 0)
@@ -132,7 +127,7 @@ static struct cell mono_cell(const struct cells *cells, const struct dots *dots,
     unsigned mask = 0;
 
     for (int i = 0; i < dots->count; i++) {
-        int light = brightness(dots->color[i]);
+        int light = rgb_brightness(dots->color[i]);
         int threshold = dither_threshold(col * grid.across + i % grid.across,
                                          row * grid.down + i / grid.across);
 

@@ -30,6 +30,12 @@ struct rgb {
     int r, g, b;
 };
 
+/* Returns how bright a colour looks, roughly, from 0 to 255. */
+static inline int rgb_brightness(struct rgb c)
+{
+    return (2 * c.r + 5 * c.g + c.b) / 8;
+}
+
 /* Colour of the 256-colour palette. */
 struct palette_color {
     struct vec3 light; /* linear RGB */

@@ -44,11 +44,6 @@ void gauge_cells(struct cell *cells, int cols, double fraction,
                                      style.bg != CELL_DEFAULT, has_unicode)};
 }
 
-static int brightness(struct rgb c)
-{
-    return (2 * c.r + 5 * c.g + c.b) / 8;
-}
-
 static struct rgb value_of(uint32_t color, enum palette palette)
 {
     if (palette != PALETTE_24BIT)
@@ -67,7 +62,7 @@ void gauge_handle(struct cell *cells, int cols, double fraction,
     cell->glyph = has_unicode ? handles[place % HANDLES] : '|';
     if (palette == PALETTE_MONO)
         return;
-    is_dark = brightness(value_of(cell->bg, palette)) < BRIGHT;
+    is_dark = rgb_brightness(value_of(cell->bg, palette)) < BRIGHT;
     cell->fg = cells_of_color(is_dark ? (struct rgb){255, 255, 255}
                                       : (struct rgb){0, 0, 0},
                               palette)
