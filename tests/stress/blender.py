@@ -5,8 +5,9 @@ usage: blender -b --factory-startup -P blender.py -- GLIM FOLDER [MATERIAL...]
 or, with Blender as a Python module: python3 blender.py -- GLIM FOLDER ...
 
 A ball with one material after another stands on a grey floor below a lamp and a
-grey sky. Each material is exported in both modes of the OBJ exporter. A row
-compares the means of pictures over the ball and over the floor: the largest
+grey sky. Each material is exported in both modes of the OBJ exporter, and as
+glTF; there the floor has the Principled BSDF, the only one that its exporter
+knows. A row compares the means of pictures over the ball and over the floor: the largest
 difference of a channel, relative to the mean of the region. Where both programs
 mean the same by a material it must be at most TOLERANCE; where they do not, the
 row says why, and nothing is wanted. Cycles renders without bias: no clamps, no
@@ -38,12 +39,15 @@ OLD_NAMES = {
 }
 
 LOST = "classic files lack it"
+SHEET = "glTF has a sheet of glass where no thickness is given"
+NO_GLTF = "the exporter before 4 lacks it"
 BENT = "Cycles loses what bent normals send below the surface"
 DIFFUSE = "Cycles before 4 has Disney's diffuse light"
 RED, GOLD, WHITE = (0.8, 0.3, 0.1, 1), (1, 0.7, 0.2, 1), (1, 1, 1, 1)
 
 # Name, sockets, reasons for a difference: in classic files, with the extension,
-# and in both if Blender is older than 4.
+# and in both if Blender is older than 4. IN_GLTF has those for glTF; without one
+# there it is that of the extension.
 MATERIALS = [
     ("diffuse", {"Base Color": RED, "Specular IOR Level": 0.0,
                  "Roughness": 1.0}, "", "", DIFFUSE),
@@ -74,6 +78,9 @@ MATERIALS = [
                "Anisotropic": 0.8}, LOST,
      "Cycles 5 loses 8 % of a white furnace's light at stretched facets", ""),
 ]
+
+IN_GLTF = {"glass": SHEET}
+IN_OLD_GLTF = {"diffuse": DIFFUSE, "glow": NO_GLTF, "coat": NO_GLTF}
 
 
 def set_sockets(shader, values):
@@ -146,6 +153,21 @@ def build(folder):
     ball = bpy.context.object
     bpy.ops.object.shade_smooth()
     return ball
+
+
+def export_gltf(path, folder):
+    """Exports the scene as glTF, with a floor that its exporter knows."""
+    floor = next(o for o in bpy.data.objects
+                 if o.data and o.data.name.startswith("Plane")
+                 and o.data.materials[0].name == "floor")
+    kept = floor.data.materials[0]
+    floor.data.materials[0] = principled(
+        "floor_gltf", {"Base Color": (0.5, 0.5, 0.5, 1),
+                       "Specular IOR Level": 0.0, "Roughness": 1.0}, folder)
+    bpy.ops.export_scene.gltf(filepath=path, export_format="GLB",
+                              export_lights=False, export_cameras=False,
+                              export_tangents=True)
+    floor.data.materials[0] = kept
 
 
 def look(scene):
@@ -276,6 +298,13 @@ def main():
             mode = "with the extension" if is_extended else "classic"
             all_ok &= compare(name, mode, reason or (old if is_old else ""),
                               ours, theirs, mask)
+        glb = os.path.join(folder, name + ".glb")
+        export_gltf(glb, folder)
+        reason = IN_GLTF.get(name, extended)
+        if is_old:
+            reason = reason or IN_OLD_GLTF.get(name, old)
+        all_ok &= compare(name, "glTF", reason,
+                          glim_picture(glim, glb, folder), theirs, mask)
     sys.exit(not all_ok)
 
 
