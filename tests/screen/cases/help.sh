@@ -18,7 +18,11 @@ case $inside in
 *"48;2;75;49;0"* | *"48;2;188"*) die "picture inside the window: $inside" ;;
 esac
 # 2/5 of the picture's colour
-wait_until eval "[ $(rows_with '48;2;75;49;0') -gt 10 ]"
+is_dim()
+{
+    [ "$(rows_with '48;2;75;49;0')" -ge 4 ]
+}
+wait_until is_dim
 raw_keys 'png'
 wait_for "search: png_"
 expect "save a new PNG"
