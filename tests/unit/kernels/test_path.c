@@ -320,11 +320,57 @@ static void leaning_normals_leak_nothing(void **state)
     mesh_free(&m);
 }
 
+/* Returns true if a face moves whose vertex normals lean outwards, along x and
+ * y, by these tangents. */
+static bool moves(float along_x, float along_y)
+{
+    struct vec3 normals[6];
+    struct mesh m = {0};
+    struct ray r = {{0.3f, 0.2f, 1}, {0, 0, -1}, FLOAT_MAX, 0, 0};
+    struct surface_point v, before;
+    struct hit h;
+
+    m.materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.5f);
+    mesh_add_quad(&m, v3(-1, -1, 0), v3(1, -1, 0), v3(1, 1, 0), v3(-1, 1, 0),
+                  0);
+    assert_true(3 * m.tri_count <= 6);
+    smooth(&m, normals, v3(0, 0, 1));
+    for (uint32_t i = 0; i < 3 * m.tri_count; i++)
+        normals[i] = v3_unit(
+            v3(along_x * m.positions[i].x, along_y * m.positions[i].y, 1));
+    mesh_finish(&m);
+    assert_true(hit_closest(&m.world, r, &h));
+    assert_true(surface_at(&m.world, &m.materials[0], r, h, &v));
+    before = v;
+    surface_lift(&m.world, h.tri, h, &v);
+    assert_int_equal(v.is_lifted, v.p.z > 0.0f);
+    assert_true(v.is_lifted || (v3_is_zero(v3_sub(v.p, before.p)) &&
+                                v3_is_zero(v3_sub(v.above, before.above))));
+    mesh_free(&m);
+    return v.is_lifted;
+}
+
+/* A face of a pipe of eight sides moves to the round pipe. A face of a box with
+ * smoothed edges or corners stays, as light would pass through the corners of
+ * things that touch it. */
+static void faces_of_boxes_stay(void **state)
+{
+    const float pipe = tanf((float)M_PI / 8);
+
+    (void)state;
+    assert_true(moves(pipe, 0));
+    assert_true(moves(pipe, pipe));
+    assert_false(moves(1, 0));
+    assert_false(moves(1, 1));
+    assert_false(moves(0, 0));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coarse_balls_have_smooth_shade),
         cmocka_unit_test(leaning_normals_leak_nothing),
+        cmocka_unit_test(faces_of_boxes_stay),
         cmocka_unit_test(white_diffuse_vanishes),
         cmocka_unit_test(smooth_glass_vanishes),
         cmocka_unit_test(thin_glass_vanishes),
