@@ -1,245 +1,24 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_backend_cl.c - the OpenCL device against the CPU: on PoCL every pixel of
- * every shipped scene has the same bits, with all options
- *
- * GLIM_TEST_DEVICE names another device. Others may round differently: the
- * differences of pixels must have the mean 0 by a t-test, and the number of
- * different pixels is printed.
+ * test_backend_cl.c - the OpenCL device against the CPU: sizes, crops, drafts,
+ * builds, halts, uploads, and devices that are lost
  */
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <time.h>
 
-#include "base/memory.h"
-#include "scene/world_lamps.h"
-#include "scene/world_materials.h"
-#include "scene/world.h"
-#include "load/scene_load.h"
-#include "formats/view_file.h"
-#include "render/cpu_dispatch.h"
-#include "render/render_loop.h"
-#include "opencl/backend_cl.h"
 #include "opencl/cl_api.h"
 #include "opencl/cl_device.h"
-#include "opencl/cl_environment.h"
 #include "opencl/cl_world.h"
 #include "opencl/selftest.h"
-#include "terminal/xmalloc.h"
-#include "tests/unit/check.h"
-#include "kernels/features.h"
+#include "scene/world_materials.h"
+#include "tests/unit/opencl/pair.h"
 
 static const char *const scenes[] = {
     "scenes/cornell.obj",  "scenes/materials.obj", "scenes/glass_mirror.obj",
     "scenes/interior.obj", "scenes/skylit.obj",    "scenes/lights200.obj",
 };
-
-/* A scene, and its renders on the CPU and on the device. */
-struct pair {
-    struct scene scene;
-    struct host_world world;
-    struct view view;
-    struct render *renders[2];
-    int draft_width, draft_height;
-    bool is_adaptive;
-    uint32_t sample; /* enum sample_kind */
-    bool has_surfaces;
-    bool draft_has_surfaces;
-};
-
-static struct backend *device; /* NULL: not available */
-static bool is_exact;
-
-/* A two-sided chance of 1e-6 is a false alarm in 10,000 runs of some 100
- * pictures and channels. With this many pixels the distribution is normal. */
-#define T_MAX 4.9
-
-static int open_device(void **state)
-{
-    const char *name = getenv("GLIM_TEST_DEVICE");
-    struct cl_request request = {.device = name ? name : "Portable",
-                                 .features = FEATURES_ALL};
-    struct error err;
-    char *log;
-
-    (void)state;
-    is_exact = name == NULL;
-    cl_environment_prepare(2);
-    device = backend_cl_create(&request, &log, &err);
-    if (device == NULL)
-        print_message("skipped: %s\n", err.text);
-    check_or_say(log == NULL, log);
-    return 0;
-}
-
-static int close_device(void **state)
-{
-    (void)state;
-    if (device != NULL)
-        device->destroy(device);
-    return 0;
-}
-
-static void open_pair(struct pair *p, const char *path, int width, int height)
-{
-    struct warnings report = {0};
-    struct error err;
-    char *view_path = xformat("%.*s.view", (int)strlen(path) - 4, path);
-    struct backend *cpu = backend_cpu_create(2, cpu_kernel_best(), &err);
-
-    *p = (struct pair){0};
-    view_init(&p->view);
-    assert_non_null(cpu);
-    check_or_say(view_read(&p->view, view_path, &report, &err) &&
-                     scene_load(&p->scene, path, SCENE_UP_OF_FILE, &report,
-                                &err) &&
-                     world_init(&p->world, &p->scene, 1, &report, &err) &&
-                     world_load_sky(&p->world, &p->view, &report, &err) &&
-                     world_guide(&p->world, &p->scene, &p->view, &err),
-                 err.text);
-    p->view.width_px = width;
-    p->view.height_px = height;
-    p->renders[0] = render_create(cpu, &err);
-    p->renders[1] = render_create(device, &err);
-    assert_non_null(p->renders[0]);
-    assert_non_null(p->renders[1]);
-    warnings_free(&report);
-    free(view_path);
-}
-
-static void close_pair(struct pair *p)
-{
-    struct backend *cpu = render_backend(p->renders[0]);
-
-    render_destroy(p->renders[0]);
-    render_destroy(p->renders[1]);
-    cpu->destroy(cpu);
-    world_free(&p->world);
-    scene_free(&p->scene);
-    view_free(&p->view);
-}
-
-static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
-                  uint32_t seed)
-{
-    struct render_job job = {.host = &p->world,
-                             .crop = crop,
-                             .limits.spp = spp,
-                             .draft_width = p->draft_width,
-                             .draft_height = p->draft_height,
-                             .draft_has_surfaces = p->draft_has_surfaces,
-                             .is_adaptive = p->is_adaptive};
-    struct error err;
-
-    check_or_say(world_lend(&p->world, &p->scene, &p->view, seed, &job.world,
-                            &err),
-                 err.text);
-    job.world.settings.sample = p->sample;
-    if (p->sample != SAMPLE_LIGHT)
-        job.world.settings.features |= FEATURE_AOV;
-    if (p->has_surfaces)
-        job.world.settings.features |= FEATURE_FILTER;
-    check_or_say(render_start(p->renders[which], &job, &err), err.text);
-}
-
-static void finish(struct pair *p, int which)
-{
-    struct render_progress progress;
-
-    assert_true(render_wait(p->renders[which], 300000));
-    progress = render_progress(p->renders[which]);
-    check_or_say(progress.state == RENDER_DONE, progress.error.text);
-}
-
-/* Returns the t value of the differences in one channel, and the number of
- * different pixels. */
-static double t_of(const float *a, const float *b, size_t pixels,
-                   size_t *different)
-{
-    double sum = 0, squares = 0, mean, variance;
-
-    for (size_t i = 0; i < pixels; i++) {
-        double d = (double)a[3 * i] - (double)b[3 * i];
-
-        sum += d;
-        squares += d * d;
-        *different += d != 0;
-    }
-    mean = sum / (double)pixels;
-    variance = squares / (double)pixels - mean * mean;
-    return variance > 0 ? mean / sqrt(variance / (double)pixels) : 0;
-}
-
-static void assert_equal_in_the_mean(struct pair *p)
-{
-    struct film *films[2] = {render_film(p->renders[0]),
-                             render_film(p->renders[1])};
-    size_t pixels = (size_t)films[0]->width * (size_t)films[0]->height;
-    float *rgb[2];
-    size_t different = 0;
-
-    for (int i = 0; i < 2; i++) {
-        rgb[i] = alloc_array(pixels, 3 * sizeof *rgb[i]);
-        assert_non_null(rgb[i]);
-        film_linear(films[i], rgb[i]);
-    }
-    for (int c = 0; c < 3; c++)
-        check_at_most(fabs(t_of(rgb[0] + c, rgb[1] + c, pixels, &different)),
-                      T_MAX);
-    print_message("%s: %.3f %% of the channels differ\n", p->scene.path,
-                  100.0 * (double)different / (3.0 * (double)pixels));
-    free(rgb[0]);
-    free(rgb[1]);
-}
-
-static void assert_same(struct pair *p, uint64_t spp)
-{
-    const struct film *a = render_film(p->renders[0]);
-    const struct film *b = render_film(p->renders[1]);
-    struct render_progress pa = render_progress(p->renders[0]);
-    struct render_progress pb = render_progress(p->renders[1]);
-    size_t pixels = (size_t)a->width * (size_t)a->height;
-
-    assert_int_equal(a->width, b->width);
-    assert_int_equal(a->height, b->height);
-    assert_true(p->is_adaptive || pa.samples == pixels * spp);
-    assert_true(pb.samples == pa.samples);
-    assert_memory_equal(a->counts, b->counts, pixels * sizeof *a->counts);
-    if (!is_exact) {
-        assert_equal_in_the_mean(p);
-        return;
-    }
-    assert_true(pb.rays == pa.rays);
-    assert_true(pb.cut_paths == pa.cut_paths);
-    assert_memory_equal(a->sums, b->sums, 3 * pixels * sizeof *a->sums);
-    assert_true((a->surfaces != NULL) == p->has_surfaces);
-    if (p->has_surfaces)
-        assert_memory_equal(a->surfaces, b->surfaces,
-                            pixels * sizeof *a->surfaces);
-}
-
-static void render_both(struct pair *p, struct rect crop, uint64_t spp,
-                        uint32_t seed)
-{
-    for (int i = 0; i < 2; i++) {
-        start(p, i, crop, spp, seed);
-        finish(p, i);
-    }
-    assert_same(p, spp);
-}
-
-static void shipped_scenes_are_equal(void **state)
-{
-    (void)state;
-    for (size_t i = 0; device && i < sizeof scenes / sizeof scenes[0]; i++) {
-        struct pair p;
-
-        open_pair(&p, scenes[i], 97, 55);
-        render_both(&p, (struct rect){0, 0, 97, 55}, 11, (uint32_t)i);
-        close_pair(&p);
-    }
-}
 
 /* Sums of first surfaces are those of the CPU, with and without them in
  * turn. */
@@ -364,98 +143,6 @@ static void feature_pictures_are_equal(void **state)
             assert_memory_equal(drafts[0]->sums, drafts[1]->sums,
                                 (size_t)3 * 60 * 34 * sizeof(struct sum));
     }
-    close_pair(&p);
-}
-
-/* Materials, lights and triangles are swapped and freed between pictures, and
- * the device sees each change. */
-static void edited_worlds_are_equal(void **state)
-{
-    struct mtl_source sources[32];
-    uint32_t assigned[64];
-    struct pair p;
-    uint64_t seed = 9;
-
-    (void)state;
-    if (!device)
-        return;
-    open_pair(&p, "scenes/cornell.obj", 48, 48);
-    assert_in_range(p.scene.material_count, 2, 32);
-    assert_in_range(p.scene.object_count, 2, 64);
-    for (uint32_t i = 0; i < p.scene.material_count; i++)
-        sources[i] = p.scene.material_origins[i].source;
-    for (uint32_t i = 0; i < p.scene.object_count; i++)
-        assigned[i] = NO_INDEX;
-    render_both(&p, (struct rect){0, 0, 48, 48}, 2, 0);
-    for (uint32_t round = 1; round < 20; round++) {
-        uint32_t count = p.scene.material_count - 1;
-        uint32_t m = 1 + (uint32_t)(check_random(&seed) * count);
-        uint32_t o = (uint32_t)(check_random(&seed) * p.scene.object_count);
-        struct error err;
-
-        sources[m].kd = (struct mtl_color){{check_random(&seed), 0.5, 0.5}, 1};
-        if (round % 3 == 1)
-            sources[m].ke =
-                (struct mtl_color){{3 * check_random(&seed), 1, 1}, 1};
-        if (round % 3 == 2)
-            assigned[o] = m;
-        check_or_say(world_set_materials(&p.world, &p.scene, count + 1, sources,
-                                         assigned, &err),
-                     err.text);
-        render_both(&p, (struct rect){0, 0, 48, 48}, 2, round);
-    }
-    close_pair(&p);
-}
-
-/* A profile without symmetry. */
-static struct profile *make_profile(void)
-{
-    struct profile *p = profile_create("a.ies", 8);
-
-    assert_non_null(p);
-    for (uint32_t i = 0; i < profile_value_count(p); i++)
-        p->values[i] = (float)(1 + i % 13) / 13;
-    return p;
-}
-
-/* Lamps of each kind come and go, with caustics of those that have a size, and
- * with a profile. */
-static void lamps_are_equal(void **state)
-{
-    uint32_t has_caustics = 0;
-    struct pair p;
-
-    (void)state;
-    if (!device)
-        return;
-    open_pair(&p, "scenes/materials.obj", 48, 48);
-    for (uint32_t i = 0; i < 9; i++) {
-        enum lamp_kind kind = (enum lamp_kind)(i % LAMP_KINDS);
-        struct lamp lamp;
-        struct error err;
-
-        lamp_init(&lamp, kind);
-        for (int k = 0; k < 3; k++)
-            lamp.position[k] =
-                p.view.pose.eye[k] + (k == 1 ? 0.5 * (double)i : 0);
-        memcpy(lamp.at, p.view.pose.at, sizeof lamp.at);
-        lamp.elevation_deg = 40;
-        if (i >= 3) {
-            lamp.radius = 0.1 * i;
-            lamp.angle_deg = 5 * i;
-        }
-        if (i == 6)
-            lamps_free(&p.view.lamps);
-        lamp.profile = i == 1 || i == 6 ? make_profile() : NULL;
-        assert_true(lamps_add(&p.view.lamps, &lamp));
-        profile_release(lamp.profile);
-        check_or_say(world_set_lamps(&p.world, &p.scene, &p.view, &err) &&
-                         world_guide(&p.world, &p.scene, &p.view, &err),
-                     err.text);
-        has_caustics |= world_features(&p.world) & FEATURE_CAUSTICS;
-        render_both(&p, (struct rect){0, 0, 48, 48}, 2, i);
-    }
-    assert_int_not_equal(has_caustics, 0);
     close_pair(&p);
 }
 
@@ -670,14 +357,11 @@ static void only_changes_are_uploaded(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shipped_scenes_are_equal),
         cmocka_unit_test(surfaces_are_equal),
         cmocka_unit_test(pictures_of_all_options_are_equal),
         cmocka_unit_test(adaptive_pictures_are_equal),
         cmocka_unit_test(drafts_are_equal),
         cmocka_unit_test(feature_pictures_are_equal),
-        cmocka_unit_test(edited_worlds_are_equal),
-        cmocka_unit_test(lamps_are_equal),
         cmocka_unit_test(special_builds_give_the_same_bits),
         cmocka_unit_test(self_tests_pass),
         cmocka_unit_test(halts_lose_no_samples),

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_scenes_cl.c - scenes with every feature on the OpenCL device and on the
+ * CPU: the shipped scenes, edited ones, lamps, and random glTF files
+ */
+#include "scene/world_lamps.h"
+#include "scene/world_materials.h"
+#include "tests/unit/files.h"
+#include "tests/unit/folder.h"
+#include "tests/unit/opencl/pair.h"
+#include "tests/unit/opencl/random_gltf.h"
+
+static const char *const scenes[] = {
+    "scenes/cornell.obj",    "scenes/materials.obj", "scenes/glass_mirror.obj",
+    "scenes/interior.obj",   "scenes/skylit.obj",    "scenes/lights200.obj",
+    "scenes/principled.obj", "scenes/bottles.glb",   "scenes/bubbles.glb",
+    "scenes/chess.glb",      "scenes/forest.glb",    "scenes/jellyfish.glb",
+    "scenes/knot.glb",
+};
+
+static void shipped_scenes_are_equal(void **state)
+{
+    (void)state;
+    for (size_t i = 0; device && i < sizeof scenes / sizeof scenes[0]; i++) {
+        struct pair p;
+
+        open_pair(&p, scenes[i], 97, 55);
+        render_both(&p, (struct rect){0, 0, 97, 55}, 5, (uint32_t)i);
+        close_pair(&p);
+    }
+}
+
+/* Materials, lights and triangles are swapped and freed between pictures, and
+ * the device sees each change. */
+static void edited_worlds_are_equal(void **state)
+{
+    struct mtl_source sources[32];
+    uint32_t assigned[64];
+    struct pair p;
+    uint64_t seed = 9;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/cornell.obj", 48, 48);
+    assert_in_range(p.scene.material_count, 2, 32);
+    assert_in_range(p.scene.object_count, 2, 64);
+    for (uint32_t i = 0; i < p.scene.material_count; i++)
+        sources[i] = p.scene.material_origins[i].source;
+    for (uint32_t i = 0; i < p.scene.object_count; i++)
+        assigned[i] = NO_INDEX;
+    render_both(&p, (struct rect){0, 0, 48, 48}, 2, 0);
+    for (uint32_t round = 1; round < 20; round++) {
+        uint32_t count = p.scene.material_count - 1;
+        uint32_t m = 1 + (uint32_t)(check_random(&seed) * count);
+        uint32_t o = (uint32_t)(check_random(&seed) * p.scene.object_count);
+        struct error err;
+
+        sources[m].kd = (struct mtl_color){{check_random(&seed), 0.5, 0.5}, 1};
+        if (round % 3 == 1)
+            sources[m].ke =
+                (struct mtl_color){{3 * check_random(&seed), 1, 1}, 1};
+        if (round % 3 == 2)
+            assigned[o] = m;
+        check_or_say(world_set_materials(&p.world, &p.scene, count + 1, sources,
+                                         assigned, &err),
+                     err.text);
+        render_both(&p, (struct rect){0, 0, 48, 48}, 2, round);
+    }
+    close_pair(&p);
+}
+
+/* A profile without symmetry. */
+static struct profile *make_profile(void)
+{
+    struct profile *p = profile_create("a.ies", 8);
+
+    assert_non_null(p);
+    for (uint32_t i = 0; i < profile_value_count(p); i++)
+        p->values[i] = (float)(1 + i % 13) / 13;
+    return p;
+}
+
+/* Lamps of each kind come and go, with caustics of those that have a size, and
+ * with a profile. */
+static void lamps_are_equal(void **state)
+{
+    uint32_t has_caustics = 0;
+    struct pair p;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/materials.obj", 48, 48);
+    for (uint32_t i = 0; i < 9; i++) {
+        enum lamp_kind kind = (enum lamp_kind)(i % LAMP_KINDS);
+        struct lamp lamp;
+        struct error err;
+
+        lamp_init(&lamp, kind);
+        for (int k = 0; k < 3; k++)
+            lamp.position[k] =
+                p.view.pose.eye[k] + (k == 1 ? 0.5 * (double)i : 0);
+        memcpy(lamp.at, p.view.pose.at, sizeof lamp.at);
+        lamp.elevation_deg = 40;
+        if (i >= 3) {
+            lamp.radius = 0.1 * i;
+            lamp.angle_deg = 5 * i;
+        }
+        if (i == 6)
+            lamps_free(&p.view.lamps);
+        lamp.profile = i == 1 || i == 6 ? make_profile() : NULL;
+        assert_true(lamps_add(&p.view.lamps, &lamp));
+        profile_release(lamp.profile);
+        check_or_say(world_set_lamps(&p.world, &p.scene, &p.view, &err) &&
+                         world_guide(&p.world, &p.scene, &p.view, &err),
+                     err.text);
+        has_caustics |= world_features(&p.world) & FEATURE_CAUSTICS;
+        render_both(&p, (struct rect){0, 0, 48, 48}, 2, i);
+    }
+    assert_int_not_equal(has_caustics, 0);
+    close_pair(&p);
+}
+
+/* What the random files are for. */
+#define RANDOM_FEATURES                                                     \
+    ((uint32_t)(FEATURE_COVERAGE | FEATURE_TEXTURES | FEATURE_ROUGH |       \
+                FEATURE_EMITTERS | FEATURE_BUMPS | FEATURE_PRINCIPLED |     \
+                FEATURE_ANISOTROPY | FEATURE_SHEEN | FEATURE_POINT_LIGHTS | \
+                FEATURE_DIRECTIONAL_LIGHTS | FEATURE_ATTENUATION |          \
+                FEATURE_VERTEX_COLORS | FEATURE_ROUGH_SHEETS |              \
+                FEATURE_THIN_FILM | FEATURE_INSTANCES |                     \
+                FEATURE_TEXTURE_OPTIONS | FEATURE_VERTEX_ALPHAS |           \
+                FEATURE_TANGENTS))
+
+/* Renders with a build of the kernels for the scene's features alone. */
+static void render_special(struct pair *p, uint32_t seed)
+{
+    struct error err;
+    char *log;
+
+    check_or_say(backend_cl_specialise(device, world_features(&p->world), &log,
+                                       &err),
+                 err.text);
+    render_both(p, (struct rect){0, 0, 64, 48}, 3, seed);
+    check_or_say(backend_cl_specialise(device, 0, &log, &err), err.text);
+}
+
+/* Random files have each feature of glTF, some of them without instances. */
+static void random_files_are_equal(void **state)
+{
+    uint32_t features = 0;
+    uint64_t seed = 5;
+
+    (void)state;
+    if (!device)
+        return;
+    for (uint32_t i = 0; i < 6; i++) {
+        struct pair p;
+        char path[sizeof folder + 32];
+
+        random_gltf_write(folder, i % 2 == 0, &seed);
+        snprintf(path, sizeof path, "%s/random.gltf", folder);
+        open_pair(&p, path, 64, 48);
+        assert_true(i % 2 == 0 ||
+                    (world_features(&p.world) & FEATURE_INSTANCES) == 0);
+        features |= world_features(&p.world);
+        render_both(&p, (struct rect){0, 0, 64, 48}, 6, i);
+        render_special(&p, i);
+        close_pair(&p);
+    }
+    assert_int_equal(features & RANDOM_FEATURES, RANDOM_FEATURES);
+}
+
+static int set_up(void **state)
+{
+    return make_folder(state) == 0 ? open_device(state) : -1;
+}
+
+static int tear_down(void **state)
+{
+    return close_device(state) == 0 ? remove_folder(state) : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shipped_scenes_are_equal),
+        cmocka_unit_test(edited_worlds_are_equal),
+        cmocka_unit_test(lamps_are_equal),
+        cmocka_unit_test(random_files_are_equal),
+    };
+
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
