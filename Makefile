@@ -87,7 +87,8 @@ FEATURES_gltf := $(FEATURES_images) | FEATURE_TEXTURE_OPTIONS | \
 	FEATURE_PRINCIPLED | FEATURE_BUMPS
 FEATURES_gltf_filter := $(FEATURES_gltf) | FEATURE_FILTER
 FEATURES_light := FEATURES_ALL & ~(FEATURE_AOV | FEATURE_TEXTURE_OPTIONS | \
-	FEATURE_INSTANCES | FEATURE_VERTEX_ALPHAS | FEATURE_TANGENTS)
+	FEATURE_INSTANCES | FEATURE_VERTEX_ALPHAS | FEATURE_TANGENTS | \
+	FEATURE_COAT_NORMALS)
 PATHS := $(patsubst %,$(B)/paths_%.o,$(ISAS) \
 	$(foreach isa,plain $(ISAS),$(SETS:%=$(isa)_%)))
 # src/filter/filter_loops.c is built for each instruction set.

@@ -27,6 +27,7 @@ struct bsdf {
     uint32_t is_thin; /* 1: the glass of a mixture is a thin sheet */
     float film;       /* weight of a thin film on a mixture: thin_film.h */
     float film_ior, film_thickness; /* refractive index; nanometres */
+    struct vec3 coat_normal;        /* unit; zero: that of the base */
 };
 
 /* The widths of a highlight have the ratio 1 - ANISOTROPY_SHARE anisotropy. */

@@ -145,6 +145,45 @@ static inline struct vec3 bent_normal(struct vec3 n, struct vec3 ng,
     return length > 1e-6f ? v3_scale(middle, 1.0f / length) : ng;
 }
 
+/* Returns the normal of a map in tangent space. Its slope is multiplied by
+ * strength, and its third component is mixed with 1 by depth. */
+static inline struct vec3 normal_texel(const struct world *w, uint32_t texture,
+                                       struct uv_pair uv, float strength,
+                                       float depth)
+{
+    struct vec3 c = texture_at(w, texture, uv_for(w, texture, uv)).color;
+
+    return v3(strength * (2.0f * c.x - 1.0f), strength * (2.0f * c.y - 1.0f),
+              depth * (2.0f * c.z - 1.0f) + (1.0f - depth));
+}
+
+/* Turns the shading normal *n to `slope`, a normal in tangent space from this
+ * texture. Returns false, and leaves *n, where it would face away from wo. */
+static inline bool turn_normal(const struct world *w, uint32_t texture,
+                               struct vec3 slope, struct tri t,
+                               uint32_t instance, struct hit h, struct vec3 wo,
+                               struct vec3 *n)
+{
+    bool is_second = has_second_uvs(w) && uses_second_uvs(w, texture);
+    struct vec3 along_u, along_v, turned;
+    float length;
+
+    if (!tangents_at(w, is_second ? w->uvs2 : w->uvs, t, instance, h, *n,
+                     &along_u, &along_v))
+        return false;
+    turned =
+        v3_add(v3_add(v3_scale(along_u, slope.x), v3_scale(along_v, slope.y)),
+               v3_scale(*n, slope.z));
+    length = v3_length(turned);
+    if (!(length > 1e-6f))
+        return false;
+    turned = v3_scale(turned, 1.0f / length);
+    if (!(v3_dot(turned, wo) > 0.0f))
+        return false;
+    *n = turned;
+    return true;
+}
+
 /* Returns the shading normal n, bent by the bump and normal maps. wo.n > 0
  * before and after. uv: at the hit; the triangle has texture coordinates. The
  * tangents are of the coordinates of the map of normals. */
@@ -154,26 +193,13 @@ static inline struct vec3 bumped_normal(const struct world *w,
                                         struct uv_pair uv, struct vec3 n,
                                         struct vec3 ng, struct vec3 wo)
 {
-    bool is_second =
-        has_second_uvs(w) &&
-        uses_second_uvs(w, m->normal_texture != NO_INDEX ? m->normal_texture
-                                                         : m->bump_texture);
-    struct vec3 along_u, along_v, turned;
-    struct vec3 slope = v3(0.0f, 0.0f, 1.0f); /* the normal in tangent space */
-    float length;
+    struct vec3 slope = v3(0.0f, 0.0f, 1.0f);
+    uint32_t texture = m->bump_texture;
 
-    if (!tangents_at(w, is_second ? w->uvs2 : w->uvs, t, instance, h, n,
-                     &along_u, &along_v))
-        return n;
     if (m->normal_texture != NO_INDEX) {
-        struct vec3 c =
-            texture_at(w, m->normal_texture, uv_for(w, m->normal_texture, uv))
-                .color;
-        float s = m->normal_strength;
-        float d = m->normal_depth;
-
-        slope = v3(s * (2.0f * c.x - 1.0f), s * (2.0f * c.y - 1.0f),
-                   d * (2.0f * c.z - 1.0f) + (1.0f - d));
+        texture = m->normal_texture;
+        slope =
+            normal_texel(w, texture, uv, m->normal_strength, m->normal_depth);
     }
     if (m->bump_texture != NO_INDEX) {
         struct vec2 s = height_slopes(w, m, uv_for(w, m->bump_texture, uv));
@@ -181,16 +207,32 @@ static inline struct vec3 bumped_normal(const struct world *w,
         slope.x -= s.x;
         slope.y -= s.y;
     }
-    turned =
-        v3_add(v3_add(v3_scale(along_u, slope.x), v3_scale(along_v, slope.y)),
-               v3_scale(n, slope.z));
-    length = v3_length(turned);
-    if (!(length > 1e-6f))
-        return n;
-    turned = v3_scale(turned, 1.0f / length);
-    if (!(v3_dot(turned, wo) > 0.0f))
-        return n;
-    return bent_normal(turned, ng, wo);
+    return turn_normal(w, texture, slope, t, instance, h, wo, &n)
+               ? bent_normal(n, ng, wo)
+               : n;
+}
+
+/* True if the coat's normal may differ from that of the layers below. */
+static inline bool has_coat_bumps(const struct material *m)
+{
+    return m->coat > 0.0f &&
+           (has_bumps(m) || m->coat_normal_texture != NO_INDEX);
+}
+
+/* Returns the normal of the coat, which maps of the layers below do not bend:
+ * n with the coat's own map (KHR_materials_clearcoat of glTF). Reflections
+ * about it are above the layers below and above the face. */
+static inline struct vec3
+coat_normal(const struct world *w, const struct material *m, struct tri t,
+            uint32_t instance, struct hit h, struct uv_pair uv, struct vec3 n,
+            struct vec3 below, struct vec3 ng, struct vec3 wo)
+{
+    if (m->coat_normal_texture != NO_INDEX)
+        turn_normal(w, m->coat_normal_texture,
+                    normal_texel(w, m->coat_normal_texture, uv,
+                                 m->coat_normal_strength, 1.0f),
+                    t, instance, h, wo, &n);
+    return bent_normal(bent_normal(n, below, wo), ng, wo);
 }
 
 #endif

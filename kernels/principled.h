@@ -5,7 +5,8 @@
  * The base is metal by its metalness; the rest is glass by its transmission,
  * and plastic otherwise. Solid glass is tinted by the root of the colour at
  * each crossing, so that a pane has the colour, as a thin sheet has. A coat of
- * refractive index 1.5 lies over the base, and sheen over both. What a layer
+ * refractive index 1.5 lies over the base, with a normal of its own if bumps or
+ * maps give it one, and sheen over both. What a layer
  * reflects, E(wo), those below lose: they are scaled by 1 - E(wo), as in the
  * surfaces of other renderers (Georgiev et al. 2019, "Autodesk Standard
  * Surface"). A thin film between base and coat changes the colours of metal and
@@ -46,6 +47,35 @@ struct lobes {
 static inline bool has_sheen(const struct bsdf *m)
 {
     return HAS(FEATURE_SHEEN) && !v3_is_zero(m->sheen);
+}
+
+/* ---- the coat ---- */
+
+static inline bool has_coat_normal(const struct bsdf *m)
+{
+    return HAS(FEATURE_COAT_NORMALS) && !v3_is_zero(m->coat_normal);
+}
+
+/* Returns a direction in the frame of the coat, whose z is its normal. */
+static inline struct vec3 to_coat(const struct bsdf *m, struct vec3 d)
+{
+    struct vec3 t, b;
+
+    if (!has_coat_normal(m))
+        return d;
+    frame_around(m->coat_normal, &t, &b);
+    return v3(v3_dot(d, t), v3_dot(d, b), v3_dot(d, m->coat_normal));
+}
+
+static inline struct vec3 from_coat(const struct bsdf *m, struct vec3 d)
+{
+    struct vec3 t, b;
+
+    if (!has_coat_normal(m))
+        return d;
+    frame_around(m->coat_normal, &t, &b);
+    return v3_unit_again(v3_add(v3_add(v3_scale(t, d.x), v3_scale(b, d.y)),
+                                v3_scale(m->coat_normal, d.z)));
 }
 
 /* Returns the coat as a BSDF of its own. */
@@ -128,6 +158,7 @@ static inline struct lobes principled_lobes(const struct bsdf *m,
                                             struct vec3 wo)
 {
     struct lobes l;
+    struct vec3 seen = to_coat(m, wo);
     float below = 1.0f, sum = 0.0f;
 
     l.metal = has_film(m) ? film_metal(m, wo) : m->color;
@@ -142,14 +173,15 @@ static inline struct lobes principled_lobes(const struct bsdf *m,
             v3_max_component(m->sheen) * sheen_albedo(wo.z, m->sheen_alpha);
         below -= l.chance[LOBE_SHEEN];
     }
-    l.weight[LOBE_COAT] = below * m->coat;
+    l.weight[LOBE_COAT] = 0.0f;
     l.chance[LOBE_COAT] = 0.0f;
-    if (m->coat > 0.0f) {
+    if (m->coat > 0.0f && (!has_coat_normal(m) || seen.z > COSINE_MIN)) {
         struct bsdf coat = principled_coat(m);
 
+        l.weight[LOBE_COAT] = below * m->coat;
         l.chance[LOBE_COAT] =
             l.weight[LOBE_COAT] *
-            specular_albedo(&coat, wo, bsdf_albedo(&coat, wo)).x;
+            specular_albedo(&coat, seen, bsdf_albedo(&coat, seen)).x;
         below -= l.chance[LOBE_COAT];
     }
     l.weight[LOBE_METAL] = below * m->metalness;
@@ -209,6 +241,12 @@ static inline void principled_add_coat(const struct bsdf *m,
 
     if (is_smooth(&coat))
         return;
+    if (has_coat_normal(m)) {
+        wo = to_coat(m, wo);
+        wi = to_coat(m, wi);
+        if (!(wi.z > COSINE_MIN))
+            return;
+    }
     h = half_vector(wo, wi);
     f = v3_scale(specular_fresnel(coat.specular, schlick_weight(v3_dot(wo, h))),
                  ggx_reflection(wo, wi, h, bsdf_facets(&coat)));
@@ -294,11 +332,18 @@ static inline bool coat_direction(const struct bsdf *m, struct vec3 wo,
     struct bsdf coat = principled_coat(m);
     struct vec3 wi;
 
-    if (is_smooth(&coat))
-        return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
+    wo = to_coat(m, wo);
+    if (is_smooth(&coat)) {
+        wi = from_coat(m, v3(-wo.x, -wo.y, wo.z));
+        return wi.z > COSINE_MIN &&
+               sample_delta(s, wi,
                             specular_fresnel(coat.specular,
                                              schlick_weight(wo.z)));
+    }
     wi = ggx_reflect(wo, bsdf_facets(&coat), u);
+    if (!(wi.z > COSINE_MIN))
+        return false;
+    wi = from_coat(m, wi);
     return wi.z > COSINE_MIN && sample_direction(s, wi, 1.0f);
 }
 

@@ -26,6 +26,7 @@ struct surface_point {
     uint32_t face;     /* value of ray.from for rays that leave */
     uint32_t instance; /* of the triangle, or NO_INDEX */
     struct vec3 t, b;  /* with n: the local frame of BSDFs */
+    struct vec3 coat_n; /* unit; zero: n. FEATURE_COAT_NORMALS */
 };
 
 static inline struct vec3 shading_normal(const struct world *w, struct tri t,
@@ -127,7 +128,7 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     struct vec3 p0 = position_at(w, t.v[0], instance);
     struct vec3 p1 = position_at(w, t.v[1], instance);
     struct vec3 p2 = position_at(w, t.v[2], instance);
-    struct vec3 wo = v3_neg(r.d);
+    struct vec3 wo = v3_neg(r.d), smooth;
 
     if (instance != NO_INDEX)
         t.ng = instance_face(w->instances[instance], t.ng, p0, p1, p2);
@@ -136,7 +137,7 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     v->is_outside = v3_dot(t.ng, wo) > 0.0f;
     v->ng = v3_scale(t.ng, minus_if(!v->is_outside));
     v->instance = instance;
-    v->n = shading_normal(w, t, instance, h, v->ng, wo);
+    smooth = v->n = shading_normal(w, t, instance, h, v->ng, wo);
     v->p = hit_point_inset(h, p0, p1, p2, &v->p_error);
     v->above = offset_ray_origin(v->p, v->p_error, v->ng);
     v->is_lifted = false;
@@ -153,10 +154,30 @@ static inline bool surface_at(const struct world *w, const struct material *m,
         v->color = vertex_color(w, t, h);
     if (HAS(FEATURE_BUMPS) && v->has_uv && has_bumps(m))
         v->n = bumped_normal(w, m, t, instance, h, v->uv, v->n, v->ng, wo);
+    if (HAS(FEATURE_COAT_NORMALS)) {
+        v->coat_n = v3(0.0f, 0.0f, 0.0f);
+        if (v->has_uv && has_coat_bumps(m))
+            v->coat_n = coat_normal(w, m, t, instance, h, v->uv, smooth, v->n,
+                                    v->ng, wo);
+    }
     frame_around(v->n, &v->t, &v->b);
     if (HAS(FEATURE_ANISOTROPY) && m->anisotropy > 0.0f)
         surface_turn_frame(w, grain_at(w, m, v), t, h, v);
     return true;
+}
+
+static inline struct vec3 surface_to_local(const struct surface_point *v,
+                                           struct vec3 d)
+{
+    return v3(v3_dot(d, v->t), v3_dot(d, v->b), v3_dot(d, v->n));
+}
+
+static inline struct vec3 surface_to_world(const struct surface_point *v,
+                                           struct vec3 d)
+{
+    struct vec3 x = v3_add(v3_scale(v->t, d.x), v3_scale(v->b, d.y));
+
+    return v3_add(x, v3_scale(v->n, d.z));
 }
 
 /* Looks up a texture at a surface point, which has texture coordinates. */
@@ -220,6 +241,8 @@ static inline void principled_at(const struct world *w,
     b->coat = m->coat * map_number_at(w, v, m->coat_texture);
     b->coat_alpha = m->coat_alpha * roughness * roughness;
     b->anisotropy = m->anisotropy;
+    if (HAS(FEATURE_COAT_NORMALS))
+        b->coat_normal = surface_to_local(v, v->coat_n);
     b->sheen = m->sheen;
     if (HAS(FEATURE_TEXTURES) && v->has_uv && m->sheen_texture != NO_INDEX)
         b->sheen =
@@ -267,20 +290,6 @@ static inline struct bsdf bsdf_at(const struct world *w,
     if (bsdf_is_solid(&b) && !v->is_outside)
         b.eta = 1.0f / m->ior;
     return b;
-}
-
-static inline struct vec3 surface_to_local(const struct surface_point *v,
-                                           struct vec3 d)
-{
-    return v3(v3_dot(d, v->t), v3_dot(d, v->b), v3_dot(d, v->n));
-}
-
-static inline struct vec3 surface_to_world(const struct surface_point *v,
-                                           struct vec3 d)
-{
-    struct vec3 x = v3_add(v3_scale(v->t, d.x), v3_scale(v->b, d.y));
-
-    return v3_add(x, v3_scale(v->n, d.z));
 }
 
 /* Least cosine of a vertex normal to its face for surface_lift(): 41 degrees. A
@@ -336,7 +345,8 @@ static inline bool surface_sides_agree(const struct surface_point *v,
     return z > 0.0f ? v->is_lifted || side > 0.0f : side < 0.0f;
 }
 
-/* The surface point with the face normal as its shading normal. */
+/* The surface point with the face normal as its shading normal. The normal of a
+ * coat keeps its angle to the shading normal. */
 static inline struct surface_point surface_of_face(struct surface_point v)
 {
     v.n = v.ng;

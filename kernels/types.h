@@ -95,6 +95,8 @@ struct material {
     uint32_t film_texture;            /* multiplies film */
     uint32_t film_thickness_texture;  /* 0: film_thinnest; 1: film_thickness */
     float film_thinnest;              /* in nanometres */
+    uint32_t coat_normal_texture; /* FEATURE_COAT_NORMALS: of the coat alone */
+    float coat_normal_strength;   /* as normal_strength */
     uint32_t grain_texture; /* red and green turn the grain from where it is at
                                1, 1/2; blue is a factor of its strength */
 };

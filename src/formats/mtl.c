@@ -301,6 +301,7 @@ static bool read_property(struct parser *p, struct word key)
         {"map_Pf", MTL_MAP_PF, true, false},
         {"map_Pf_thickness", MTL_MAP_PF_THICKNESS, true, false},
         {"map_grain", MTL_MAP_GRAIN, true, false},
+        {"map_Pc_norm", MTL_MAP_PC_NORM, true, false},
         {"norm", MTL_MAP_NORM, true, false},
         {"map_Kn", MTL_MAP_NORM, true, false},
         {"bump", MTL_MAP_BUMP, true, false},

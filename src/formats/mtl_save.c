@@ -15,12 +15,25 @@
 static mtl_aliases light_keys = {"Ke", "Ke_blackbody"};
 static mtl_aliases blackbody_keys = {"Ke_blackbody", "Ke"};
 static mtl_aliases classic_map_keys[MTL_MAPS] = {
-    {"map_Kd"},        {"map_Ks"},         {"map_Ke"},
-    {"map_Pr"},        {"map_Pm"},         {"map_d"},
-    {"map_Tf"},        {"map_Pc"},         {"map_Pcr"},
-    {"map_Ps"},        {"map_Ps_color"},   {"map_Ps_roughness"},
-    {"map_Ks_weight"}, {"map_Pf"},         {"map_Pf_thickness"},
-    {"map_grain"},     {"norm", "map_Kn"}, {"map_Bump", "map_bump", "bump"},
+    {"map_Kd"},
+    {"map_Ks"},
+    {"map_Ke"},
+    {"map_Pr"},
+    {"map_Pm"},
+    {"map_d"},
+    {"map_Tf"},
+    {"map_Pc"},
+    {"map_Pcr"},
+    {"map_Ps"},
+    {"map_Ps_color"},
+    {"map_Ps_roughness"},
+    {"map_Ks_weight"},
+    {"map_Pf"},
+    {"map_Pf_thickness"},
+    {"map_grain"},
+    {"map_Pc_norm"},
+    {"norm", "map_Kn"},
+    {"map_Bump", "map_bump", "bump"},
 };
 static mtl_aliases roughness_of_blender = {"map_Pr", "map_Ns"};
 static mtl_aliases metal_of_blender = {"map_Pm", "map_refl"};

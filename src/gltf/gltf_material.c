@@ -124,16 +124,18 @@ static bool read_metal_and_roughness(struct reader *r)
                     MTL_MAP_PR);
 }
 
-static bool read_normals(struct reader *r)
+/* Reads a map of normals, a member of *v, with its scale. */
+static bool read_normals(struct reader *r, const struct gltf_value *v,
+                         const char *key, enum mtl_map map)
 {
     struct gltf_value info;
     double scale = 1;
 
-    if (!gltf_texture_read(r->textures, &r->v, "normalTexture", of_alpha,
-                           &r->source.maps[MTL_MAP_NORM], &info, r->err) ||
+    if (!gltf_texture_read(r->textures, v, key, of_alpha, &r->source.maps[map],
+                           &info, r->err) ||
         !read_number(r, &info, "scale", &scale))
         return false;
-    r->source.normal_scale = fmin(fmax(scale, -1e3), 1e3);
+    *mtl_source_map_scale(&r->source, map) = fmin(fmax(scale, -1e3), 1e3);
     return true;
 }
 
@@ -277,24 +279,20 @@ static bool read_coat(struct reader *r)
 {
     struct mtl_source *s = &r->source;
     double weight = 0, roughness = 0;
-    struct gltf_value v, normals;
+    struct gltf_value v;
 
     if (!gltf_extension(&r->v, "KHR_materials_clearcoat", &v, r->err) ||
         !read_number(r, &v, "clearcoatFactor", &weight) ||
-        !read_number(r, &v, "clearcoatRoughnessFactor", &roughness) ||
-        !gltf_object(&v, "clearcoatNormalTexture", &normals, r->err))
+        !read_number(r, &v, "clearcoatRoughnessFactor", &roughness))
         return false;
     if (!(weight > 0))
         return true;
     set_unit(&s->pc, weight);
     set_unit(&s->pcr, roughness);
-    if (normals.json != NULL)
-        warn(r, "normals of coats",
-             "clearcoatNormalTexture, which is not used: coats have the "
-             "normals of their bases");
     return read_map(r, &v, "clearcoatTexture", of_red, MTL_MAP_PC) &&
            (!(roughness > 0) || read_map(r, &v, "clearcoatRoughnessTexture",
-                                         of_green, MTL_MAP_PCR));
+                                         of_green, MTL_MAP_PCR)) &&
+           read_normals(r, &v, "clearcoatNormalTexture", MTL_MAP_PC_NORM);
 }
 
 static bool read_sheen(struct reader *r)
@@ -412,11 +410,13 @@ static bool read_statements(struct reader *r)
                          alpha_flag) &&
                make_unlit(r, alpha_flag);
     if (gloss.json != NULL)
-        return read_glossiness(r, &gloss, alpha_flag) && read_normals(r) &&
+        return read_glossiness(r, &gloss, alpha_flag) &&
+               read_normals(r, &r->v, "normalTexture", MTL_MAP_NORM) &&
                read_emission(r);
     return read_base(r, &r->pbr, "baseColorFactor", "baseColorTexture",
                      alpha_flag) &&
-           read_metal_and_roughness(r) && read_specular(r) && read_normals(r) &&
+           read_metal_and_roughness(r) && read_specular(r) &&
+           read_normals(r, &r->v, "normalTexture", MTL_MAP_NORM) &&
            read_emission(r) && read_layers(r);
 }
 

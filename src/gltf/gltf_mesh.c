@@ -217,8 +217,9 @@ static bool leave_out(const struct builder *b, struct gltf_primitive *p)
 {
     const struct material *m = &b->scene->materials[p->material];
 
-    p->has_tangents =
-        p->has_tangents && (m->normal_texture != NO_INDEX || m->anisotropy > 0);
+    p->has_tangents = p->has_tangents &&
+                      (m->normal_texture != NO_INDEX ||
+                       m->coat_normal_texture != NO_INDEX || m->anisotropy > 0);
     if (!p->has_alphas || !has_low_alpha(&p->colors)) {
         p->has_alphas = false;
         return true;

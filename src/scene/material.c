@@ -40,6 +40,8 @@ struct material material_default(void)
         .normal_texture = NO_INDEX,
         .bump_texture = NO_INDEX,
         .bump_scale = 1,
+        .coat_normal_texture = NO_INDEX,
+        .coat_normal_strength = 1,
         .normal_strength = 1,
         .normal_depth = 1,
         .specular_weight_texture = NO_INDEX,
@@ -74,6 +76,7 @@ uint32_t *material_map(struct material *m, uint32_t number)
         &m->film_texture,
         &m->film_thickness_texture,
         &m->grain_texture,
+        &m->coat_normal_texture,
     };
 
     return all[number];
@@ -412,7 +415,10 @@ static bool make_principled(struct material *m, int illum, bool has_ks,
     if (m->coat > 0) {
         m->coat_alpha = (float)(pcr * pcr);
         m->coat_alpha_texture = mtl_source_map(s, MTL_MAP_PCR);
+        m->coat_normal_texture = mtl_source_map(s, MTL_MAP_PC_NORM);
     }
+    if (m->coat_normal_texture != NO_INDEX)
+        m->coat_normal_strength = (float)s->coat_normal_scale;
     set_sheen_and_grain(m, s, at);
     if (m->metalness == 0 && !has_ks)
         m->anisotropy = 0;
@@ -501,7 +507,8 @@ struct material material_from_source(const struct mtl_source *s,
                                              MTL_MAP_KS_WEIGHT,
                                              MTL_MAP_PF,
                                              MTL_MAP_PF_THICKNESS,
-                                             MTL_MAP_GRAIN};
+                                             MTL_MAP_GRAIN,
+                                             MTL_MAP_PC_NORM};
     struct statement_place at = {path, report};
     struct material m = material_default();
     struct mtl_color light = mtl_source_light(s);

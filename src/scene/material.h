@@ -33,6 +33,7 @@
  * Ps_color, or map_Ps_color, colours sheen. map_Ks_weight, map_Ps_roughness and
  * map_Pf multiply Ks, Ps_roughness and Pf; map_Pf_thickness goes from
  * Pf_thinnest to Pf_thickness. map_grain turns the grain and reduces aniso.
+ * map_Pc_norm bends the normal of the coat, which norm and map_Bump do not.
  *
  * In files of Blender (enum mtl_dialect), Ks never is a colour of metal; Pm is
  * Ka with illum 3 and 6 if there is no Pm; roughness is 1 - sqrt(Ns / 1000);
@@ -68,7 +69,7 @@
 #define MATERIAL_FILM_THICKNESS_MAX 2000
 
 /* Maps of a material. */
-#define MATERIAL_MAPS 17
+#define MATERIAL_MAPS 18
 
 struct material material_default(void);
 

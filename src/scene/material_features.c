@@ -4,6 +4,7 @@
 #include <stdbool.h>
 
 #include "scene/material.h"
+#include "kernels/bump.h"
 #include "kernels/light.h"
 
 static bool has_texture(const struct material *m)
@@ -64,6 +65,8 @@ uint32_t material_features(const struct material *m,
         features |= FEATURE_TEXTURE_OPTIONS;
     if (m->bump_texture != NO_INDEX || m->normal_texture != NO_INDEX)
         features |= FEATURE_BUMPS;
+    if (has_coat_bumps(m))
+        features |= FEATURE_COAT_NORMALS;
     if (m->opacity < 1 || is_translucent(textures, m->color_texture) ||
         is_translucent(textures, m->opacity_texture))
         features |= FEATURE_COVERAGE;

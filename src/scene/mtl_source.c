@@ -56,13 +56,16 @@ const char *const mtl_map_keys[MTL_MAPS] = {
     [MTL_MAP_PF] = "map_Pf",
     [MTL_MAP_PF_THICKNESS] = "map_Pf_thickness",
     [MTL_MAP_GRAIN] = "map_grain",
+    [MTL_MAP_PC_NORM] = "map_Pc_norm",
     [MTL_MAP_NORM] = "norm",
     [MTL_MAP_BUMP] = "map_Bump",
 };
 
 struct mtl_source mtl_source_empty(void)
 {
-    struct mtl_source s = {.bump_scale = 1, .normal_scale = 1};
+    struct mtl_source s = {.bump_scale = 1,
+                           .normal_scale = 1,
+                           .coat_normal_scale = 1};
 
     for (int i = 0; i < MTL_MAPS; i++)
         s.maps[i] = NO_INDEX;
@@ -111,6 +114,7 @@ bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b)
     return a->dialect == b->dialect && a->maps_off == b->maps_off &&
            a->bump_scale == b->bump_scale &&
            a->normal_scale == b->normal_scale &&
+           a->coat_normal_scale == b->coat_normal_scale &&
            mtl_color_equal(&a->ke, &b->ke) &&
            mtl_number_equal(&a->kelvin, &b->kelvin) &&
            mtl_number_equal(&a->luminance, &b->luminance);
@@ -140,7 +144,9 @@ double *mtl_source_map_scale(struct mtl_source *s, enum mtl_map map)
 {
     if (map == MTL_MAP_BUMP)
         return &s->bump_scale;
-    return map == MTL_MAP_NORM ? &s->normal_scale : NULL;
+    if (map == MTL_MAP_NORM)
+        return &s->normal_scale;
+    return map == MTL_MAP_PC_NORM ? &s->coat_normal_scale : NULL;
 }
 
 double mtl_source_full_coat(const struct mtl_source *s)

@@ -42,6 +42,7 @@ enum mtl_map {
     MTL_MAP_PF,
     MTL_MAP_PF_THICKNESS,
     MTL_MAP_GRAIN,
+    MTL_MAP_PC_NORM,
     MTL_MAP_NORM,
     MTL_MAP_BUMP,
     MTL_MAPS
@@ -71,6 +72,7 @@ struct mtl_source {
     uint32_t maps_off;   /* bit set of 1 << enum mtl_map: maps to be ignored */
     double bump_scale;   /* factor for the heights of MTL_MAP_BUMP */
     double normal_scale; /* factor for x and y of MTL_MAP_NORM */
+    double coat_normal_scale; /* the same for MTL_MAP_PC_NORM */
 };
 
 /* A statement of one colour or one number. Statements of this table are read,

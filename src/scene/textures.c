@@ -424,6 +424,7 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
     resolve_data_map(host, &m->grain_texture);
     resolve_data_map(host, &m->opacity_texture);
     resolve_data_map(host, &m->normal_texture);
+    resolve_data_map(host, &m->coat_normal_texture);
     resolve_bump_map(host, scene, m, report);
     if (m->kind == MATERIAL_PLASTIC && is_black(&m->specular))
         m->kind = MATERIAL_DIFFUSE;

@@ -45,15 +45,23 @@ static char *add_lines(char *text, const struct edit *e, uint32_t material)
     return longer;
 }
 
+/* Copies the maps of a material with their scales, and its dialect. */
+static void copy_maps(struct mtl_source *to, const struct mtl_source *from)
+{
+    memcpy(to->maps, from->maps, sizeof to->maps);
+    to->bump_scale = from->bump_scale;
+    to->normal_scale = from->normal_scale;
+    to->coat_normal_scale = from->coat_normal_scale;
+    to->dialect = from->dialect;
+}
+
 /* Returns a material with the maps of another one and no other statements. */
 static struct mtl_source maps_of(const struct mtl_source *s)
 {
     struct mtl_source maps = mtl_source_empty();
 
-    memcpy(maps.maps, s->maps, sizeof maps.maps);
+    copy_maps(&maps, s);
     maps.maps_off = s->maps_off;
-    maps.bump_scale = s->bump_scale;
-    maps.dialect = s->dialect;
     return maps;
 }
 
@@ -138,9 +146,7 @@ static void restore_material(struct edit *e, uint32_t material,
     const struct mtl_source *before = &e->now.sources[material];
     struct mtl_source source = *statements;
 
-    source.dialect = before->dialect;
-    memcpy(source.maps, before->maps, sizeof source.maps);
-    source.bump_scale = before->bump_scale;
+    copy_maps(&source, before);
     source.maps_off = maps_off & ((1u << MTL_MAPS) - 1);
     edit_material(e, material, &source);
 }

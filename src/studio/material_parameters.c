@@ -532,6 +532,7 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"map_Pf", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PF)},
     {"map_Pf_thickness", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PF_THICKNESS)},
     {"map_grain", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_GRAIN)},
+    {"map_Pc_norm", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PC_NORM)},
     {"norm", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_NORM)},
     {"map_Bump", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_BUMP)},
 };

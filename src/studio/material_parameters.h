@@ -14,7 +14,7 @@
 
 #include "studio/parameter_table.h"
 
-#define MATERIAL_PARAMETERS 45
+#define MATERIAL_PARAMETERS 46
 
 extern const struct parameter_row material_parameters[MATERIAL_PARAMETERS];
 

@@ -382,6 +382,7 @@ static void nothing_is_ever_nan_or_negative(void **state)
     const float edges[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
     const float mus[] = {1, 0.5f, 1e-3f, 1e-7f, 1e-15f, 1e-30f, 0};
     const float widths[] = {0, 4.9e-4f, 5e-4f, 0.02f, 1};
+    const struct vec3 coat_normals[] = {{0, 0, 0}, {0.6f, 0, 0.8f}, {-1, 0, 0}};
     const float indices[] = {1e-6f, 0.5f, 0.9985f, 1, 1.0015f, 3, 1e6f};
 
     (void)state;
@@ -396,6 +397,7 @@ static void nothing_is_ever_nan_or_negative(void **state)
                          .transmission = (float)(k / 3 % 3) / 2,
                          .coat = (float)(k / 9 % 2),
                          .is_thin = k / 5 % 2,
+                         .coat_normal = coat_normals[k / 7 % 3],
                          .coat_alpha = widths[(k / 49 + k / 18) % 5]};
         struct vec3 wo = direction(mus[k / 7 % 7]);
         struct vec2 u = v2(edges[i % 4], edges[i / 4 % 4]);

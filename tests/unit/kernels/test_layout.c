@@ -32,7 +32,9 @@
       M(material, opacity_texture) M(material, metalness)                     \
       M(material, normal_texture) M(material, bump_texture)                   \
       M(material, bump_scale) M(material, normal_strength)                    \
-      M(material, normal_depth) M(material, specular_weight_texture)          \
+      M(material, normal_depth) M(material, coat_normal_texture)              \
+      M(material, coat_normal_strength)                                       \
+      M(material, specular_weight_texture)                                    \
       M(material, sheen_alpha_texture) M(material, film_texture)              \
       M(material, film_thickness_texture) M(material, film_thinnest)          \
       M(material, grain_texture)                                              \

@@ -577,6 +577,45 @@ static void normal_maps_turn_the_normal(void **state)
     unload(&l);
 }
 
+/* A map of normals bends the surface below a coat, and that of the coat the
+ * coat alone. */
+static void coats_have_normals_of_their_own(void **state)
+{
+    static const char *const statements[] = {
+        "Kd 1\nPc 1\nnorm two.tga", "Kd 1\nPc 1\nmap_Pc_norm -bm 1.5 two.tga",
+        "Kd 1\nPc 1\nnorm two.tga\nmap_Pc_norm two.tga"};
+    const double x[3][2] = {{1, 0}, {0, 1.5}, {1, 1}};
+    const uint8_t tilted[3] = {170, 102, 221};
+    struct loaded plain;
+
+    (void)state;
+    write_image("two.tga", 1, 1, 3, tilted);
+    for (int i = 0; i < 3; i++) {
+        struct ray r = {.o = {0.2f, 0.2f, 1}, .d = {0, 0, -1}};
+        struct surface_point v;
+        struct loaded l;
+        struct bsdf b;
+
+        load(&l, statements[i]);
+        assert_int_not_equal(l.world.settings.features & FEATURE_COAT_NORMALS,
+                             0);
+        assert_true(surface_at(&l.world, &l.material, r,
+                               (struct hit){.t = 1, .b0 = 1}, &v));
+        b = bsdf_at(&l.world, &l.material, &v);
+        check_direction(v.n, x[i][0] * 85, x[i][0] * -51,
+                        x[i][0] > 0 ? 187 : 1);
+        check_direction(v.coat_n, x[i][1] * 85, x[i][1] * -51,
+                        x[i][1] > 0 ? 187 : 1);
+        check_close((double)v3_length(
+                        v3_sub(surface_to_world(&v, b.coat_normal), v.coat_n)),
+                    0, 1e-6);
+        unload(&l);
+    }
+    load(&plain, "Kd 1\nPc 1");
+    assert_int_equal(plain.world.settings.features & FEATURE_COAT_NORMALS, 0);
+    unload(&plain);
+}
+
 /* With tangents of vertices, x of the map is along them, and y along the normal
  * times the tangent, times its sign. From behind only z is reversed. */
 static void normal_maps_use_tangents(void **state)
@@ -709,6 +748,7 @@ int main(void)
         cmocka_unit_test(numbers_come_from_their_channels),
         cmocka_unit_test(rare_maps_multiply),
         cmocka_unit_test(maps_turn_and_scale_the_grain),
+        cmocka_unit_test(coats_have_normals_of_their_own),
         cmocka_unit_test(second_coordinates_are_used),
         cmocka_unit_test(options_move_and_scale),
         cmocka_unit_test(extreme_coordinates_have_colors),

@@ -100,6 +100,8 @@ static void coloured_mixtures_add_no_light(void **state)
         struct vec3 e;
 
         m.film = i % 2 == 0 ? m.film : 0;
+        if (i / 2 % 2 == 0)
+            m.coat_normal = any_direction(&seed, 0.3f);
         e = albedo(&m, cosines[i % (int)COUNT(cosines)]);
 
         check_at_most(fmax((double)e.x, fmax((double)e.y, (double)e.z)), 1);
@@ -283,6 +285,44 @@ static void coats_reflect_their_albedo(void **state)
         }
 }
 
+/* A smooth coat reflects about its own normal, and a rough one too, as a coat
+ * whose frame is turned; the base keeps its own. */
+static void coats_have_their_own_normal(void **state)
+{
+    const float angle = 0.3f;
+    struct bsdf flat = {.coat = 1, .eta = 1, .kind = MATERIAL_PRINCIPLED};
+    struct bsdf bent = flat;
+    struct vec3 wo = direction(0.9f), turned = wo, wi;
+    struct bsdf_sample s;
+    uint64_t seed = 4;
+
+    (void)state;
+    bent.coat_normal = v3(0, sinf(angle), cosf(angle));
+    assert_true(bsdf_sample(&bent, wo, v2(0.3f, 0.6f), 0.5f, &s));
+    wi = v3_sub(v3_scale(bent.coat_normal, 2 * v3_dot(bent.coat_normal, wo)),
+                wo);
+    check_close((double)v3_length(v3_sub(s.wi, wi)), 0, 1e-6);
+    flat.coat_alpha = bent.coat_alpha = 0.3f;
+    turned.y = cosf(angle) * wo.y - sinf(angle) * wo.z;
+    turned.z = sinf(angle) * wo.y + cosf(angle) * wo.z;
+    for (int i = 0; i < 1000; i++) {
+        struct vec3 in = direction((float)check_random(&seed)), there = in;
+        float p, q;
+        double want, is;
+
+        there.y = cosf(angle) * in.y - sinf(angle) * in.z;
+        there.z = sinf(angle) * in.y + cosf(angle) * in.z;
+        if (there.z <= 0)
+            continue;
+        want = (double)bsdf_terms(&flat, turned, there, &p).x;
+        is = (double)bsdf_terms(&bent, wo, in, &q).x;
+        check_close(is, want, 1e-4 * want + 1e-7);
+        check_close((double)q, (double)p, 1e-4 * (double)p + 1e-6);
+    }
+    bent.color = white;
+    check_at_most((double)albedo(&bent, 0.4f).x, 1 + 4e-3);
+}
+
 static void mixtures_of_mirrors_have_no_density(void **state)
 {
     struct bsdf m = {.color = gold,
@@ -322,6 +362,7 @@ int main(void)
         cmocka_unit_test(facets_have_two_widths),
         cmocka_unit_test(stretched_facets_keep_all_light),
         cmocka_unit_test(coats_reflect_their_albedo),
+        cmocka_unit_test(coats_have_their_own_normal),
         cmocka_unit_test(mixtures_of_mirrors_have_no_density),
     };
 

@@ -191,35 +191,36 @@ static inline void random_map_put(FILE *f, const char *key, uint64_t *seed)
 
 /* Extensions with numbers from 0 to 1, which the maps scale. */
 static const struct {
-    const char *name, *numbers[2], *maps[2], *more;
+    const char *name, *numbers[2], *maps[3], *more;
 } random_extensions[] = {
     {"clearcoat",
      {"clearcoatFactor", "clearcoatRoughnessFactor"},
-     {"clearcoatTexture", "clearcoatRoughnessTexture"},
+     {"clearcoatTexture", "clearcoatRoughnessTexture",
+      "clearcoatNormalTexture"},
      ""},
     {"sheen",
      {"sheenRoughnessFactor", NULL},
-     {"sheenColorTexture", "sheenRoughnessTexture"},
+     {"sheenColorTexture", "sheenRoughnessTexture", NULL},
      ", \"sheenColorFactor\": [0.9, 0.5, 0.3]"},
     {"iridescence",
      {"iridescenceFactor", NULL},
-     {"iridescenceTexture", "iridescenceThicknessTexture"},
+     {"iridescenceTexture", "iridescenceThicknessTexture", NULL},
      ", \"iridescenceThicknessMaximum\": 700"},
     {"anisotropy",
      {"anisotropyStrength", "anisotropyRotation"},
-     {"anisotropyTexture", NULL},
+     {"anisotropyTexture", NULL, NULL},
      ""},
     {"transmission",
      {"transmissionFactor", NULL},
-     {"transmissionTexture", NULL},
+     {"transmissionTexture", NULL, NULL},
      ""},
     {"volume",
      {"thicknessFactor", "attenuationDistance"},
-     {"thicknessTexture", NULL},
+     {"thicknessTexture", NULL, NULL},
      ", \"attenuationColor\": [0.9, 0.5, 0.2]"},
     {"specular",
      {"specularFactor", NULL},
-     {"specularTexture", "specularColorTexture"},
+     {"specularTexture", "specularColorTexture", NULL},
      ", \"specularColorFactor\": [0.9, 1.5, 0.8]"},
 };
 #define RANDOM_EXTENSIONS 7
@@ -239,7 +240,7 @@ static inline void random_extensions_put(FILE *f, uint64_t *seed)
             if (random_extensions[e].numbers[k] != NULL)
                 fprintf(f, ", \"%s\": %.3f", random_extensions[e].numbers[k],
                         0.01 + check_random(seed));
-        for (int k = 0; k < 2; k++)
+        for (int k = 0; k < 3; k++)
             random_map_put(f, random_extensions[e].maps[k], seed);
         fprintf(f, "}");
     }
@@ -272,11 +273,12 @@ static inline void random_material_put(FILE *f, uint64_t *seed)
 /* ---- nodes ---- */
 
 /* Writes a node whose matrix may shear and mirror. */
-static inline void random_node_put(FILE *f, int mesh, uint64_t *seed)
+static inline void random_node_put(FILE *f, int mesh, double size,
+                                   uint64_t *seed)
 {
     fprintf(f, ",\n{\"mesh\": %d, \"matrix\": [", mesh);
     for (int i = 0; i < 16; i++) {
-        double spread = i < 12 ? 1.2 : 4;
+        double spread = i < 12 ? size : 4;
 
         fprintf(f, "%s%.4f", i > 0 ? ", " : "",
                 i == 15      ? 1
@@ -309,7 +311,8 @@ static inline void random_nodes_put(FILE *f, bool has_instances, uint64_t *seed)
                 "{\"KHR_lights_punctual\": {\"light\": %d}}}",
                 i > 0 ? ",\n" : "", i - 1, i);
     for (int i = 3; i < nodes; i++)
-        random_node_put(f, i < 3 + RANDOM_MATERIALS ? i - 3 : 0, seed);
+        random_node_put(f, i < 3 + RANDOM_MATERIALS ? i - 3 : 0,
+                        has_instances ? 1.2 : 4, seed);
     fprintf(f, "],\n\"scenes\": [{\"nodes\": [0");
     for (int i = 1; i < nodes; i++)
         fprintf(f, ", %d", i);

@@ -131,7 +131,7 @@ static void lamps_are_equal(void **state)
                 FEATURE_VERTEX_COLORS | FEATURE_ROUGH_SHEETS |              \
                 FEATURE_THIN_FILM | FEATURE_INSTANCES |                     \
                 FEATURE_TEXTURE_OPTIONS | FEATURE_VERTEX_ALPHAS |           \
-                FEATURE_TANGENTS))
+                FEATURE_TANGENTS | FEATURE_COAT_NORMALS))
 
 /* Renders with a build of the kernels for the scene's features alone. */
 static void render_special(struct pair *p, uint32_t seed)
