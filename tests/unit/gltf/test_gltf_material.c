@@ -351,7 +351,8 @@ static void images_are_listed_once(void **state)
         "\"baseColorTexture\":{\"index\":1},\"metallicRoughnessTexture\":{"
         "\"index\":0}},\"normalTexture\":{\"index\":0,\"scale\":0.5},"
         "\"extensions\":{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1,"
-        "\"clearcoatTexture\":{\"index\":0}}}}");
+        "\"clearcoatTexture\":{\"index\":0},\"clearcoatNormalTexture\":{"
+        "\"index\":1,\"scale\":0.25}}}}");
     assert_true(l.ok);
     m = &l.scene.materials[1];
     assert_int_equal(l.scene.image_count, 1);
@@ -361,6 +362,9 @@ static void images_are_listed_once(void **state)
     assert_int_equal(texture_of(&l, m->metal_texture)->channel, CHANNEL_BLUE);
     assert_int_equal(texture_of(&l, m->alpha_texture)->channel, CHANNEL_GREEN);
     assert_int_equal(texture_of(&l, m->coat_texture)->channel, CHANNEL_RED);
+    assert_int_not_equal(m->coat_normal_texture, m->normal_texture);
+    assert_int_not_equal(m->coat_normal_texture, NO_INDEX);
+    check_close((double)m->coat_normal_strength, 0.25, 0);
     check_close((double)m->normal_strength, 0.5, 0);
     check_close((double)m->normal_depth, 1, 0);
     for (uint32_t i = 0; i < l.scene.texture_count; i++)

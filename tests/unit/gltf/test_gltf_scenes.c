@@ -199,6 +199,13 @@ static void textures(void **state)
     check_scene("textured", 32);
 }
 
+/* Boxes whose vertex normals are means over their edges. */
+static void cities(void **state)
+{
+    (void)state;
+    check_scene("macross_city", 16);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -208,6 +215,7 @@ int main(void)
         cmocka_unit_test(lights_without_size),
         cmocka_unit_test(metals),
         cmocka_unit_test(textures),
+        cmocka_unit_test(cities),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
