@@ -33,6 +33,7 @@ enum action {
     ACTION_CURSOR,
     ACTION_CANCEL,
     ACTION_ORBIT,
+    ACTION_WALLS, /* walls stop the camera, or let it pass */
     ACTION_FRAME,
     ACTION_FRAME_ALL,
     ACTION_NARROWER,

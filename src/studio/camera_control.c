@@ -5,6 +5,11 @@
 
 #include "base/clock.h"
 #include "studio/camera_moves.h"
+#include "studio/clearance.h"
+#include "studio/framing.h"
+
+/* Share of an object that is seen from which it counts as not hidden. */
+#define SEEN_WELL 0.5
 
 static struct edit *edit_of(const struct camera_control *camera)
 {
@@ -52,72 +57,94 @@ void camera_control_stop(struct camera_control *camera)
     edit_end_step(edit_of(camera));
 }
 
-/* Resets the clearance after a jump of the eye. */
-static void reset_clearance(struct camera_control *camera)
-{
-    clearance_reset(&camera->clearance);
-    camera->reported_state = CLEARANCE_IN_SCENE;
-}
-
 void camera_control_set_scene(struct camera_control *camera)
 {
     camera->cursor.has_pick = false;
     camera->cursor.is_pick_new = false;
     camera->cursor.is_outdated = camera->screen->has_cursor;
-    reset_clearance(camera);
+    camera->reported = CAMERA_FREE;
     camera_input_resize(&camera->input, scene_of(camera)->bounds_lo,
                         scene_of(camera)->bounds_hi);
 }
 
-/* ---- clearance ---- */
+/* ---- surfaces around the camera ---- */
 
-static void update_clearance(struct camera_control *camera)
+/* Returns the surfaces. They have no scene while there is no tree: the render
+ * thread may be building it. */
+static struct surfaces surfaces_of(const struct camera_control *camera)
 {
     const struct session *s = camera->control->session;
 
-    if (world_tree(&s->world) == NULL)
-        return; /* the render thread may be building it */
-    clearance_update(&camera->clearance, &s->scene, &s->world, pose_of(camera),
-                     aspect_of(camera));
-    camera_input_adapt(&camera->input, camera->clearance.near,
-                       camera->clearance.box_distance);
+    return world_tree(&s->world) != NULL
+               ? (struct surfaces){&s->scene, &s->world}
+               : (struct surfaces){0};
 }
 
-static void say_state(struct camera_control *camera)
+/* Adapts speed and walls to the place of the camera. */
+static void update_input(struct camera_control *camera)
 {
-    const struct clearance *c = &camera->clearance;
-    struct keymap_name key = render_control_key(camera->control, ACTION_RESET);
-    const char *name;
+    struct surfaces surfaces = surfaces_of(camera);
+    struct clearance c;
 
-    if (c->state == CLEARANCE_INSIDE_SOLID) {
-        name = pick_cursor_object_name(&camera->cursor, c->passed);
-        render_control_say_long(camera->control, "inside of %.60s: %s returns",
-                                name, key.text);
-    } else if (c->state == CLEARANCE_OUTSIDE_ROOM) {
-        render_control_say_long(camera->control,
-                                "outside%s, behind a wall: %s returns",
-                                c->box_distance > 0 ? " the scene" : "",
-                                key.text);
-    } else {
-        render_control_say_long(camera->control,
-                                "nothing of the scene is in view: %s returns",
-                                key.text);
-    }
+    camera->input.walls =
+        camera->passes_walls ? (struct surfaces){0} : surfaces;
+    if (surfaces.scene == NULL)
+        return;
+    c = clearance_of(&surfaces, pose_of(camera)->eye);
+    camera_input_adapt(&camera->input, c.near, c.box_distance);
+}
+
+static enum camera_trouble find_trouble(const struct camera_control *camera)
+{
+    const struct scene *s = scene_of(camera);
+
+    if (s->tri_count > 0 && !camera_sees_box(pose_of(camera), aspect_of(camera),
+                                             s->bounds_lo, s->bounds_hi))
+        return CAMERA_OUT_OF_VIEW;
+    return camera->input.is_stopped ? CAMERA_STOPPED : CAMERA_FREE;
+}
+
+static void say_trouble(struct camera_control *camera)
+{
+    uint32_t object = camera->input.blocker;
+
+    if (camera->reported == CAMERA_OUT_OF_VIEW)
+        render_control_say_long(
+            camera->control, "nothing of the scene is in view: %s returns",
+            render_control_key(camera->control, ACTION_RESET).text);
+    else
+        render_control_say_long(
+            camera->control, "%.60s %s the camera: %s goes through",
+            object == NO_INDEX
+                ? "surfaces"
+                : pick_cursor_object_name(&camera->cursor, object),
+            object == NO_INDEX ? "stop" : "stops",
+            render_control_key(camera->control, ACTION_WALLS).text);
     camera->reported_ns = camera->control->message.said_ns;
 }
 
-/* Updates the clearance after a move. A bad state has one message, which is
- * removed when the state is good again. */
-static void report_state(struct camera_control *camera)
+/* Reports what is wrong after a move. A message about it is removed when the
+ * camera is free again. */
+static void report_trouble(struct camera_control *camera)
 {
-    update_clearance(camera);
-    if (camera->clearance.state == camera->reported_state)
+    enum camera_trouble trouble = find_trouble(camera);
+
+    if (trouble == camera->reported)
         return;
-    camera->reported_state = camera->clearance.state;
-    if (camera->reported_state != CLEARANCE_IN_SCENE)
-        say_state(camera);
+    camera->reported = trouble;
+    if (trouble != CAMERA_FREE)
+        say_trouble(camera);
     else if (camera->reported_ns == camera->control->message.said_ns)
         render_control_clear_message(camera->control);
+}
+
+void camera_control_switch_walls(struct camera_control *camera)
+{
+    camera->passes_walls = !camera->passes_walls;
+    camera->reported = CAMERA_FREE;
+    render_control_say(camera->control, camera->passes_walls
+                                            ? "the camera goes through walls"
+                                            : "walls stop the camera");
 }
 
 /* ---- moves ---- */
@@ -144,11 +171,11 @@ static void steer_held(struct camera_control *camera, uint64_t now_ns)
     uint64_t next_ns;
     bool has_moved = false;
 
-    /* the speed of each step depends on the clearance at its begin, even if the
+    /* the speed of each step depends on the place where it begins, even if the
      * event loop is late */
     while ((next_ns = held_keys_next_ns(&camera->input.motion)) <= now_ns &&
            next_ns != UINT64_MAX) {
-        update_clearance(camera);
+        update_input(camera);
         has_moved |= camera_input_step(&camera->input, &pose, next_ns);
         edit_pose(edit_of(camera), &pose);
     }
@@ -156,7 +183,7 @@ static void steer_held(struct camera_control *camera, uint64_t now_ns)
         return;
     camera->cursor.is_outdated = camera->screen->has_cursor;
     say_lens(camera);
-    report_state(camera);
+    report_trouble(camera);
 }
 
 void camera_control_end_move(struct camera_control *camera)
@@ -195,13 +222,13 @@ static void jump(struct camera_control *camera, const struct pose *pose)
     edit_end_step(edit_of(camera));
     edit_pose(edit_of(camera), pose);
     edit_end_step(edit_of(camera));
-    reset_clearance(camera);
+    camera->reported = CAMERA_FREE;
 }
 
 static void change_speed(struct camera_control *camera, int steps)
 {
     camera_input_change_speed(&camera->input, steps);
-    update_clearance(camera);
+    update_input(camera);
     render_control_say(camera->control,
                        "speed factor %.3g: %.3g units a second here",
                        camera->input.speed, camera_input_speed(&camera->input));
@@ -215,14 +242,6 @@ void camera_control_faster(struct camera_control *camera)
 void camera_control_slower(struct camera_control *camera)
 {
     change_speed(camera, -1);
-}
-
-void camera_control_reset(struct camera_control *camera)
-{
-    if (!may_jump(camera))
-        return;
-    jump(camera, &camera->control->session->opened_pose);
-    render_control_say(camera->control, "the view as it was opened");
 }
 
 /* Returns true if undo is allowed now. During a reload it is not: the loaded
@@ -257,7 +276,7 @@ static void step_history(struct camera_control *camera, bool is_back)
         render_control_say(camera->control, "%s: %s",
                            is_back ? "undone" : "redone", step);
     if (memcmp(&before, pose_of(camera), sizeof before) != 0)
-        reset_clearance(camera);
+        camera->reported = CAMERA_FREE;
 }
 
 void camera_control_undo(struct camera_control *camera)
@@ -281,7 +300,7 @@ static void find_pivot(struct camera_control *camera)
     if (!camera->cursor.has_pick &&
         !pick_cursor_find_center(&camera->cursor, &pick))
         memcpy(pick.position, scene_of(camera)->center, sizeof pick.position);
-    memcpy(camera->input.pivot, pick.position, sizeof camera->input.pivot);
+    camera_input_set_pivot(&camera->input, pick.position);
 }
 
 static bool need_pick(struct camera_control *camera)
@@ -315,38 +334,65 @@ void camera_control_switch_orbit(struct camera_control *camera)
             : "arrows and mouse orbit the centre of the picture");
 }
 
-static void frame(struct camera_control *camera, const double lo[3],
-                  const double hi[3], const char *name)
+/* Frames an object, or the whole scene if it is NO_INDEX. */
+static void frame(struct camera_control *camera, uint32_t object,
+                  const char *name)
 {
-    struct pose framed = *pose_of(camera);
+    struct surfaces surfaces = surfaces_of(camera);
+    struct pose pose = *pose_of(camera);
+    struct framing framing;
+    double share;
 
-    if (!may_jump(camera))
+    if (surfaces.scene == NULL || !may_jump(camera))
         return;
-    camera_frame(&framed, aspect_of(camera), lo, hi);
-    jump(camera, &framed);
-    render_control_say(camera->control, "%s", name);
+    framing_init(&framing, &surfaces, object, aspect_of(camera));
+    share = framing_find(&framing, &pose);
+    if (!(share > 0) && object == NO_INDEX)
+        camera_frame(&pose, framing.aspect, framing.lo, framing.hi);
+    if (share > 0 || object == NO_INDEX)
+        jump(camera, &pose);
+    render_control_say(camera->control, "%s%s", name,
+                       share > SEEN_WELL || object == NO_INDEX ? ""
+                       : share > 0 ? ", partly hidden"
+                                   : " is hidden from all sides");
 }
 
 void camera_control_frame_object(struct camera_control *camera)
 {
     uint32_t object;
-    double lo[3], hi[3];
 
     if (!need_pick(camera))
         return;
     object = camera->cursor.pick.object;
-    pick_bounds(scene_of(camera), object, lo, hi);
-    frame(camera, lo, hi, pick_cursor_object_name(&camera->cursor, object));
+    frame(camera, object, pick_cursor_object_name(&camera->cursor, object));
 }
 
 void camera_control_frame_all(struct camera_control *camera)
 {
-    const struct scene *s = scene_of(camera);
-
-    if (s->tri_count > 0)
-        frame(camera, s->bounds_lo, s->bounds_hi, "the whole scene");
+    if (scene_of(camera)->tri_count > 0)
+        frame(camera, NO_INDEX, "the whole scene");
     else
         render_control_say(camera->control, "no faces to frame");
+}
+
+void camera_control_reset(struct camera_control *camera)
+{
+    const struct pose *opened = &camera->control->session->opened_pose;
+    bool is_there = memcmp(opened, pose_of(camera), sizeof *opened) == 0;
+
+    if (!may_jump(camera))
+        return;
+    camera->input.is_orbiting = camera->passes_walls = false;
+    camera->input.speed = 1;
+    if (is_there) {
+        camera_control_frame_all(camera);
+        return;
+    }
+    jump(camera, opened);
+    render_control_say(
+        camera->control,
+        "the view as it was opened; %s again shows the whole scene",
+        render_control_key(camera->control, ACTION_RESET).text);
 }
 
 void camera_control_focus(struct camera_control *camera)
@@ -408,6 +454,8 @@ static bool steer_by(struct camera_control *camera, const struct event *event)
     struct rect r = pick_cursor_shown_rect(&camera->cursor);
     struct pose pose = *pose_of(camera);
 
+    if (event->mouse == MOUSE_DRAG)
+        update_input(camera);
     if (!camera_input_mouse(&camera->input, &pose, event, &camera->screen->fit,
                             r.width, r.height))
         return false;
@@ -423,7 +471,7 @@ static void drag(struct camera_control *camera, const struct event *event)
     if (!render_control_may_move(camera->control))
         camera->input.is_dragging = false; /* the release is no click */
     else if (steer_by(camera, event))
-        report_state(camera);
+        report_trouble(camera);
 }
 
 void camera_control_mouse(struct camera_control *camera,

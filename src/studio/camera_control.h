@@ -3,9 +3,9 @@
  * camera_control.h - the camera commands of keys and mouse
  *
  * A held key or a drag is one undo step. The picked point is the centre of
- * orbits and the point of focus, and its object is the one to frame. A message
- * names the key to return when the camera has left a room through its wall,
- * entered a solid, or has no part of the scene in view.
+ * orbits and the point of focus, and its object is the one to frame. Walls stop
+ * the camera unless it is told to pass them. A message says so, and names the
+ * key to return when no part of the scene is in view.
  *
  * Units:     nanoseconds of clock_ns(), terminal cells
  * Ownership: control and screen are the caller's and outlive the camera
@@ -19,8 +19,14 @@
 #include <stdint.h>
 
 #include "studio/camera_input.h"
-#include "studio/clearance.h"
 #include "studio/pick_cursor.h"
+
+/* What the last message about a motion said. */
+enum camera_trouble {
+    CAMERA_FREE,       /* the normal case */
+    CAMERA_STOPPED,    /* a surface stops the motion */
+    CAMERA_OUT_OF_VIEW /* no part of the scene is in the picture */
+};
 
 struct camera_control {
     struct render_control *control;
@@ -29,8 +35,8 @@ struct camera_control {
     enum held_keys_axis held; /* axis of the last key */
     bool drag_is_new;         /* no motion since the press */
     struct pick_cursor cursor;
-    struct clearance clearance; /* of the last eye position */
-    enum clearance_state reported_state;
+    bool passes_walls;
+    enum camera_trouble reported;
     uint64_t reported_ns; /* time of the message about it */
 };
 
@@ -56,8 +62,12 @@ void camera_control_pick(struct camera_control *camera);
  * between looking around and orbiting the last pick. */
 void camera_control_switch_orbit(struct camera_control *camera);
 
+/* Switches between walls that stop the camera and walls that it passes. */
+void camera_control_switch_walls(struct camera_control *camera);
+
 /* Move the camera so that the picked object or the whole scene fills the
- * picture. */
+ * picture. Something that is hidden in this direction is shown from another
+ * one. */
 void camera_control_frame_object(struct camera_control *camera);
 void camera_control_frame_all(struct camera_control *camera);
 
@@ -68,7 +78,8 @@ void camera_control_focus(struct camera_control *camera);
 void camera_control_undo(struct camera_control *camera);
 void camera_control_redo(struct camera_control *camera);
 
-/* Restores the camera that the scene was opened with. */
+/* Restores the camera that the scene was opened with, and the initial speed and
+ * modes. Frames the whole scene if that camera is the present one. */
 void camera_control_reset(struct camera_control *camera);
 
 /* Store the camera as a numbered view, or go to one. Numbers are 1 to

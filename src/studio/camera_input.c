@@ -2,9 +2,11 @@
 #include "studio/camera_input.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/geometry.h"
 #include "studio/camera_moves.h"
+#include "studio/collision.h"
 
 /* Initial speed in reaches per second. A tap, which lasts 150 ms, moves by
  * about a fifth of the distance to the nearest surface; a key that is held
@@ -12,8 +14,8 @@
 #define PACE 1.0
 
 /* Bounds of the reach, in units of the scene's size. REACH_LEAST lets the eye
- * finally pass a surface; REACH_MOST crosses the scene in a few seconds;
- * REACH_FIRST is used until the clearance is known. */
+ * leave a surface, and pass it if walls do not stop it; REACH_MOST crosses the
+ * scene in a few seconds; REACH_FIRST is used until the clearance is known. */
 #define REACH_LEAST 0.002
 #define REACH_MOST  0.25
 #define REACH_FIRST 0.05
@@ -35,6 +37,10 @@
 /* Radians per second. */
 #define LOOK_SPEED  0.9
 #define ORBIT_SPEED 1.5
+
+/* Largest turn of an orbit between two tests for surfaces: the eye is then
+ * within a thousandth of the distance from the arc. */
+#define ORBIT_STEP_RAD 0.08
 
 /* Exponents per second. A tap, which lasts 150 ms, changes the field of view by
  * a tenth and the lens by one stop: half the light, a diameter of 1/sqrt 2. */
@@ -90,7 +96,75 @@ static double ramp(double seconds)
     return fmin(1 + RAMP * fmax(seconds, 0), RAMP_MOST);
 }
 
-static void turn(const struct camera_input *s, struct pose *pose,
+void camera_input_set_pivot(struct camera_input *s, const double pivot[3])
+{
+    if (memcmp(s->pivot, pivot, sizeof s->pivot) != 0)
+        s->orbit_distance = 0;
+    memcpy(s->pivot, pivot, sizeof s->pivot);
+}
+
+/* Moves the eye to a place, without turning the camera. */
+static void place_eye(struct pose *pose, const double eye[3])
+{
+    double offset[3];
+
+    vec3d_sub(eye, pose->eye, offset);
+    point_along(pose->at, offset, 1, pose->at);
+    memcpy(pose->eye, eye, sizeof pose->eye);
+}
+
+static void move(struct camera_input *s, struct pose *pose, double right,
+                 double up, double forward)
+{
+    struct pose moved = *pose;
+    double eye[3];
+
+    if (right == 0 && up == 0 && forward == 0)
+        return;
+    s->is_stopped = false;
+    camera_move(&moved, right, up, forward);
+    if (s->walls.scene != NULL) {
+        memcpy(eye, moved.eye, sizeof eye);
+        s->is_stopped = collision_slide(&s->walls, pose->eye, eye, &s->blocker);
+        if (memcmp(eye, moved.eye, sizeof eye) != 0)
+            place_eye(&moved, eye);
+    }
+    *pose = moved;
+}
+
+static void orbit(struct camera_input *s, struct pose *pose, double right_rad,
+                  double up_rad)
+{
+    int count =
+        (int)fmin(ceil(hypot(right_rad, up_rad) / ORBIT_STEP_RAD), 1000);
+    double offset[3];
+
+    s->is_stopped = false;
+    vec3d_sub(pose->eye, s->pivot, offset);
+    if (!(s->orbit_distance > 0) ||
+        memcmp(s->orbit_eye, pose->eye, sizeof s->orbit_eye) != 0)
+        s->orbit_distance = vec3d_length(offset);
+    for (int i = 0; i < count; i++) {
+        struct pose turned = *pose;
+
+        camera_orbit(&turned, s->pivot, right_rad / count, up_rad / count);
+        if (s->walls.scene != NULL) {
+            double eye[3];
+
+            memcpy(eye, turned.eye, sizeof eye);
+            s->blocker = NO_INDEX;
+            s->is_stopped = !collision_orbit(&s->walls, s->pivot,
+                                             s->orbit_distance, pose->eye, eye);
+            if (s->is_stopped)
+                break;
+            place_eye(&turned, eye);
+        }
+        *pose = turned;
+    }
+    memcpy(s->orbit_eye, pose->eye, sizeof s->orbit_eye);
+}
+
+static void turn(struct camera_input *s, struct pose *pose,
                  const double seconds[HELD_KEYS_AXES])
 {
     double right = seconds[HELD_KEYS_LOOK_RIGHT];
@@ -99,7 +173,7 @@ static void turn(const struct camera_input *s, struct pose *pose,
     if (right == 0 && up == 0)
         return;
     if (s->is_orbiting)
-        camera_orbit(pose, s->pivot, ORBIT_SPEED * right, ORBIT_SPEED * up);
+        orbit(s, pose, ORBIT_SPEED * right, ORBIT_SPEED * up);
     else
         camera_turn(pose, LOOK_SPEED * right, LOOK_SPEED * up);
 }
@@ -125,9 +199,8 @@ bool camera_input_step(struct camera_input *s, struct pose *pose,
 
     if (!held_keys_step(&s->motion, now_ns, seconds))
         return false;
-    camera_move(pose, speed * seconds[HELD_KEYS_RIGHT],
-                speed * seconds[HELD_KEYS_UP],
-                speed * seconds[HELD_KEYS_FORWARD]);
+    move(s, pose, speed * seconds[HELD_KEYS_RIGHT],
+         speed * seconds[HELD_KEYS_UP], speed * seconds[HELD_KEYS_FORWARD]);
     turn(s, pose, seconds);
     if (seconds[HELD_KEYS_WIDEN] != 0)
         camera_widen(pose, exp(WIDEN_SPEED * seconds[HELD_KEYS_WIDEN]));
@@ -153,7 +226,7 @@ static bool drag(struct camera_input *s, struct pose *pose,
         return false;
     s->has_dragged = true;
     if (s->drag_orbits)
-        camera_orbit(pose, s->pivot, -right * M_PI, down * M_PI);
+        orbit(s, pose, -right * M_PI, down * M_PI);
     else
         camera_turn(pose, right * height_rad, -down * height_rad);
     return true;

@@ -4,7 +4,7 @@
  *
  * The speed of moves is proportional to the distance of the surfaces around the
  * eye: slow in a room, slower at a wall, fast over a landscape, and independent
- * of the model's size. It grows while a key is held.
+ * of the model's size. It grows while a key is held. Walls stop the eye.
  *
  * Units:     nanoseconds of clock_ns(), terminal cells, file units
  * Threads:   one thread at a time
@@ -19,16 +19,23 @@
 #include "terminal/cells.h"
 #include "terminal/tty_input.h"
 #include "studio/held_keys.h"
+#include "studio/surfaces.h"
 
 struct camera_input {
     struct held_keys motion;
     double scene_size;
-    double reach;      /* distance that the speed is proportional to */
-    double speed;      /* factor chosen by the person; 1 at first */
-    uint64_t begun_ns; /* time when the held key was pressed */
+    double reach;          /* distance that the speed is proportional to */
+    double speed;          /* factor chosen by the person; 1 at first */
+    uint64_t begun_ns;     /* time when the held key was pressed */
+    struct surfaces walls; /* surfaces that stop moves; zero: none do */
     /* keys and drags orbit the pivot instead of looking around */
     bool is_orbiting;
     double pivot[3];
+    /* distance to the pivot that an orbit returns to after a wall, while the
+     * eye is where the orbit has left it */
+    double orbit_distance, orbit_eye[3];
+    bool is_stopped;  /* a surface stopped the last motion */
+    uint32_t blocker; /* its object, or NO_INDEX if several are in the way */
     bool is_dragging;
     bool drag_orbits;
     bool has_dragged; /* the pointer moved since the press */
@@ -49,6 +56,9 @@ void camera_input_adapt(struct camera_input *s, double near, double away);
 
 /* Returns the initial speed of moves in file units per second. */
 double camera_input_speed(const struct camera_input *s);
+
+/* Sets the centre of orbits. */
+void camera_input_set_pivot(struct camera_input *s, const double pivot[3]);
 
 /* Reports a new press of a key, which moves at the initial speed. */
 void camera_input_begin(struct camera_input *s, uint64_t now_ns);

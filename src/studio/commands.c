@@ -40,6 +40,7 @@ static const struct command commands[ACTIONS] = {
     [ACTION_CURSOR] = {.cursor = pick_cursor_show},
     [ACTION_CANCEL] = {.control = render_control_clear_message},
     [ACTION_ORBIT] = {.camera = camera_control_switch_orbit},
+    [ACTION_WALLS] = {.camera = camera_control_switch_walls},
     [ACTION_FRAME] = {.camera = camera_control_frame_object},
     [ACTION_FRAME_ALL] = {.camera = camera_control_frame_all},
     [ACTION_NARROWER] = {.axis = HELD_KEYS_WIDEN, .sign = -1},

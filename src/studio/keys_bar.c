@@ -42,7 +42,7 @@ static const struct hint hints[KEYS_STATES][HINTS_MAX] = {
                      {ACTION_FRAME, NULL, "frame it"},
                      {ACTION_FOCUS, NULL, "focus"}},
     [KEYS_ORBIT] = {{ACTION_ORBIT, NULL, "leave the orbit"},
-                    {ACTION_NONE, "a d", "around"},
+                    {ACTION_NONE, "arrows", "around"},
                     {ACTION_NONE, "w s", "near, far"},
                     {ACTION_NONE, "Q e", "down, up"}},
     [KEYS_VIEW] = {{ACTION_VIEW_BACK, NULL, "back"},

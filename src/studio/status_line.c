@@ -188,8 +188,10 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
 {
     const struct render_progress *p = s->progress;
 
-    snprintf(text[FIELD_MODE], FIELD_BYTES, "%s%s%s", mode_word(s),
-             s->is_orbiting ? " orbit" : "", s->is_filtered ? " filtered" : "");
+    snprintf(text[FIELD_MODE], FIELD_BYTES, "%s%s%s%s", mode_word(s),
+             s->is_orbiting ? " orbit" : "",
+             s->passes_walls ? " through walls" : "",
+             s->is_filtered ? " filtered" : "");
     if (s->device)
         snprintf(text[FIELD_MACHINE], FIELD_BYTES, "OpenCL %.24s", s->device);
     else

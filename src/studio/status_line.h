@@ -22,6 +22,7 @@
 struct status_line {
     bool is_live;
     bool is_orbiting;
+    bool passes_walls;
     bool is_filtered;     /* the picture shown is */
     bool is_halted;       /* the user has paused the render */
     bool is_started;      /* normal mode has begun a render */

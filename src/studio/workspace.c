@@ -261,6 +261,7 @@ static void update_status(struct workspace *workspace, uint64_t now_ns)
     struct status_line status = {
         .is_live = control->is_live,
         .is_orbiting = workspace->camera->input.is_orbiting,
+        .passes_walls = workspace->camera->passes_walls,
         .is_filtered = workspace->inspector.view_mode.is_filtered,
         .is_halted = control->is_halted,
         .is_started = control->is_started,

@@ -21,6 +21,15 @@ moved() # key, eye or at, which number, < or >, of what
 # without the filter, which makes pixels of edges white earlier
 start --no-filter lamp.obj
 wait_for "▀"
+is_silent()
+{
+    ! screen | grep -q "wrote the view"
+}
+keys c
+wait_for "wrote the view"
+cp lamp.view lamp.view.first
+keys Escape
+wait_until is_silent
 moved w eye 3 '<' 4.99
 moved s eye 3 '>' 5.01
 moved a eye 1 '<' -0.01
@@ -38,7 +47,12 @@ moved x at 1 '>' 0.1
 keys m
 wait_for "mouse off"
 raw_keys "$drag"
-moved x at 1 '==' 0
+keys c
+wait_for "wrote the view"
+cmp lamp.view lamp.view.first || die "the mouse turned the camera, which is off"
+keys r
+wait_for "the whole scene"
+keys u
 raw_keys '+'
 wait_for "speed factor 1.25: "
 # held: a way that no single tap makes

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "studio/framing.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/geometry.h"
+#include "kernels/instance.h"
+#include "studio/camera_moves.h"
+#include "studio/clearance.h"
+#include "studio/pick.h"
+
+/* Turns of the camera that are tried, in degrees. */
+static const double turns_deg[] = {0,   30,  -30,  60,  -60,  90,
+                                   -90, 120, -120, 150, -150, 180};
+static const double tilts_deg[] = {0, 25, -25, 50, -50};
+
+/* Distances that are tried, relative to the one at which the object fills the
+ * picture. */
+static const double distances[] = {1, 0.75, 0.55, 0.4, 0.3, 0.2, 0.12};
+
+/* Weights of a view: of one turned by half a turn, and of one that leaves the
+ * room. */
+#define TURNED_WEIGHT 0.6
+#define LEAVES_WEIGHT 0.3
+
+/* Least distance of the eye to surfaces, relative to its distance to the centre
+ * of the object: something nearer would fill the picture. */
+#define NEAR_LEAST 0.04
+
+/* End of a ray to a point, before the surface that the point is on. */
+#define BEFORE_POINT 1e-3
+
+#define SIZE(array) (sizeof(array) / sizeof *(array))
+
+/* ---- points ---- */
+
+/* Adds the points among `count` triangles from `first`. The object's triangles
+ * before them are `before`, all of them `all`. Barycentrics follow the R2
+ * sequence (Roberts 2018, "The unreasonable effectiveness of quasirandom
+ * sequences"). */
+static void add_points(struct framing *f, uint32_t first, uint64_t count,
+                       uint64_t before, uint64_t all)
+{
+    const struct scene *s = f->surfaces->scene;
+    const struct world w = scene_shape(s);
+
+    while (f->point_count < FRAMING_POINTS) {
+        int i = f->point_count;
+        uint64_t k = (2 * (uint64_t)i + 1) * all / (2 * FRAMING_POINTS);
+        double u = fmod(0.5 + 0.7548776662466927 * i, 1);
+        double v = fmod(0.5 + 0.5698402909980532 * i, 1);
+        struct placed_tri t;
+
+        if (k >= before + count)
+            return;
+        t = tri_placed(&w, first + (uint32_t)(k - before));
+        if (u + v > 1) {
+            u = 1 - u;
+            v = 1 - v;
+        }
+        struct vec3 p =
+            v3_add(t.p[0], v3_add(v3_scale(v3_sub(t.p[1], t.p[0]), (float)u),
+                                  v3_scale(v3_sub(t.p[2], t.p[0]), (float)v)));
+        f->points[i][0] = p.x / s->scale + s->center[0];
+        f->points[i][1] = p.y / s->scale + s->center[1];
+        f->points[i][2] = p.z / s->scale + s->center[2];
+        f->point_count++;
+    }
+}
+
+/* Calls add_points() for all triangles of the object, or only counts them if
+ * `all` is 0. Returns their number. */
+static uint64_t visit_tris(struct framing *f, uint64_t all)
+{
+    const struct scene *s = f->surfaces->scene;
+    const struct world w = scene_shape(s);
+    uint32_t plain = plain_tri_count(&w), first = 0;
+    uint64_t before = 0;
+
+    for (uint32_t i = 0; i < plain; i++) {
+        if (f->object != NO_INDEX && s->tri_objects[i] != f->object) {
+            first = i + 1;
+            continue;
+        }
+        if (all > 0 && (i + 1 == plain || (f->object != NO_INDEX &&
+                                           s->tri_objects[i + 1] != f->object)))
+            add_points(f, first, i + 1 - first, before - (i - first), all);
+        before++;
+    }
+    for (uint32_t i = 0; i < s->placed_count; i++) {
+        if (f->object != NO_INDEX && s->placed_objects[i] != f->object)
+            continue;
+        if (all > 0)
+            add_points(f, s->placed[i].first_tri, s->placed[i].tri_count,
+                       before, all);
+        before += s->placed[i].tri_count;
+    }
+    return before;
+}
+
+void framing_init(struct framing *f, const struct surfaces *surfaces,
+                  uint32_t object, double aspect)
+{
+    const struct scene *s = surfaces->scene;
+    uint64_t all;
+
+    *f = (struct framing){.surfaces = surfaces,
+                          .object = object,
+                          .aspect = aspect};
+    all = visit_tris(f, 0);
+    if (all == 0)
+        return;
+    visit_tris(f, all);
+    if (object != NO_INDEX) {
+        pick_bounds(s, object, f->lo, f->hi);
+    } else {
+        memcpy(f->lo, s->bounds_lo, sizeof f->lo);
+        memcpy(f->hi, s->bounds_hi, sizeof f->hi);
+    }
+}
+
+/* ---- views ---- */
+
+enum sight { SEES_POINT, SEES_OBJECT, SEES_OTHER };
+
+/* Returns what is first on the way from the eye to a point of the object: the
+ * point, another part of the object, or something else. */
+static enum sight look(const struct framing *f, const double eye[3],
+                       const double point[3])
+{
+    struct surface_hit hit;
+    double d[3], length;
+
+    vec3d_sub(point, eye, d);
+    length = vec3d_length(d);
+    if (!vec3d_normalize(d) ||
+        !surfaces_hit(f->surfaces, eye, d, length * (1 - BEFORE_POINT),
+                      SURFACE_GLASS_PASSES, &hit))
+        return SEES_POINT;
+    return hit.object == f->object || f->object == NO_INDEX ? SEES_OBJECT
+                                                            : SEES_OTHER;
+}
+
+double framing_share(const struct framing *f, const struct pose *pose)
+{
+    int seen = 0, hidden = 0;
+
+    for (int i = 0; i < f->point_count; i++) {
+        const double *p = f->points[i];
+        enum sight sight = camera_sees_box(pose, f->aspect, p, p)
+                               ? look(f, pose->eye, p)
+                               : SEES_OTHER;
+
+        seen += sight == SEES_POINT ? 1 : 0;
+        hidden += sight == SEES_OTHER ? 1 : 0;
+    }
+    return seen > 0 ? (double)seen / (seen + hidden) : 0;
+}
+
+/* Computes the view from the direction of `pose`, turned, at a share of the
+ * distance at which the object fills the picture. */
+static struct pose candidate(const struct framing *f, const struct pose *pose,
+                             double turn_deg, double tilt_deg, double distance)
+{
+    struct pose p = *pose;
+
+    camera_turn(&p, angle_rad(turn_deg), angle_rad(tilt_deg));
+    camera_frame(&p, f->aspect, f->lo, f->hi);
+    for (int k = 0; k < 3; k++)
+        p.eye[k] = p.at[k] + distance * (p.eye[k] - p.at[k]);
+    return p;
+}
+
+/* Returns the weight of the surfaces around the eye: 0 if one is too near. */
+static double weight_of_place(const struct framing *f, const struct pose *pose,
+                              bool is_enclosed)
+{
+    struct clearance c = clearance_of(f->surfaces, pose->eye);
+
+    if (c.nearest < NEAR_LEAST * pose_reach(pose))
+        return 0;
+    return is_enclosed && c.hit_share < CLEARANCE_ENCLOSED ? LEAVES_WEIGHT : 1;
+}
+
+/* The best view so far; `value` is its share times its weights. */
+struct choice {
+    struct pose pose;
+    double value, share;
+};
+
+/* Tries all distances in one direction. */
+static void try_direction(const struct framing *f, const struct pose *pose,
+                          double turn_deg, double tilt_deg, bool is_enclosed,
+                          struct choice *best)
+{
+    double turned = fmin(hypot(turn_deg, tilt_deg) / 180, 1);
+    double weight = 1 - (1 - TURNED_WEIGHT) * turned;
+
+    for (size_t i = 0; i < SIZE(distances) && weight > best->value; i++) {
+        struct pose p = candidate(f, pose, turn_deg, tilt_deg, distances[i]);
+        double share = framing_share(f, &p);
+        double value = share * weight;
+
+        if (value > best->value)
+            value *= weight_of_place(f, &p, is_enclosed);
+        if (value > best->value)
+            *best = (struct choice){p, value, share};
+    }
+}
+
+double framing_find(const struct framing *f, struct pose *pose)
+{
+    bool is_enclosed =
+        clearance_of(f->surfaces, pose->eye).hit_share >= CLEARANCE_ENCLOSED;
+    struct choice best = {.pose = *pose};
+
+    for (size_t i = 0; i < SIZE(turns_deg) && f->point_count > 0; i++)
+        for (size_t k = 0; k < SIZE(tilts_deg); k++)
+            try_direction(f, pose, turns_deg[i], tilts_deg[k], is_enclosed,
+                          &best);
+    *pose = best.pose;
+    return best.share;
+}

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_collision.c - walls stop the camera at every scale, orbits stay on one
+ * side of them, and framed objects are seen
+ *
+ * What the eye has crossed is found by closed forms, or by counting triangles
+ * one by one, never by the tree.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/geometry.h"
+#include "load/scene_load.h"
+#include "studio/camera_input.h"
+#include "studio/clearance.h"
+#include "studio/collision.h"
+#include "studio/framing.h"
+#include "tests/unit/check.h"
+#include "tests/unit/files.h"
+#include "tests/unit/folder.h"
+
+#define ASPECT 1.6
+
+struct loaded {
+    struct scene scene;
+    struct host_world host;
+    struct view view;
+    struct surfaces surfaces;
+};
+
+static void load(struct loaded *l, const char *path)
+{
+    struct scene_options how = {.up = SCENE_UP_OF_FILE, .thread_count = 1};
+    struct warnings report = {0};
+    struct world world;
+    struct error err;
+    char *view_path;
+
+    *l = (struct loaded){.surfaces = {&l->scene, &l->host}};
+    view_init(&l->view);
+    check_or_say(view_find(&l->view, path, NULL, &view_path, &report, &err) &&
+                     scene_open(&l->scene, &l->host, &l->view, path, &how,
+                                &report, &err),
+                 err.text);
+    world = world_arrays(&l->host, &l->scene);
+    check_or_say(world_ensure_tree(&l->host, &world, NULL, &err), err.text);
+    warnings_free(&report);
+    free(view_path);
+}
+
+static void unload(struct loaded *l)
+{
+    world_free(&l->host);
+    scene_free(&l->scene);
+    view_free(&l->view);
+}
+
+/* Loads a closed box from -1 to 1, times `scale`. */
+static void load_box(struct loaded *l, double scale)
+{
+    FILE *to = fopen("box.obj", "w");
+
+    assert_non_null(to);
+    for (int i = 0; i < 8; i++)
+        fprintf(to, "v %.17g %.17g %.17g\n", i & 1 ? scale : -scale,
+                i & 2 ? scale : -scale, i & 4 ? scale : -scale);
+    fprintf(to, "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\n"
+                "f 2 6 8 4\n");
+    assert_int_equal(fclose(to), 0);
+    load(l, "box.obj");
+}
+
+static double any(uint64_t *seed, double most)
+{
+    return most * (2 * check_random(seed) - 1);
+}
+
+static bool is_within(const double p[3], double half)
+{
+    return fabs(p[0]) < half && fabs(p[1]) < half && fabs(p[2]) < half;
+}
+
+/* Walks of random steps, some of them much longer than the box, never leave
+ * it. */
+static void walks_stay_in_their_room(void **state)
+{
+    uint64_t seed = 1;
+
+    (void)state;
+    for (double scale = 1e-3; scale < 1e7; scale *= 1e3) {
+        double at[3] = {0, 0, 0};
+        struct loaded l;
+
+        load_box(&l, scale);
+        for (int i = 0; i < 10000; i++) {
+            double size = scale * pow(10, any(&seed, 2) - 1);
+            double to[3];
+            uint32_t object;
+
+            for (int k = 0; k < 3; k++)
+                to[k] = at[k] + any(&seed, size);
+            collision_slide(&l.surfaces, at, to, &object);
+            assert_true(is_within(to, scale));
+            memcpy(at, to, sizeof at);
+        }
+        unload(&l);
+    }
+}
+
+/* Along a wall the eye goes on, towards it at an angle it slides, and straight
+ * at it it stops, with the wall as the reason. */
+static void walls_take_the_motion_towards_them(void **state)
+{
+    double from[3] = {0.5, 0, 0}, to[3] = {1.5, 0.8, 0}, on[3] = {3, 0.01, 0};
+    uint32_t object = NO_INDEX;
+    struct loaded l;
+
+    (void)state;
+    load_box(&l, 1);
+    collision_slide(&l.surfaces, from, to, &object);
+    check_close(to[1], 0.8, 1e-3);
+    check_close(to[0], 1, 4e-3);
+    assert_true(to[0] < 1);
+    assert_true(collision_slide(&l.surfaces, from, on, &object));
+    assert_true(on[0] < 1 && object != NO_INDEX);
+    unload(&l);
+}
+
+/* An eye that touches a wall, or is outside the room, is not held. */
+static void nobody_is_trapped(void **state)
+{
+    static const double starts[][3] = {{1 - 1e-7, 0, 0},
+                                       {1 + 1e-7, 0, 0},
+                                       {1, 1, 1},
+                                       {3, 0, 0}};
+    struct loaded l;
+
+    (void)state;
+    load_box(&l, 1);
+    for (int i = 0; i < 4; i++) {
+        double way = i == 0 ? -0.5 : 0.5;
+        double to[3] = {starts[i][0] + way, starts[i][1], starts[i][2]};
+        uint32_t object;
+
+        assert_false(collision_slide(&l.surfaces, starts[i], to, &object));
+        check_close(to[0], starts[i][0] + way, 1e-2);
+    }
+    unload(&l);
+}
+
+/* An orbit around a point near the wall keeps to the room and comes back to its
+ * distance. */
+static void orbits_stay_in_their_room(void **state)
+{
+    uint64_t seed = 2;
+
+    (void)state;
+    for (double scale = 1e-3; scale < 1e7; scale *= 1e3) {
+        struct loaded l;
+
+        load_box(&l, scale);
+        for (int i = 0; i < 200; i++) {
+            double pivot[3], eye[3], offset[3], distance;
+
+            for (int k = 0; k < 3; k++) {
+                pivot[k] = any(&seed, 0.9 * scale);
+                eye[k] = any(&seed, 0.9 * scale);
+            }
+            vec3d_sub(eye, pivot, offset);
+            distance = vec3d_length(offset);
+            for (int step = 0; step < 100; step++) {
+                double angle = any(&seed, 0.08), to[3];
+
+                vec3d_sub(eye, pivot, offset);
+                to[0] =
+                    pivot[0] + cos(angle) * offset[0] + sin(angle) * offset[2];
+                to[1] = eye[1];
+                to[2] =
+                    pivot[2] - sin(angle) * offset[0] + cos(angle) * offset[2];
+                if (collision_orbit(&l.surfaces, pivot, distance, eye, to))
+                    memcpy(eye, to, sizeof eye);
+                assert_true(is_within(eye, scale));
+            }
+        }
+        unload(&l);
+    }
+}
+
+/* Held keys at any speed do not leave a shipped room; with walls that let pass
+ * they do. */
+static void held_keys_stop_at_walls(void **state)
+{
+    (void)state;
+    for (int passes = 0; passes < 2; passes++) {
+        struct pose v = {.eye = {0, 0, 0.5},
+                         .at = {0, 0, -1},
+                         .up = {0, 1, 0},
+                         .fovy_deg = 40};
+        struct camera_input s;
+        struct loaded l;
+
+        load_box(&l, 1);
+        camera_input_init(&s, l.scene.bounds_lo, l.scene.bounds_hi);
+        camera_input_change_speed(&s, 20);
+        s.walls = passes ? (struct surfaces){0} : l.surfaces;
+        for (uint64_t i = 1; i < 200; i++) {
+            uint64_t next, at_ns = i * UINT64_C(100000000);
+
+            camera_input_begin(&s, at_ns);
+            held_keys_press(&s.motion, HELD_KEYS_FORWARD, 1, at_ns);
+            while ((next = held_keys_next_ns(&s.motion)) != UINT64_MAX)
+                camera_input_step(&s, &v, next);
+        }
+        assert_true(is_within(v.eye, 1) == !passes);
+        assert_true(s.is_stopped == !passes);
+        unload(&l);
+    }
+}
+
+/* Returns true if a triangle that is not of the object is between two points:
+ * all are tried. */
+static bool is_hidden(const struct loaded *l, const double from[3],
+                      const double to[3], uint32_t object)
+{
+    const struct scene *s = &l->scene;
+
+    for (uint32_t i = 0; i < s->tri_count; i++) {
+        double p[3][3], e1[3], e2[3], d[3], n[3], o[3], q[3], det, u, v, t;
+
+        if (s->tri_objects[i] == object)
+            continue;
+        for (int c = 0; c < 3; c++) {
+            struct vec3 x = s->positions[s->tris[i].v[c]];
+            const float xyz[3] = {x.x, x.y, x.z};
+
+            for (int k = 0; k < 3; k++)
+                p[c][k] = (double)xyz[k] / s->scale + s->center[k];
+        }
+        vec3d_sub(p[1], p[0], e1);
+        vec3d_sub(p[2], p[0], e2);
+        vec3d_sub(to, from, d);
+        vec3d_sub(from, p[0], o);
+        vec3d_cross(d, e2, n);
+        det = vec3d_dot(e1, n);
+        vec3d_cross(o, e1, q);
+        u = vec3d_dot(o, n) / det;
+        v = vec3d_dot(d, q) / det;
+        t = vec3d_dot(e2, q) / det;
+        if (u > 0 && v > 0 && u + v < 1 && t > 0 && t < 0.99)
+            return true;
+    }
+    return false;
+}
+
+/* Every object of rooms and still lifes without glass is framed so that it is
+ * seen: one of the points on it at least, by brute force, and nothing is close
+ * before the eye. */
+static void framed_objects_are_seen(void **state)
+{
+    static const char *const scenes[] = {"scenes/cornell.obj",
+                                         "scenes/interior.obj"};
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct loaded l;
+        int hidden = 0;
+
+        load(&l, scenes[k]);
+        for (uint32_t object = 1; object < l.scene.object_count; object++) {
+            struct pose pose = l.view.pose;
+            struct framing f;
+            bool is_seen = false;
+
+            framing_init(&f, &l.surfaces, object, ASPECT);
+            if (f.point_count == 0)
+                continue;
+            if (!(framing_find(&f, &pose) > 0)) {
+                hidden++;
+                assert_memory_equal(&pose, &l.view.pose, sizeof pose);
+                continue;
+            }
+            for (int i = 0; i < f.point_count && !is_seen; i++)
+                is_seen = !is_hidden(&l, pose.eye, f.points[i], object);
+            assert_true(is_seen);
+        }
+        check_at_most(hidden, 0);
+        unload(&l);
+    }
+}
+
+static char home[512];
+
+static int set_up(void **state)
+{
+    return getcwd(home, sizeof home) != NULL && make_folder(state) == 0 ? 0
+                                                                        : -1;
+}
+
+/* The tests that write files run in the folder. */
+static int enter(void **state)
+{
+    (void)state;
+    return chdir(folder);
+}
+
+static int leave(void **state)
+{
+    (void)state;
+    return chdir(home);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter, leave)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(walks_stay_in_their_room),
+        IN_FOLDER(walls_take_the_motion_towards_them),
+        IN_FOLDER(nobody_is_trapped),
+        IN_FOLDER(orbits_stay_in_their_room),
+        IN_FOLDER(held_keys_stop_at_walls),
+        cmocka_unit_test(framed_objects_are_seen),
+    };
+
+    return cmocka_run_group_tests(tests, set_up, remove_folder);
+}
