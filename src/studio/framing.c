@@ -22,7 +22,7 @@ static const double distances[] = {1, 0.75, 0.55, 0.4, 0.3, 0.2, 0.12};
 /* Weights of a view: of one turned by half a turn, and of one that leaves the
  * room. */
 #define TURNED_WEIGHT 0.6
-#define LEAVES_WEIGHT 0.3
+#define LEAVES_WEIGHT 0.1
 
 /* Least distance of the eye to surfaces, relative to its distance to the centre
  * of the object: something nearer would fill the picture. */

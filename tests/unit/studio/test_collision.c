@@ -282,6 +282,9 @@ static void framed_objects_are_seen(void **state)
             for (int i = 0; i < f.point_count && !is_seen; i++)
                 is_seen = !is_hidden(&l, pose.eye, f.points[i], object);
             assert_true(is_seen);
+            if (k == 1) /* the camera of the room stays in it */
+                assert_true(clearance_of(&l.surfaces, pose.eye).hit_share >=
+                            CLEARANCE_ENCLOSED);
         }
         check_at_most(hidden, 0);
         unload(&l);
