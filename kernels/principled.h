@@ -6,12 +6,12 @@
  * and plastic otherwise. Solid glass is tinted by the root of the colour at
  * each crossing, so that a pane has the colour, as a thin sheet has. A coat of
  * refractive index 1.5 lies over the base, with a normal of its own if bumps or
- * maps give it one, and sheen over both. What a layer
- * reflects, E(wo), those below lose: they are scaled by 1 - E(wo), as in the
- * surfaces of other renderers (Georgiev et al. 2019, "Autodesk Standard
- * Surface"). A thin film between base and coat changes the colours of metal and
- * of plastic's face to those with its reflectance seen from wo. All of this
- * conserves energy, but is not reciprocal.
+ * maps give it one, and sheen over both. What a layer reflects, E(wo), those
+ * below lose: they are scaled by 1 - E(wo), as in the surfaces of other
+ * renderers (Georgiev et al. 2019, "Autodesk Standard Surface"). A thin film
+ * between base and coat changes the colours of metal and of plastic's face to
+ * those with its reflectance seen from wo. All of this conserves energy, but is
+ * not reciprocal.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
  */

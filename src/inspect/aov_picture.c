@@ -41,12 +41,14 @@ void aov_of_pixels(struct pool *pool, const struct world *world, int width,
 
 /* ---- files ---- */
 
-/* A place in file units: normalised = (file - center) * scale. */
+/* Sets a place in file units. */
 static void set_position(const struct scene *scene, struct vec3 p, float *to)
 {
-    to[0] = (float)((double)p.x / scene->scale + scene->center[0]);
-    to[1] = (float)((double)p.y / scene->scale + scene->center[1]);
-    to[2] = (float)((double)p.z / scene->scale + scene->center[2]);
+    double point[3];
+
+    scene_file_point(scene, p, point);
+    for (int k = 0; k < 3; k++)
+        to[k] = (float)point[k];
 }
 
 static void set_all(double number, float *to)

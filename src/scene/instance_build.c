@@ -87,9 +87,8 @@ static bool set_matrix(const struct scene *scene, const struct scene_mesh *mesh,
             most = fmax(most, fabs(m));
             *row[k] = (float)m;
         }
-        (&at->origin.x)[i] =
-            (float)((origin[i] - scene->center[i]) * scene->scale);
     }
+    at->origin = scene_point(scene, origin);
     return most >= NUMBER_LEAST && most <= NUMBER_MOST;
 }
 

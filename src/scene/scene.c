@@ -397,6 +397,43 @@ uint32_t scene_tri_object(const struct scene *s, uint32_t tri)
                                 : s->placed_objects[instance];
 }
 
+bool scene_next_run(const struct scene *s, uint32_t object, struct tri_run *run)
+{
+    struct world w = scene_shape(s);
+    uint32_t plain = plain_tri_count(&w), i = run->first + run->count;
+    bool any = object == NO_INDEX;
+
+    while (i < plain && !any && s->tri_objects[i] != object)
+        i++;
+    run->first = i;
+    while (i < plain && (any || s->tri_objects[i] == object))
+        i++;
+    run->count = i - run->first;
+    while (run->count == 0 && run->placed < s->placed_count) {
+        uint32_t k = run->placed++;
+
+        if (any || s->placed_objects[k] == object) {
+            run->first = s->placed[k].first_tri;
+            run->count = s->placed[k].tri_count;
+        }
+    }
+    return run->count > 0;
+}
+
+struct vec3 scene_point(const struct scene *s, const double p[3])
+{
+    return (struct vec3){(float)((p[0] - s->center[0]) * s->scale),
+                         (float)((p[1] - s->center[1]) * s->scale),
+                         (float)((p[2] - s->center[2]) * s->scale)};
+}
+
+void scene_file_point(const struct scene *s, struct vec3 p, double point[3])
+{
+    point[0] = (double)p.x / s->scale + s->center[0];
+    point[1] = (double)p.y / s->scale + s->center[1];
+    point[2] = (double)p.z / s->scale + s->center[2];
+}
+
 uint32_t scene_tri_index(const struct scene *s, uint32_t tri)
 {
     struct world w = scene_shape(s);

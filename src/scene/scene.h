@@ -146,6 +146,24 @@ struct world scene_shape(const struct scene *scene);
 /* Returns the object of a triangle, by its number. */
 uint32_t scene_tri_object(const struct scene *scene, uint32_t tri);
 
+/* Successive triangles of one object, by their numbers. A zeroed struct is
+ * before the first ones. */
+struct tri_run {
+    uint32_t first, count;
+    uint32_t placed; /* instances that were passed */
+};
+
+/* Goes on to the object's next run, or to that of any object if it is NO_INDEX.
+ * Returns false after the last one. */
+bool scene_next_run(const struct scene *scene, uint32_t object,
+                    struct tri_run *run);
+
+/* Converts a point of the scene from file units to normalised ones, and back.
+ */
+struct vec3 scene_point(const struct scene *scene, const double p[3]);
+void scene_file_point(const struct scene *scene, struct vec3 p,
+                      double point[3]);
+
 /* Returns the index of a triangle in `tris`, by its number. */
 uint32_t scene_tri_index(const struct scene *scene, uint32_t tri);
 

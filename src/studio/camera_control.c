@@ -69,8 +69,8 @@ void camera_control_set_scene(struct camera_control *camera)
 
 /* ---- surfaces around the camera ---- */
 
-/* Returns the surfaces. They have no scene while there is no tree: the render
- * thread may be building it. */
+/* Returns the surfaces, with NULL for the scene while there is no tree, which
+ * the render thread may be building. */
 static struct surfaces surfaces_of(const struct camera_control *camera)
 {
     const struct session *s = camera->control->session;

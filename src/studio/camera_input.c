@@ -126,8 +126,7 @@ static void move(struct camera_input *s, struct pose *pose, double right,
     if (s->walls.scene != NULL) {
         memcpy(eye, moved.eye, sizeof eye);
         s->is_stopped = collision_slide(&s->walls, pose->eye, eye, &s->blocker);
-        if (memcmp(eye, moved.eye, sizeof eye) != 0)
-            place_eye(&moved, eye);
+        place_eye(&moved, eye);
     }
     *pose = moved;
 }

@@ -35,11 +35,10 @@ static const double distances[] = {1, 0.75, 0.55, 0.4, 0.3, 0.2, 0.12};
 
 /* ---- points ---- */
 
-/* Adds the points among `count` triangles from `first`. The object's triangles
- * before them are `before`, all of them `all`. Barycentrics follow the R2
- * sequence (Roberts 2018, "The unreasonable effectiveness of quasirandom
- * sequences"). */
-static void add_points(struct framing *f, uint32_t first, uint64_t count,
+/* Adds the points on a run of triangles. The object's triangles before it are
+ * `before`, all of them `all`. Barycentrics follow the R2 sequence (Roberts
+ * 2018, "The unreasonable effectiveness of quasirandom sequences"). */
+static void add_points(struct framing *f, const struct tri_run *run,
                        uint64_t before, uint64_t all)
 {
     const struct scene *s = f->surfaces->scene;
@@ -52,9 +51,9 @@ static void add_points(struct framing *f, uint32_t first, uint64_t count,
         double v = fmod(0.5 + 0.5698402909980532 * i, 1);
         struct placed_tri t;
 
-        if (k >= before + count)
+        if (k >= before + run->count)
             return;
-        t = tri_placed(&w, first + (uint32_t)(k - before));
+        t = tri_placed(&w, run->first + (uint32_t)(k - before));
         if (u + v > 1) {
             u = 1 - u;
             v = 1 - v;
@@ -62,56 +61,35 @@ static void add_points(struct framing *f, uint32_t first, uint64_t count,
         struct vec3 p =
             v3_add(t.p[0], v3_add(v3_scale(v3_sub(t.p[1], t.p[0]), (float)u),
                                   v3_scale(v3_sub(t.p[2], t.p[0]), (float)v)));
-        f->points[i][0] = p.x / s->scale + s->center[0];
-        f->points[i][1] = p.y / s->scale + s->center[1];
-        f->points[i][2] = p.z / s->scale + s->center[2];
+        scene_file_point(s, p, f->points[i]);
         f->point_count++;
     }
 }
 
-/* Calls add_points() for all triangles of the object, or only counts them if
- * `all` is 0. Returns their number. */
-static uint64_t visit_tris(struct framing *f, uint64_t all)
+static void choose_points(struct framing *f)
 {
     const struct scene *s = f->surfaces->scene;
-    const struct world w = scene_shape(s);
-    uint32_t plain = plain_tri_count(&w), first = 0;
-    uint64_t before = 0;
+    uint64_t all = 0, before = 0;
 
-    for (uint32_t i = 0; i < plain; i++) {
-        if (f->object != NO_INDEX && s->tri_objects[i] != f->object) {
-            first = i + 1;
-            continue;
-        }
-        if (all > 0 && (i + 1 == plain || (f->object != NO_INDEX &&
-                                           s->tri_objects[i + 1] != f->object)))
-            add_points(f, first, i + 1 - first, before - (i - first), all);
-        before++;
+    for (struct tri_run run = {0}; scene_next_run(s, f->object, &run);)
+        all += run.count;
+    for (struct tri_run run = {0}; scene_next_run(s, f->object, &run);) {
+        add_points(f, &run, before, all);
+        before += run.count;
     }
-    for (uint32_t i = 0; i < s->placed_count; i++) {
-        if (f->object != NO_INDEX && s->placed_objects[i] != f->object)
-            continue;
-        if (all > 0)
-            add_points(f, s->placed[i].first_tri, s->placed[i].tri_count,
-                       before, all);
-        before += s->placed[i].tri_count;
-    }
-    return before;
 }
 
 void framing_init(struct framing *f, const struct surfaces *surfaces,
                   uint32_t object, double aspect)
 {
     const struct scene *s = surfaces->scene;
-    uint64_t all;
 
     *f = (struct framing){.surfaces = surfaces,
                           .object = object,
                           .aspect = aspect};
-    all = visit_tris(f, 0);
-    if (all == 0)
+    choose_points(f);
+    if (f->point_count == 0)
         return;
-    visit_tris(f, all);
     if (object != NO_INDEX) {
         pick_bounds(s, object, f->lo, f->hi);
     } else {

@@ -142,15 +142,8 @@ static void find_pixel(struct inspector *inspector)
         return;
     memcpy(inspector->position, inspector->cursor->pick.position,
            sizeof inspector->position);
-    if (projection_point(
-            &inspector->camera,
-            v3((float)((inspector->position[0] - scene->center[0]) *
-                       scene->scale),
-               (float)((inspector->position[1] - scene->center[1]) *
-                       scene->scale),
-               (float)((inspector->position[2] - scene->center[2]) *
-                       scene->scale)),
-            &at) &&
+    if (projection_point(&inspector->camera,
+                         scene_point(scene, inspector->position), &at) &&
         at.x >= r.x && at.x < r.x + r.width && at.y >= r.y &&
         at.y < r.y + r.height) {
         inspector->x = (uint32_t)at.x;

@@ -3,13 +3,11 @@
 
 #include <math.h>
 
+#include "studio/surfaces.h"
 #include "kernels/camera.h"
 #include "kernels/hit.h"
 #include "kernels/instance.h"
 #include "kernels/texture.h"
-
-/* Least opacity that counts as opaque. */
-#define SOLID 0.5f
 
 /* Finds the hit of least t, and of the lowest triangle number at equal t, like
  * the traversal of the tree. Returns false if there is none. */
@@ -24,7 +22,7 @@ static bool closest_hit(const struct world *w, struct ray ray, struct hit *best)
         struct hit h = {.tri = i};
 
         if (triangle_hit(ray, shear, t.p[0], t.p[1], t.p[2], best->t, &h) &&
-            h.t < best->t && coverage_at(w, h) >= SOLID)
+            h.t < best->t && coverage_at(w, h) >= SURFACE_OPACITY)
             *best = h;
     }
     return best->tri != NO_INDEX;
@@ -36,14 +34,6 @@ static struct vec3 point_of(const struct world *w, struct hit h)
     struct vec3 error;
 
     return hit_point(h, t.p[0], t.p[1], t.p[2], &error);
-}
-
-static void file_point(const struct scene *scene, struct vec3 p,
-                       double point[3])
-{
-    point[0] = p.x / scene->scale + scene->center[0];
-    point[1] = p.y / scene->scale + scene->center[1];
-    point[2] = p.z / scene->scale + scene->center[2];
 }
 
 bool pick_at(const struct scene *scene, const struct host_world *host,
@@ -71,7 +61,7 @@ bool pick_at(const struct scene *scene, const struct host_world *host,
         .material = tri_placed(&world, hit.tri).t.material,
         .distance = hit.t / scene->scale,
     };
-    file_point(scene, point_of(&world, hit), pick->position);
+    scene_file_point(scene, point_of(&world, hit), pick->position);
     return true;
 }
 
@@ -83,7 +73,7 @@ static void join_tri(const struct scene *scene, const struct placed_tri *t,
     for (int c = 0; c < 3; c++) {
         double point[3];
 
-        file_point(scene, t->p[c], point);
+        scene_file_point(scene, t->p[c], point);
         for (int k = 0; k < 3; k++) {
             lo[k] = *has_points ? fmin(lo[k], point[k]) : point[k];
             hi[k] = *has_points ? fmax(hi[k], point[k]) : point[k];
@@ -96,20 +86,12 @@ void pick_bounds(const struct scene *scene, uint32_t object, double lo[3],
                  double hi[3])
 {
     const struct world w = scene_shape(scene);
+    struct tri_run run = {0};
     bool has_points = false;
 
-    for (uint32_t i = 0; i < plain_tri_count(&w); i++)
-        if (scene->tri_objects[i] == object) {
-            struct placed_tri t = tri_placed(&w, i);
-
-            join_tri(scene, &t, lo, hi, &has_points);
-        }
-    for (uint32_t i = 0; i < scene->placed_count; i++)
-        for (uint32_t k = 0; scene->placed_objects[i] == object &&
-                             k < scene->placed[i].tri_count;
-             k++) {
-            struct placed_tri t =
-                tri_placed(&w, scene->placed[i].first_tri + k);
+    while (scene_next_run(scene, object, &run))
+        for (uint32_t i = 0; i < run.count; i++) {
+            struct placed_tri t = tri_placed(&w, run.first + i);
 
             join_tri(scene, &t, lo, hi, &has_points);
         }

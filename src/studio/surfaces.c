@@ -8,18 +8,8 @@
 #include "kernels/instance.h"
 #include "kernels/texture.h"
 
-/* Least opacity of a surface; see pick.h. */
-#define SOLID 0.5f
-
 /* Most holes and panes that a ray passes. */
 #define LAYERS_MOST 256
-
-static struct vec3 stored(const struct scene *scene, const double p[3])
-{
-    return v3((float)((p[0] - scene->center[0]) * scene->scale),
-              (float)((p[1] - scene->center[1]) * scene->scale),
-              (float)((p[2] - scene->center[2]) * scene->scale));
-}
 
 static bool is_glass(const struct material *m)
 {
@@ -32,7 +22,7 @@ static bool stops(const struct world *w, struct hit h, enum surface_glass glass)
     const struct material *m =
         &w->materials[tri_at(w, h.tri, instance_of(w, h.tri)).material];
 
-    return coverage_at(w, h) >= SOLID &&
+    return coverage_at(w, h) >= SURFACE_OPACITY &&
            !(glass == SURFACE_GLASS_PASSES && is_glass(m));
 }
 
@@ -61,7 +51,7 @@ bool surfaces_hit(const struct surfaces *s, const double from[3],
     struct bvh8_world w = {.world = world_arrays(s->host, s->scene),
                            .tree = world_tree(s->host)};
     struct ray ray = {
-        .o = stored(s->scene, from),
+        .o = scene_point(s->scene, from),
         .d = v3((float)d[0], (float)d[1], (float)d[2]),
         .t_max = (float)fmin(most * s->scene->scale, FLOAT_MAX),
     };

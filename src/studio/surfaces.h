@@ -14,6 +14,9 @@
 
 #include "scene/world.h"
 
+/* Least opacity of what counts as a surface. */
+#define SURFACE_OPACITY 0.5f
+
 /* The surfaces of a world. A world without a tree has none. */
 struct surfaces {
     const struct scene *scene;
