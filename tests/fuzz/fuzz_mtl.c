@@ -26,6 +26,8 @@ static int is_texture(const struct scene *scene, uint32_t index)
 
 static void check_material(const struct scene *scene, const struct material *m)
 {
+    uint32_t maps[MATERIAL_MAPS];
+
     require(is_reflectance(m->color), "colour");
     require(is_reflectance(m->specular), "specular");
     require(is_light(m->emission), "emission");
@@ -46,19 +48,11 @@ static void check_material(const struct scene *scene, const struct material *m)
             "thickness of the film");
     require(m->cutoff >= 0 && m->cutoff <= 1, "cutoff");
     require(is_light(m->attenuation), "absorption");
-    require(is_texture(scene, m->color_texture) &&
-                is_texture(scene, m->emission_texture) &&
-                is_texture(scene, m->specular_texture) &&
-                is_texture(scene, m->alpha_texture) &&
-                is_texture(scene, m->metal_texture) &&
-                is_texture(scene, m->opacity_texture) &&
-                is_texture(scene, m->normal_texture) &&
-                is_texture(scene, m->bump_texture) &&
-                is_texture(scene, m->transmission_texture) &&
-                is_texture(scene, m->coat_texture) &&
-                is_texture(scene, m->coat_alpha_texture) &&
-                is_texture(scene, m->sheen_texture),
-            "textures");
+    require(isfinite(m->normal_strength), "slope of normals");
+    require(isfinite(m->coat_normal_strength), "slope of the coat's normals");
+    material_maps(m, maps);
+    for (int i = 0; i < MATERIAL_MAPS; i++)
+        require(is_texture(scene, maps[i]), "textures");
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

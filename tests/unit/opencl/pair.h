@@ -223,4 +223,19 @@ static inline void render_both(struct pair *p, struct rect crop, uint64_t spp,
     assert_same(p, spp);
 }
 
+/* Renders on both with a build of the device's kernels for the features of the
+ * scene alone. */
+static inline void render_special(struct pair *p, struct rect crop,
+                                  uint64_t spp, uint32_t seed)
+{
+    struct error err;
+    char *log;
+
+    check_or_say(backend_cl_specialise(device, world_features(&p->world), &log,
+                                       &err),
+                 err.text);
+    render_both(p, crop, spp, seed);
+    check_or_say(backend_cl_specialise(device, 0, &log, &err), err.text);
+}
+
 #endif

@@ -153,16 +153,10 @@ static void special_builds_give_the_same_bits(void **state)
     (void)state;
     for (size_t i = 0; device && i < sizeof scenes / sizeof scenes[0]; i++) {
         struct pair p;
-        struct error err;
-        char *log;
 
         open_pair(&p, scenes[i], 64, 36);
         assert_true(world_features(&p.world) != FEATURES_ALL);
-        check_or_say(backend_cl_specialise(device, world_features(&p.world),
-                                           &log, &err),
-                     err.text);
-        render_both(&p, (struct rect){0, 0, 64, 36}, 4, 1);
-        check_or_say(backend_cl_specialise(device, 0, &log, &err), err.text);
+        render_special(&p, (struct rect){0, 0, 64, 36}, 4, 1);
         render_both(&p, (struct rect){0, 0, 64, 36}, 4, 2);
         close_pair(&p);
     }

@@ -133,19 +133,6 @@ static void lamps_are_equal(void **state)
                 FEATURE_TEXTURE_OPTIONS | FEATURE_VERTEX_ALPHAS |           \
                 FEATURE_TANGENTS | FEATURE_COAT_NORMALS))
 
-/* Renders with a build of the kernels for the scene's features alone. */
-static void render_special(struct pair *p, uint32_t seed)
-{
-    struct error err;
-    char *log;
-
-    check_or_say(backend_cl_specialise(device, world_features(&p->world), &log,
-                                       &err),
-                 err.text);
-    render_both(p, (struct rect){0, 0, 64, 48}, 3, seed);
-    check_or_say(backend_cl_specialise(device, 0, &log, &err), err.text);
-}
-
 /* Random files have each feature of glTF, some of them without instances. */
 static void random_files_are_equal(void **state)
 {
@@ -166,7 +153,7 @@ static void random_files_are_equal(void **state)
                     (world_features(&p.world) & FEATURE_INSTANCES) == 0);
         features |= world_features(&p.world);
         render_both(&p, (struct rect){0, 0, 64, 48}, 6, i);
-        render_special(&p, i);
+        render_special(&p, (struct rect){0, 0, 64, 48}, 3, i);
         close_pair(&p);
     }
     assert_int_equal(features & RANDOM_FEATURES, RANDOM_FEATURES);

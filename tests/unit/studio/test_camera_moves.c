@@ -300,6 +300,25 @@ static void impossible_cameras_stay_finite(void **state)
     }
 }
 
+/* The edge of a picture of 1024 x 576 is 32 degrees from its middle. */
+static void boxes_out_of_the_picture_are_noticed(void **state)
+{
+    static const double lo[3] = {-1, -1, -1}, hi[3] = {1, 1, 1};
+    const double aspect = 1024.0 / 576;
+    struct pose v = make_pose(0, 1, 9, 0, 1, 0);
+
+    (void)state;
+    v.fovy_deg = 40;
+    assert_true(camera_sees_box(&v, aspect, lo, hi));
+    v.at[2] = 10; /* turned around */
+    assert_false(camera_sees_box(&v, aspect, lo, hi));
+    v.at[0] = 9;
+    v.at[2] = 9 - 9 / tan((31 + 5) * RAD);
+    assert_true(camera_sees_box(&v, aspect, lo, hi)); /* it is 7 wide there */
+    v.at[2] = 9 - 9 / tan((33 + 9) * RAD);
+    assert_false(camera_sees_box(&v, aspect, lo, hi));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -312,6 +331,7 @@ int main(void)
         cmocka_unit_test(orbits_keep_the_point_in_its_place),
         cmocka_unit_test(framing_is_as_near_as_possible),
         cmocka_unit_test(framing_a_point_keeps_the_distance),
+        cmocka_unit_test(boxes_out_of_the_picture_are_noticed),
         cmocka_unit_test(zoom_changes_the_field_of_view),
         cmocka_unit_test(impossible_cameras_stay_finite),
     };

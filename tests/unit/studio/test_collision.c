@@ -10,64 +10,21 @@
 #include <string.h>
 
 #include "base/geometry.h"
-#include "load/scene_load.h"
 #include "studio/camera_input.h"
 #include "studio/clearance.h"
 #include "studio/collision.h"
 #include "studio/framing.h"
-#include "tests/unit/check.h"
-#include "tests/unit/files.h"
 #include "tests/unit/folder.h"
+#include "tests/unit/room.h"
 
 #define ASPECT 1.6
 
-struct loaded {
-    struct scene scene;
-    struct host_world host;
-    struct view view;
-    struct surfaces surfaces;
-};
-
-static void load(struct loaded *l, const char *path)
+/* Opens a closed box from -1 to 1, times `scale`. */
+static void open_box(struct room *r, double scale)
 {
-    struct scene_options how = {.up = SCENE_UP_OF_FILE, .thread_count = 1};
-    struct warnings report = {0};
-    struct world world;
-    struct error err;
-    char *view_path;
+    static const double lo[3] = {-1, -1, -1}, hi[3] = {1, 1, 1};
 
-    *l = (struct loaded){.surfaces = {&l->scene, &l->host}};
-    view_init(&l->view);
-    check_or_say(view_find(&l->view, path, NULL, &view_path, &report, &err) &&
-                     scene_open(&l->scene, &l->host, &l->view, path, &how,
-                                &report, &err),
-                 err.text);
-    world = world_arrays(&l->host, &l->scene);
-    check_or_say(world_ensure_tree(&l->host, &world, NULL, &err), err.text);
-    warnings_free(&report);
-    free(view_path);
-}
-
-static void unload(struct loaded *l)
-{
-    world_free(&l->host);
-    scene_free(&l->scene);
-    view_free(&l->view);
-}
-
-/* Loads a closed box from -1 to 1, times `scale`. */
-static void load_box(struct loaded *l, double scale)
-{
-    FILE *to = fopen("box.obj", "w");
-
-    assert_non_null(to);
-    for (int i = 0; i < 8; i++)
-        fprintf(to, "v %.17g %.17g %.17g\n", i & 1 ? scale : -scale,
-                i & 2 ? scale : -scale, i & 4 ? scale : -scale);
-    fprintf(to, "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\n"
-                "f 2 6 8 4\n");
-    assert_int_equal(fclose(to), 0);
-    load(l, "box.obj");
+    room_open_box(r, lo, hi, scale);
 }
 
 static double any(uint64_t *seed, double most)
@@ -89,9 +46,9 @@ static void walks_stay_in_their_room(void **state)
     (void)state;
     for (double scale = 1e-3; scale < 1e7; scale *= 1e3) {
         double at[3] = {0, 0, 0};
-        struct loaded l;
+        struct room r;
 
-        load_box(&l, scale);
+        open_box(&r, scale);
         for (int i = 0; i < 10000; i++) {
             double size = scale * pow(10, any(&seed, 2) - 1);
             double to[3];
@@ -99,11 +56,11 @@ static void walks_stay_in_their_room(void **state)
 
             for (int k = 0; k < 3; k++)
                 to[k] = at[k] + any(&seed, size);
-            collision_slide(&l.surfaces, at, to, &object);
+            collision_slide(&r.surfaces, at, to, &object);
             assert_true(is_within(to, scale));
             memcpy(at, to, sizeof at);
         }
-        unload(&l);
+        room_close(&r);
     }
 }
 
@@ -113,17 +70,17 @@ static void walls_take_the_motion_towards_them(void **state)
 {
     double from[3] = {0.5, 0, 0}, to[3] = {1.5, 0.8, 0}, on[3] = {3, 0.01, 0};
     uint32_t object = NO_INDEX;
-    struct loaded l;
+    struct room r;
 
     (void)state;
-    load_box(&l, 1);
-    collision_slide(&l.surfaces, from, to, &object);
+    open_box(&r, 1);
+    collision_slide(&r.surfaces, from, to, &object);
     check_close(to[1], 0.8, 1e-3);
     check_close(to[0], 1, 4e-3);
     assert_true(to[0] < 1);
-    assert_true(collision_slide(&l.surfaces, from, on, &object));
+    assert_true(collision_slide(&r.surfaces, from, on, &object));
     assert_true(on[0] < 1 && object != NO_INDEX);
-    unload(&l);
+    room_close(&r);
 }
 
 /* An eye that touches a wall, or is outside the room, is not held. */
@@ -133,19 +90,19 @@ static void nobody_is_trapped(void **state)
                                        {1 + 1e-7, 0, 0},
                                        {1, 1, 1},
                                        {3, 0, 0}};
-    struct loaded l;
+    struct room r;
 
     (void)state;
-    load_box(&l, 1);
+    open_box(&r, 1);
     for (int i = 0; i < 4; i++) {
         double way = i == 0 ? -0.5 : 0.5;
         double to[3] = {starts[i][0] + way, starts[i][1], starts[i][2]};
         uint32_t object;
 
-        assert_false(collision_slide(&l.surfaces, starts[i], to, &object));
+        assert_false(collision_slide(&r.surfaces, starts[i], to, &object));
         check_close(to[0], starts[i][0] + way, 1e-2);
     }
-    unload(&l);
+    room_close(&r);
 }
 
 /* An orbit around a point near the wall keeps to the room and comes back to its
@@ -156,9 +113,9 @@ static void orbits_stay_in_their_room(void **state)
 
     (void)state;
     for (double scale = 1e-3; scale < 1e7; scale *= 1e3) {
-        struct loaded l;
+        struct room r;
 
-        load_box(&l, scale);
+        open_box(&r, scale);
         for (int i = 0; i < 200; i++) {
             double pivot[3], eye[3], offset[3], distance;
 
@@ -177,12 +134,12 @@ static void orbits_stay_in_their_room(void **state)
                 to[1] = eye[1];
                 to[2] =
                     pivot[2] - sin(angle) * offset[0] + cos(angle) * offset[2];
-                if (collision_orbit(&l.surfaces, pivot, distance, eye, to))
+                if (collision_orbit(&r.surfaces, pivot, distance, eye, to))
                     memcpy(eye, to, sizeof eye);
                 assert_true(is_within(eye, scale));
             }
         }
-        unload(&l);
+        room_close(&r);
     }
 }
 
@@ -197,12 +154,12 @@ static void held_keys_stop_at_walls(void **state)
                          .up = {0, 1, 0},
                          .fovy_deg = 40};
         struct camera_input s;
-        struct loaded l;
+        struct room r;
 
-        load_box(&l, 1);
-        camera_input_init(&s, l.scene.bounds_lo, l.scene.bounds_hi);
+        open_box(&r, 1);
+        camera_input_init(&s, r.scene.bounds_lo, r.scene.bounds_hi);
         camera_input_change_speed(&s, 20);
-        s.walls = passes ? (struct surfaces){0} : l.surfaces;
+        s.walls = passes ? (struct surfaces){0} : r.surfaces;
         for (uint64_t i = 1; i < 200; i++) {
             uint64_t next, at_ns = i * UINT64_C(100000000);
 
@@ -213,16 +170,16 @@ static void held_keys_stop_at_walls(void **state)
         }
         assert_true(is_within(v.eye, 1) == !passes);
         assert_true(s.is_stopped == !passes);
-        unload(&l);
+        room_close(&r);
     }
 }
 
 /* Returns true if a triangle that is not of the object is between two points:
  * all are tried. */
-static bool is_hidden(const struct loaded *l, const double from[3],
+static bool is_hidden(const struct room *r, const double from[3],
                       const double to[3], uint32_t object)
 {
-    const struct scene *s = &l->scene;
+    const struct scene *s = &r->scene;
 
     for (uint32_t i = 0; i < s->tri_count; i++) {
         double p[3][3], e1[3], e2[3], d[3], n[3], o[3], q[3], det, u, v, t;
@@ -262,32 +219,32 @@ static void framed_objects_are_seen(void **state)
 
     (void)state;
     for (int k = 0; k < 2; k++) {
-        struct loaded l;
+        struct room r;
         int hidden = 0;
 
-        load(&l, scenes[k]);
-        for (uint32_t object = 1; object < l.scene.object_count; object++) {
-            struct pose pose = l.view.pose;
+        room_open(&r, scenes[k]);
+        for (uint32_t object = 1; object < r.scene.object_count; object++) {
+            struct pose pose = r.view.pose;
             struct framing f;
             bool is_seen = false;
 
-            framing_init(&f, &l.surfaces, object, ASPECT);
+            framing_init(&f, &r.surfaces, object, ASPECT);
             if (f.point_count == 0)
                 continue;
             if (!(framing_find(&f, &pose) > 0)) {
                 hidden++;
-                assert_memory_equal(&pose, &l.view.pose, sizeof pose);
+                assert_memory_equal(&pose, &r.view.pose, sizeof pose);
                 continue;
             }
             for (int i = 0; i < f.point_count && !is_seen; i++)
-                is_seen = !is_hidden(&l, pose.eye, f.points[i], object);
+                is_seen = !is_hidden(&r, pose.eye, f.points[i], object);
             assert_true(is_seen);
             if (k == 1) /* the camera of the room stays in it */
-                assert_true(clearance_of(&l.surfaces, pose.eye).hit_share >=
+                assert_true(clearance_of(&r.surfaces, pose.eye).hit_share >=
                             CLEARANCE_ENCLOSED);
         }
         check_at_most(hidden, 0);
-        unload(&l);
+        room_close(&r);
     }
 }
 
