@@ -188,7 +188,9 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
 {
     const struct render_progress *p = s->progress;
 
-    snprintf(text[FIELD_MODE], FIELD_BYTES, "%s%s%s%s", mode_word(s),
+    /* the coloured mode ends with a blank, and another one is between them */
+    snprintf(text[FIELD_MODE], FIELD_BYTES, "%s%s%s%s%s", mode_word(s),
+             s->is_orbiting || s->passes_walls || s->is_filtered ? " " : "",
              s->is_orbiting ? " orbit" : "",
              s->passes_walls ? " through walls" : "",
              s->is_filtered ? " filtered" : "");

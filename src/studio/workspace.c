@@ -430,6 +430,8 @@ static enum keys_state keys_state(const struct workspace *workspace)
 
     if (workspace->screen.has_cursor)
         return KEYS_CURSOR;
+    if (workspace->panel.is_open)
+        return KEYS_PANEL;
     if (workspace->comparison.mode != COMPARISON_OFF)
         return KEYS_COMPARE;
     if (workspace->inspector.drawing != INSPECTOR_NOTHING)

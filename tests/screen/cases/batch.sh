@@ -37,7 +37,7 @@ wait_for "LIVE paused"
 wait_until rests
 expect "LIVE paused"
 keys s .
-wait_for "LIVE paused filtered  [1-9][0-9]* spp"
+wait_for "LIVE paused  filtered  [1-9][0-9]* spp"
 wait_until rests
 expect "LIVE paused"
 keys Enter

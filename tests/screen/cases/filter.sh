@@ -4,7 +4,7 @@
 lamp_scene
 size=100x21
 start lamp.obj
-wait_for "LIVE filtered "
+wait_for "LIVE  filtered "
 keys F
 wait_for "the screen's picture is not filtered"
 keys Escape
@@ -12,11 +12,11 @@ wait_for "LIVE  *[0-9]* spp"
 keys F
 wait_for "the screen's picture is filtered"
 keys Escape
-wait_for "LIVE filtered "
+wait_for "LIVE  filtered "
 keys n
 wait_for "PREVIEW"
 keys N
-wait_for "LIVE filtered "
+wait_for "LIVE  filtered "
 keys Space Enter
 wait_for "NORMAL done  16/16 spp"
 keys q y
@@ -27,6 +27,6 @@ wait_for "LIVE  *[0-9]* spp"
 keys F
 wait_for "the screen's picture is filtered"
 keys Escape
-wait_for "LIVE filtered "
+wait_for "LIVE  filtered "
 keys q
 expect_end 0

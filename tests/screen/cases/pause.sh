@@ -9,11 +9,11 @@ wait_for "LIVE .* [1-9][0-9]* spp"
 keys Enter
 wait_for "LIVE paused"
 wait_until rests
-done_before=$(screen | sed -n 's/.*paused filtered  \([0-9]*\) spp.*/\1/p')
+done_before=$(screen | sed -n 's/.*paused  filtered  \([0-9]*\) spp.*/\1/p')
 keys .
-wait_for "LIVE paused filtered  $((done_before + 1)) spp"
+wait_for "LIVE paused  filtered  $((done_before + 1)) spp"
 keys . .
-wait_for "LIVE paused filtered  $((done_before + 3)) spp"
+wait_for "LIVE paused  filtered  $((done_before + 3)) spp"
 wait_until rests
 keys Enter
 wait_until_gone "paused"

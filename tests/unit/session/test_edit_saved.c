@@ -163,6 +163,27 @@ static void the_camera_of_a_changed_file_is_a_step(void **state)
     edit_free(&e);
 }
 
+/* Statements that make the material of the file are no change: illum 1 of a
+ * material without Ks, as the types of the panel leave it. */
+static void equal_materials_are_saved(void **state)
+{
+    struct edit e;
+    struct mtl_source source;
+
+    (void)state;
+    open_edit(&e);
+    source = e.now.sources[WALL];
+    source.illum = (struct mtl_number){.value = 1, .line = 1};
+    edit_material(&e, WALL, &source);
+    assert_true(edit_is_saved(&e, WALL));
+    assert_false(edit_has_unsaved_materials(&e));
+    source.illum.value = 7; /* solid glass */
+    edit_material(&e, WALL, &source);
+    assert_false(edit_is_saved(&e, WALL));
+    assert_true(edit_has_unsaved_materials(&e));
+    edit_free(&e);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -170,6 +191,7 @@ int main(void)
         cmocka_unit_test(changes_end_comparing),
         cmocka_unit_test(a_reload_keeps_camera_steps),
         cmocka_unit_test(the_camera_of_a_changed_file_is_a_step),
+        cmocka_unit_test(equal_materials_are_saved),
     };
 
     return cmocka_run_group_tests(tests, open_scene, close_scene);

@@ -103,10 +103,10 @@ static void normal_mode_shows_the_time_left(void **state)
               "quit ");
     s.is_orbiting = true;
     format(text, 120, &s);
-    check_has(text, " NORMAL orbit  8/16 spp  ");
+    check_has(text, " NORMAL  orbit  8/16 spp  ");
     s.is_filtered = true;
     format(text, 120, &s);
-    check_has(text, " NORMAL orbit filtered  8/16 spp  ");
+    check_has(text, " NORMAL  orbit filtered  8/16 spp  ");
     s.is_orbiting = s.is_filtered = false;
     p.state = RENDER_IDLE;
     s.is_halted = true;
