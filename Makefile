@@ -51,12 +51,24 @@ ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno \
 	-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer)
 ALL_LDFLAGS = -pthread -pie -Wl,-z,relro,-z,now $(LDFLAGS) \
 	$(if $(SAN),-fsanitize=$(SAN))
+HASH := \#
 # WebP images are read if libwebp is there.
-WEBP := $(shell echo '\#include <webp/decode.h>' | $(CC) -E -x c - >/dev/null 2>&1 \
-	&& echo 1)
+WEBP := $(shell echo '$(HASH)include <webp/decode.h>' | $(CC) -E -x c - \
+	>/dev/null 2>&1 && echo 1)
+# Meshes of KHR_draco_mesh_compression are read if libdraco is there, and a
+# compiler for the one file in C++.
+ifeq ($(origin CXX),default)
+CXX := $(shell echo '$(CC)' | sed 's/gcc/g++/; s/clang/clang++/; s/\(^\|\/\)cc$$/\1c++/')
+endif
+DRACO := $(shell printf '%s\n' \
+	'$(HASH)if !__has_include(<draco/compression/decode.h>)' '$(HASH)error' \
+	'$(HASH)endif' '$(HASH)include <memory>' | \
+	$(CXX) -E -x c++ - >/dev/null 2>&1 && echo 1)
+ALL_CXXFLAGS = -std=c++17 $(filter-out -std=c11 -Wstrict-prototypes \
+	-Wmissing-prototypes,$(ALL_CFLAGS))
 LIB_LIBS = -ljansson -lmeshoptimizer $(if $(WEBP),-lwebp) -lz -lm -ldl
-LIBS = -lncursesw -ltinfo $(LIB_LIBS)
-FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
+LIBS = -lncursesw -ltinfo $(if $(DRACO),-ldraco -lstdc++) $(LIB_LIBS)
+FLAGS = $(CC) $(if $(DRACO),$(CXX)) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
 # src/render/cpu_kernel.c is built for each instruction set and each set of
@@ -97,8 +109,11 @@ FILTERS := $(ISAS:%=$(B)/filter_loops_%.o)
 MPI_SOURCES := $(addprefix src/cluster/,cluster.c cluster_backend.c \
 	cluster_pass.c cluster_worker.c wire.c)
 WEBP_OTHER := src/picture/$(if $(WEBP),image_webp_none.c,image_webp.c)
-SOURCES := $(filter-out $(MPI_SOURCES) $(WEBP_OTHER),$(wildcard src/*.c src/*/*.c))
+DRACO_NONE := src/import/draco_decode_none.c
+SOURCES := $(filter-out $(MPI_SOURCES) $(WEBP_OTHER) $(if $(DRACO),$(DRACO_NONE)), \
+	$(wildcard src/*.c src/*/*.c))
 OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(SOURCES)) $(B)/kernels.o \
+	$(if $(DRACO),$(B)/import/draco_decode.o) \
 	$(PATHS) $(FILTERS)
 PROGRAM := $(B)/$(if $(MPI),mpi/)glim
 # Tests of clusters need the program for them, where MPI is installed.
@@ -106,7 +121,8 @@ MPI_PROGRAM := $(if $(SAN),,$(if $(shell command -v mpicc),$(B)/mpi/glim))
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 # libglim: the folders up to src/api/ in the table of CONTRIBUTING.md.
 LIB_FOLDERS := base picture filter bvh light scene formats gltf import load render opencl api
-LIB_OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(filter-out $(WEBP_OTHER), \
+LIB_OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(filter-out $(WEBP_OTHER) \
+	src/import/draco%, \
 	$(foreach d,$(LIB_FOLDERS),$(wildcard src/$(d)/*.c)))) $(B)/kernels.o \
 	$(PATHS) $(FILTERS)
 VERSION := $(shell sed -n 's/.*GLIM_VERSION *"\(.*\)"/\1/p' include/glim/version.h)
@@ -137,7 +153,7 @@ SCENE_FILES = $(foreach e,obj mtl glb view png hdr,$(wildcard scenes/*.$(e)))
 C_FILES = $(foreach d,include/glim src src/* kernels scenes tests/unit tests/unit/* \
 	tests/bench \
 	tests/api tests/bench/error tests/bench/rays tests/fuzz tests/stress tests/tools, \
-	$(wildcard $(d)/*.[ch])) $(wildcard kernels/*.cl)
+	$(wildcard $(d)/*.[ch] $(d)/*.cc)) $(wildcard kernels/*.cl)
 
 ## all: the program, build/release/glim (the default); with MPI=1 for clusters,
 ##       build/release/mpi/glim
@@ -152,6 +168,17 @@ $(B)/%.o: src/%.c $(B)/flags
 	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
+define compile_cxx
+	@mkdir -p $(@D)
+	$(SAY) CXX $<
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -MMD -MP -c -o $@ $<
+endef
+$(B)/import/draco_decode.o: src/import/draco_decode.cc $(B)/flags
+	$(compile_cxx)
+$(B)/unit/gltf/draco_encode.o: tests/unit/gltf/draco_encode.cc $(B)/flags
+	$(compile_cxx)
+
+$(B)/gltf/gltf_draco.o: private ALL_CFLAGS += $(if $(DRACO),-DHAS_DRACO)
 $(B)/cluster/wire.o: private ALL_CFLAGS += $(shell mpicc --showme:compile)
 
 $(B)/mpi/glim: $(filter-out %/cluster_none.o,$(OBJECTS)) \
@@ -213,6 +240,13 @@ $(B)/unit/terminal/test_tty: private ALL_LDFLAGS += \
 	-Wl,--wrap=workspace_next_ns,--wrap=tty_read
 # It reads files with OpenEXR's library.
 $(B)/unit/picture/test_image_exr: private LIBS += -lOpenEXRCore
+# It packs meshes with libdraco.
+ifneq ($(DRACO),)
+$(B)/unit/gltf/test_gltf_draco: private ALL_CFLAGS += -DHAS_DRACO
+$(B)/unit/gltf/test_gltf_draco: private LIBS := $(B)/unit/gltf/draco_encode.o \
+	$(LIBS)
+$(B)/unit/gltf/test_gltf_draco: $(B)/unit/gltf/draco_encode.o
+endif
 # It makes the disk slow.
 $(B)/unit/session/test_session_film: private ALL_LDFLAGS += -Wl,--wrap=fsync
 # It lets allocations fail, and counts what is freed.

@@ -22,6 +22,7 @@
 #include "base/memory.h"
 #include "base/print.h"
 #include "glim/version.h"
+#include "import/draco_child.h"
 #include "import/import_child.h"
 #include "load/scene_format.h"
 #include "render/cpu_dispatch.h"
@@ -162,18 +163,20 @@ static int probe(const struct options *o)
     return ok ? print_out("") : complain(EXIT_FAILED, &err);
 }
 
-/* Runs this program as the copy that reads a scene: import.h. The library's own
- * output is lost. */
-static int import(const struct options *o)
+/* Runs this program as the copy in which a library reads a scene (import.h) or
+ * unpacks meshes (gltf_draco.h). The library's own output is lost. */
+static int run_library(const struct options *o)
 {
-    struct import_limits limits = {o->import_s, o->import_bytes};
+    bool ok;
     int fd = dup(1), nowhere = open("/dev/null", O_WRONLY);
     FILE *to = fd >= 0 ? fdopen(fd, "w") : NULL;
 
     if (to == NULL || nowhere < 0 || dup2(nowhere, 1) < 0)
         return EXIT_FAILED;
+    ok = o->is_unpack ? draco_child(o->library_limits, to)
+                      : import_child(o->scene_path, o->library_limits, to);
     /* the destructors of a library may crash, too */
-    _Exit(import_child(o->scene_path, limits, to) ? EXIT_DONE : EXIT_FAILED);
+    _Exit(ok ? EXIT_DONE : EXIT_FAILED);
 }
 
 /* Checks that there is a screen for live mode, or a file or pipe for the
@@ -381,8 +384,8 @@ int main(int argc, char **argv)
                                              : complain(EXIT_FAILED, &err);
     if (options.probe)
         return probe(&options);
-    if (options.is_import)
-        return import(&options);
+    if (options.is_import || options.is_unpack)
+        return run_library(&options);
     if (!options.is_worker && cluster_rank() == 0 &&
         !check_terminal(&options, &err))
         return complain(EXIT_USAGE, &err);

@@ -11,14 +11,14 @@ cd "$(dirname "$0")/.." || exit 1
 
 # C files without a header of their own name: the program's entry, the bodies of
 # stb's headers, and what backend.h and glim.h declare.
-HEADERLESS='main stb backend_cpu cluster_none image_webp_none cluster_backend cluster_worker glim_scene glim_render glim_picture glim_film'
+HEADERLESS='main stb backend_cpu cluster_none image_webp_none draco_decode_none cluster_backend cluster_worker glim_scene glim_render glim_picture glim_film'
 
 # Files that may use the C library's output, because they write files. Output
 # for people goes through print.c.
-WRITERS='print film_header import_child import_material assign mtl_save view_file view_light cl_source stats_json json reference_info curses_windows'
+WRITERS='print film_header import_child draco_child draco_decode draco_decode_none gltf_draco import_material assign mtl_save view_file view_light cl_source stats_json json reference_info curses_windows'
 
 {
-    find include src kernels scenes tests -name '*.[ch]' -o -name '*.cl'
+    find include src kernels scenes tests -name '*.[ch]' -o -name '*.c[lc]'
     find kernels scenes tests .ci -name '*.sh' -o -path .ci/run
 } | sort | awk -v headerless="$HEADERLESS" -v writers="$WRITERS" '
 function fault(text)
@@ -30,7 +30,7 @@ function fault(text)
 function stem_of(name)
 {
     sub(/.*\//, "", name)
-    sub(/\.[ch]$/, "", name)
+    sub(/\.(c|cc|h)$/, "", name)
     return name
 }
 
@@ -81,6 +81,8 @@ function check_include(name, is_system,    kernel, other)
             fault("only gltf_meshopt.c includes <" name ">")
         if (name ~ /^assimp\// && path != "src/import/assimp_api.h")
             fault("only assimp_api.h includes <" name ">")
+        if (name ~ /^draco\// && path != "src/import/draco_decode.cc")
+            fault("only draco_decode.cc includes <" name ">")
         if (name ~ /^CL\// && folder != "src/opencl")
             fault("only src/opencl/ includes <" name ">")
         return
@@ -104,7 +106,7 @@ function check_include(name, is_system,    kernel, other)
 function check_folder(    line, header)
 {
     header = folder "/" stem ".h"
-    if (path ~ /\.c$/ && !(stem in exempt) && (getline line < header) < 0)
+    if (path ~ /\.cc?$/ && !(stem in exempt) && (getline line < header) < 0)
         fault("has no " header)
     close(header)
     if (place_of(folder) == 0)

@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,9 +23,36 @@ extern char **environ;
  * much then waits less. */
 #define PIPE_BYTES (1 << 16)
 
-/* Starts the program with its output in the pipe. Returns 0 or an error
- * number. */
-static int start(pid_t *pid, const struct child_task *t, int output)
+/* Returns a file in memory at the start of the input, or -1 and errno. A file
+ * is never full, as a pipe is. */
+static int open_input(const struct child_task *t)
+{
+    int fd = memfd_create("input", MFD_CLOEXEC);
+    size_t done = 0;
+    int reason;
+
+    if (fd < 0)
+        return -1;
+    while (done < t->input_bytes) {
+        ssize_t count =
+            write(fd, (const char *)t->input + done, t->input_bytes - done);
+
+        if (count >= 0)
+            done += (size_t)count;
+        else if (errno != EINTR)
+            break;
+    }
+    if (done == t->input_bytes && lseek(fd, 0, SEEK_SET) == 0)
+        return fd;
+    reason = errno;
+    close(fd);
+    errno = reason;
+    return -1;
+}
+
+/* Starts the program with its output in the pipe. `input` is -1 without one.
+ * Returns 0 or an error number. */
+static int start(pid_t *pid, const struct child_task *t, int input, int output)
 {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -39,7 +67,10 @@ static int start(pid_t *pid, const struct child_task *t, int output)
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+    if (input >= 0)
+        posix_spawn_file_actions_adddup2(&files, input, 0);
+    else
+        posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&files, output, 1);
     if (t->has_errors)
         posix_spawn_file_actions_adddup2(&files, output, 2);
@@ -116,26 +147,41 @@ static bool await(pid_t child, struct child_result *r)
     return true;
 }
 
+/* Starts the program. *output is the end of the pipe to read from. Returns 0 or
+ * an error number. */
+static int start_with_pipe(pid_t *pid, const struct child_task *t, int *output)
+{
+    int input = -1, fds[2], reason;
+
+    *output = -1;
+    if (pipe2(fds, O_CLOEXEC) != 0)
+        return errno;
+    fcntl(fds[0], F_SETPIPE_SZ, PIPE_BYTES * 16);
+    if (t->input != NULL && (input = open_input(t)) < 0)
+        reason = errno;
+    else
+        reason = start(pid, t, input, fds[1]);
+    if (input >= 0)
+        close(input);
+    close(fds[1]);
+    if (reason != 0)
+        close(fds[0]);
+    *output = fds[0];
+    return reason;
+}
+
 enum child_end child_run(const struct child_task *t, struct child_result *r)
 {
     enum child_end end;
     pid_t child;
-    int fds[2];
+    int output;
 
     *r = (struct child_result){0};
-    if (pipe2(fds, O_CLOEXEC) != 0) {
-        r->reason = errno;
+    r->reason = start_with_pipe(&child, t, &output);
+    if (r->reason != 0)
         return CHILD_NOT_RUN;
-    }
-    fcntl(fds[0], F_SETPIPE_SZ, PIPE_BYTES * 16);
-    r->reason = start(&child, t, fds[1]);
-    close(fds[1]);
-    if (r->reason != 0) {
-        close(fds[0]);
-        return CHILD_NOT_RUN;
-    }
-    end = read_output(fds[0], t, r);
-    close(fds[0]);
+    end = read_output(output, t, r);
+    close(output);
     if (end != CHILD_ENDED)
         kill(child, SIGKILL);
     if (!await(child, r) && end == CHILD_ENDED)

@@ -22,6 +22,8 @@
 struct child_task {
     const char *program;          /* path of the program */
     const char *const *arguments; /* with its name, and NULL at the end */
+    const void *input;            /* standard input; may be NULL */
+    size_t input_bytes;
     bool has_errors;   /* standard error is read, too; else it is lost */
     bool is_cut;       /* output beyond the limit is skipped */
     uint64_t time_ns;  /* limit of time */
@@ -45,8 +47,8 @@ struct child_result {
     size_t size_bytes;
 };
 
-/* Runs the program without input, with the signal handling that this one was
- * started with, and waits for its end. */
+/* Runs the program with the signal handling that this one was started with, and
+ * waits for its end. */
 enum child_end child_run(const struct child_task *task,
                          struct child_result *result);
 

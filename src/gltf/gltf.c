@@ -3,6 +3,7 @@
 
 #include "formats/mesh_finish.h"
 #include "gltf/gltf_animation.h"
+#include "gltf/gltf_draco.h"
 #include "gltf/gltf_material.h"
 #include "gltf/gltf_mesh.h"
 #include "gltf/gltf_node.h"
@@ -38,6 +39,7 @@ bool gltf_parse(struct scene *scene, const char *bytes, size_t size_bytes,
     bool ok =
         mesh_begin(scene, path, err) &&
         gltf_document_open(&document, bytes, size_bytes, path, report, err) &&
+        gltf_draco_unpack(&document, scene->program, err) &&
         mesh_mtl_begin(scene, "", report, err) &&
         gltf_materials_read(&document, scene, report, err) &&
         mesh_mtl_read(scene, report, err) &&

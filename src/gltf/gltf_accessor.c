@@ -18,11 +18,6 @@ static const struct {
     {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16},
 };
 
-static uint32_t component_bytes(uint32_t component)
-{
-    return component <= GLTF_U8 ? 1 : component <= GLTF_U16 ? 2 : 4;
-}
-
 /* ---- opening ---- */
 
 static bool read_component(const struct gltf_value *v, uint32_t *component,
@@ -33,7 +28,7 @@ static bool read_component(const struct gltf_value *v, uint32_t *component,
     if (!gltf_integer(v, "componentType", INT64_MAX, &number, err))
         return false;
     *component = (uint32_t)number;
-    return (number >= GLTF_I8 && number <= GLTF_FLOAT && number != 5124) ||
+    return gltf_component_bytes(number) > 0 ||
            gltf_fail(v, err,
                      "found componentType %" PRIu64
                      ", expected one of 5120 to 5123, 5125 or 5126",
@@ -62,7 +57,7 @@ static bool find_elements(const struct gltf_value *v, uint64_t count,
                           struct error *err)
 {
     uint64_t offset = 0, size_bytes;
-    uint32_t index, align = component_bytes(e->component);
+    uint32_t index, align = gltf_component_bytes(e->component);
     const struct gltf_view *view;
 
     if (!gltf_index(v, "bufferView", "bufferViews", &index, err) ||
@@ -146,7 +141,7 @@ static bool open_sparse(const struct gltf_value *accessor, size_t element_bytes,
         !gltf_object(&v, "values", &values, err) ||
         !read_component(&indices, &a->sparse_indices.component, err) ||
         !find_elements(&indices, count,
-                       component_bytes(a->sparse_indices.component),
+                       gltf_component_bytes(a->sparse_indices.component),
                        &a->sparse_indices, err) ||
         !find_elements(&values, count, element_bytes, &a->sparse_values, err))
         return false;
@@ -173,7 +168,7 @@ bool gltf_accessor_open(const struct gltf_document *document, uint32_t index,
         !read_type(&v, &a->component_count, err))
         return false;
     element_bytes =
-        (size_t)a->component_count * component_bytes(a->dense.component);
+        (size_t)a->component_count * gltf_component_bytes(a->dense.component);
     a->count = (uint32_t)count;
     if (!find_elements(&v, count, element_bytes, &a->dense, err) ||
         !open_sparse(&v, element_bytes, a, err))
@@ -232,7 +227,7 @@ struct range {
 static inline void floats_as(uint32_t component, const struct gltf_elements *e,
                              struct range r, bool is_normalized, float *to)
 {
-    uint32_t size = component_bytes(component);
+    uint32_t size = gltf_component_bytes(component);
 
     for (uint32_t i = 0; i < r.count; i++) {
         const unsigned char *p = e->bytes + (r.first + i) * e->stride_bytes;
@@ -255,7 +250,7 @@ static inline void integers_as(uint32_t component,
                                const struct gltf_elements *e, struct range r,
                                uint32_t *to)
 {
-    uint32_t size = component_bytes(component);
+    uint32_t size = gltf_component_bytes(component);
 
     for (uint32_t i = 0; i < r.count; i++) {
         struct gltf_elements one = {e->bytes + (r.first + i) * e->stride_bytes,

@@ -32,6 +32,20 @@ struct gltf_elements {
     uint32_t component; /* enum gltf_component */
 };
 
+/* Returns the size of a number of this type; 0 for others than those above. */
+static inline uint32_t gltf_component_bytes(uint64_t component)
+{
+    switch (component) {
+    case GLTF_I8:
+    case GLTF_U8: return 1;
+    case GLTF_I16:
+    case GLTF_U16: return 2;
+    case GLTF_U32:
+    case GLTF_FLOAT: return 4;
+    default: return 0;
+    }
+}
+
 struct gltf_accessor {
     uint32_t count;
     uint32_t component_count; /* 1 to 4, or those of a matrix */

@@ -207,6 +207,7 @@ void gltf_document_close(struct gltf_document *document)
         free(document->views[i].data.owned);
     free(document->buffers);
     free(document->views);
+    free(document->unpacked);
     json_decref(document->root);
     memset(document, 0, sizeof *document);
 }

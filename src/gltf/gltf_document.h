@@ -44,6 +44,7 @@ struct gltf_document {
     uint64_t buffer_bytes; /* of all buffers */
     struct gltf_view *views;
     size_t view_count;
+    void *unpacked; /* bytes of some views: gltf_draco.h */
 };
 
 /* Returns true if the bytes begin a .glb file or a text of JSON. */

@@ -3,13 +3,14 @@
 
 #include <string.h>
 
-#include "gltf/gltf_value.h"
+#include "gltf/gltf_draco.h"
 
 static const char *const known[] = {
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
-    "KHR_lights_punctual",
     "EXT_texture_webp",
+    GLTF_DRACO,
+    "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
@@ -29,6 +30,8 @@ static const char *const known[] = {
 
 static bool is_known(const char *name)
 {
+    if (strcmp(name, GLTF_DRACO) == 0 && gltf_draco_missing() != NULL)
+        return false;
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
         if (strcmp(name, known[i]) == 0)
             return true;
@@ -63,6 +66,11 @@ bool gltf_extensions_check(const struct gltf_document *document,
     for (size_t i = 0; i < gltf_count(&required); i++) {
         const char *name = json_string_value(json_array_get(required.json, i));
 
+        if (strcmp(name, GLTF_DRACO) == 0 && gltf_draco_missing() != NULL)
+            return fail(err,
+                        "%s: found the required extension '" GLTF_DRACO
+                        "', which needs " GLTF_DRACO_NEEDS,
+                        document->path);
         if (!is_known(name))
             return fail(err,
                         "%s: found the required extension '%.80s', expected "

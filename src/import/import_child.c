@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "import/import_child.h"
 
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-
 #include "import/assimp_api.h"
 
 #if HAS_ASSIMP
@@ -449,31 +445,11 @@ static bool read_and_send(const char *path, FILE *to, struct error *err)
 
 #endif
 
-/* Sanitizers map more memory than any limit. */
-#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-#define HAS_SHADOW 1
-#else
-#define HAS_SHADOW 0
-#endif
-
-static void set_limits(struct import_limits limits)
-{
-    const struct rlimit time = {limits.time_s, limits.time_s};
-    const struct rlimit memory = {limits.memory_bytes, limits.memory_bytes};
-    const struct rlimit none = {0, 0};
-
-    setrlimit(RLIMIT_CPU, &time);
-    if (!HAS_SHADOW)
-        setrlimit(RLIMIT_AS, &memory);
-    setrlimit(RLIMIT_CORE, &none);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-}
-
-bool import_child(const char *path, struct import_limits limits, FILE *to)
+bool import_child(const char *path, struct library_limits limits, FILE *to)
 {
     struct error err;
 
-    set_limits(limits);
+    library_child_limit(limits);
     if (read_and_send(path, to, &err))
         return true;
     fprintf(to, "%s\n", err.text);

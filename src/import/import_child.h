@@ -11,16 +11,11 @@
 #define GLIM_IMPORT_CHILD_H
 
 #include <stdbool.h>
-#include <stdint.h>
 #include <stdio.h>
 
-/* Most that the process may use, and the time of the processor. */
-struct import_limits {
-    unsigned time_s;
-    uint64_t memory_bytes;
-};
+#include "base/library_child.h"
 
 /* Sends the scene of the file, or returns false and sends the message. */
-bool import_child(const char *path, struct import_limits limits, FILE *to);
+bool import_child(const char *path, struct library_limits limits, FILE *to);
 
 #endif

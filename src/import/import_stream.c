@@ -349,8 +349,9 @@ bool import_stream_read(struct scene *scene, const char *bytes,
         return fail_stream(&s, "no vertices");
     if (s.head.skipped_count > 0)
         warnings_add(report, "lights of other kinds",
-                     "%s: found %u lights of an area or of no place, which are "
-                     "not read",
+                     "%s: found %u lights of no place, or of an area, whose "
+                     "size is not in the file or not read by libassimp: left "
+                     "out",
                      path, s.head.skipped_count);
     return take_vertices(&s) && take_tris(&s) && take_names(&s) &&
            take_cameras(&s) && take_lamps(&s) && take_images(&s) &&

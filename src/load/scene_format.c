@@ -9,6 +9,7 @@
 #include "formats/ply_header.h"
 #include "formats/stl.h"
 #include "gltf/gltf.h"
+#include "gltf/gltf_draco.h"
 #include "import/import.h"
 
 /* The first row is that of files that no row recognises. */
@@ -17,8 +18,8 @@ static const struct scene_format formats[] = {
      false, NULL},
     {"PLY", "ply", "y up, z from Blender; ascii and binary", ply_matches,
      ply_parse, false, NULL},
-    {"glTF", "gltf glb", "y up; version 2.0, with buffers and images",
-     gltf_matches, gltf_parse, true, NULL},
+    {"glTF", "gltf glb", "y up; version 2.0, with buffers, images and Draco",
+     gltf_matches, gltf_parse, true, gltf_draco_missing},
     {"STL", "stl", "z up; ascii and binary", stl_matches, stl_parse, false,
      NULL},
     {"others", import_endings, "FBX, COLLADA, 3DS, X3D and more, by libassimp",

@@ -14,6 +14,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/library_child.h"
 #include "render/render_loop.h"
 #include "load/scene_format.h"
 #include "terminal/term_caps.h"
@@ -141,10 +142,10 @@ struct options {
     int ranks;          /* processes of a cluster to start; 0: none */
     bool is_worker;     /* render for rank 0; no scene is needed */
     bool probe;         /* test a device, see cl_probe.h; no scene is needed */
-    bool is_import;     /* send the scene, see import.h */
-    unsigned import_s;
-    uint64_t import_bytes;
-    uint32_t features; /* features for the test */
+    uint32_t features;  /* features for the test */
+    bool is_import;     /* send a scene, see import.h; or */
+    bool is_unpack;     /* meshes, see gltf_draco.h, with these limits */
+    struct library_limits library_limits;
 };
 
 /* Sets the defaults. There are no keys yet. */

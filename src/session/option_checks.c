@@ -253,7 +253,7 @@ static bool check_show(const struct options *o, struct error *err)
 bool options_need_no_scene(const struct options *o)
 {
     return o->list_devices || o->list_formats || o->list_sessions || o->probe ||
-           o->is_import || o->is_worker;
+           o->is_import || o->is_unpack || o->is_worker;
 }
 
 bool options_check(const struct options *o, struct error *err)

@@ -90,6 +90,8 @@ static const struct option_rule device[] = {
     {"probe", OPTION_PROBE, "a number of features", NULL, NULL},
     /* internal, see import.h */
     {"import", OPTION_IMPORT, "limits of time and memory", NULL, NULL},
+    /* internal, see gltf_draco.h */
+    {"unpack", OPTION_UNPACK, "limits of time and memory", NULL, NULL},
 };
 
 static const struct option_rule cluster[] = {

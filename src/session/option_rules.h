@@ -47,6 +47,7 @@ enum option_id {
     OPTION_ISA,
     OPTION_PROBE,
     OPTION_IMPORT,
+    OPTION_UNPACK,
     OPTION_RANKS,
     OPTION_WORKER,
     OPTION_BATCH,

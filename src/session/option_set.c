@@ -294,18 +294,18 @@ static bool set_probe(struct options *o, const struct option_given *g,
     return true;
 }
 
-static bool set_import(struct options *o, const struct option_given *g,
-                       struct error *err)
+static bool set_library_limits(struct options *o, const struct option_given *g,
+                               struct error *err)
 {
     const char *p = g->value;
     uint64_t time_s;
 
     if (!digits_parse(&p, 10, UINT_MAX, &time_s) || *p++ != ',' ||
-        !digits_parse(&p, 10, UINT64_MAX, &o->import_bytes) || *p != '\0')
+        !digits_parse(&p, 10, UINT64_MAX, &o->library_limits.memory_bytes) ||
+        *p != '\0')
         return fail(err, "%s: found '%s', expected SECONDS,BYTES", g->shown,
                     g->value);
-    o->import_s = (unsigned)time_s;
-    o->is_import = true;
+    o->library_limits.time_s = (unsigned)time_s;
     return true;
 }
 
@@ -429,7 +429,12 @@ bool option_set(struct options *o, const struct option_given *g,
         return whole_int(g, 0, BOUNCES_MAX, &o->max_bounces, err);
     case OPTION_SEED: return set_seed(o, g, err);
     case OPTION_PROBE: return set_probe(o, g, err);
-    case OPTION_IMPORT: return set_import(o, g, err);
+    case OPTION_IMPORT:
+        o->is_import = true;
+        return set_library_limits(o, g, err);
+    case OPTION_UNPACK:
+        o->is_unpack = true;
+        return set_library_limits(o, g, err);
     case OPTION_CROP: return set_crop(o, g, err);
     case OPTION_THREADS:
         return whole_int(g, 1, THREADS_MAX, &o->thread_count, err);

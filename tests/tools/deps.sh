@@ -55,6 +55,17 @@ need_header() # header, package
     fi
 }
 
+need_cxx_header() # header, package
+{
+    cxx=$(echo "$compiler" | sed 's/gcc/g++/; s/clang/clang++/; s/^cc$/c++/')
+    # clang++ has the C++ library of g++
+    echo '#include <memory>' | $cxx -E -x c++ - >/dev/null 2>&1
+    note g++ $?
+    test -e "/usr/include/$1" ||
+        echo "#include <$1>" | $cxx -std=c++17 -E -x c++ - >/dev/null 2>&1
+    note "$2" $?
+}
+
 need_library() # its file, package
 {
     case $($compiler -print-file-name="$1" 2>/dev/null) in
@@ -91,6 +102,7 @@ look()
             need_header meshoptimizer.h libmeshoptimizer-dev
             need_header webp/decode.h libwebp-dev
             need_header assimp/cimport.h libassimp-dev
+            need_cxx_header draco/compression/decode.h libdraco-dev
             ;;
         test)
             need_header cmocka.h libcmocka-dev

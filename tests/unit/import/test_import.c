@@ -335,7 +335,7 @@ int main(int count, char **arguments)
         cmocka_unit_test(failures_are_one_line),
         cmocka_unit_test(other_bytes_are_refused),
     };
-    const struct import_limits limits = {20, (uint64_t)1 << 40};
+    const struct library_limits limits = {20, (uint64_t)1 << 40};
 
     if (count == 5 && strcmp(arguments[1], "--import") == 0)
         _Exit(import_child(arguments[4], limits, stdout) ? 0 : 1);

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "base/library_child.h"
+
+#include <inttypes.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include "base/cgroup_quota.h"
+
+/* Limits of time and memory: a start, and more for each byte of the file.
+ * libassimp reads 5 to 50 MB/s, and a scene is up to 40 times its file. */
+#define TIME_S           30
+#define BYTES_A_SECOND   1000000
+#define MEMORY_BYTES     ((uint64_t)1 << 30)
+#define MEMORY_OF_A_BYTE 60
+
+/* Longest message that is shown. */
+#define MESSAGE_MAX 300
+
+/* Sanitizers map more memory than any limit. */
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+#define HAS_SHADOW 1
+#else
+#define HAS_SHADOW 0
+#endif
+
+static struct library_limits limits_of(size_t size_bytes)
+{
+    uint64_t quota = cgroup_quota_memory("").size_bytes;
+    uint64_t wanted = MEMORY_BYTES + MEMORY_OF_A_BYTE * (uint64_t)size_bytes;
+
+    return (struct library_limits){
+        .time_s = TIME_S + (unsigned)(size_bytes / BYTES_A_SECOND),
+        .memory_bytes = wanted < quota ? wanted : quota,
+    };
+}
+
+/* Reports the end of a copy that failed: its message, or the signal. */
+static bool fail_copy(const char *library, const struct child_result *r,
+                      struct error *err)
+{
+    size_t length = strcspn(r->output, "\n");
+
+    if (WIFSIGNALED(r->status) && WTERMSIG(r->status) == SIGXCPU)
+        return fail(err, "%s does not end", library);
+    if (WIFSIGNALED(r->status))
+        return fail(err, "%s crashed (%s)", library,
+                    strsignal(WTERMSIG(r->status)));
+    if (length == 0)
+        return fail(err, "%s ended with status %d", library,
+                    WEXITSTATUS(r->status));
+    return fail(err, "%.*s", (int)(length < MESSAGE_MAX ? length : MESSAGE_MAX),
+                r->output);
+}
+
+bool library_child_run(const struct library_task *task,
+                       struct child_result *result, struct error *err)
+{
+    struct library_limits limits = limits_of(task->size_bytes);
+    char text[64];
+    const char *const arguments[] = {
+        "glim",     task->option, text, task->path != NULL ? "-f" : NULL,
+        task->path, NULL};
+    struct child_task child = {
+        .program = task->program,
+        .arguments = arguments,
+        .input = task->input,
+        .input_bytes = task->path == NULL ? task->size_bytes : 0,
+        .time_ns = UINT64_C(1000000000) * limits.time_s,
+        .size_bytes = limits.memory_bytes,
+    };
+
+    snprintf(text, sizeof text, "%u,%" PRIu64, limits.time_s,
+             limits.memory_bytes);
+    switch (child_run(&child, result)) {
+    case CHILD_NOT_RUN:
+    case CHILD_UNKNOWN:
+        return fail(err, "%s could not be run: %s", task->library,
+                    strerror(result->reason));
+    case CHILD_LATE:
+        return fail(err, "%s was not ready after %u s", task->library,
+                    limits.time_s);
+    case CHILD_TOO_LONG:
+    case CHILD_NO_MEMORY: return fail(err, "out of memory for the scene");
+    case CHILD_ENDED: break;
+    }
+    return (WIFEXITED(result->status) && WEXITSTATUS(result->status) == 0) ||
+           fail_copy(task->library, result, err);
+}
+
+void library_child_limit(struct library_limits limits)
+{
+    const struct rlimit time = {limits.time_s, limits.time_s};
+    const struct rlimit memory = {limits.memory_bytes, limits.memory_bytes};
+    const struct rlimit none = {0, 0};
+
+    setrlimit(RLIMIT_CPU, &time);
+    if (!HAS_SHADOW)
+        setrlimit(RLIMIT_AS, &memory);
+    setrlimit(RLIMIT_CORE, &none);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+}

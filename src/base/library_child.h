@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+/*
+ * library_child.h - copies of the program in which a library of others reads a
+ * file that may be hostile
+ *
+ * Such a library may crash, hang or fill the memory. Its copy has limits of
+ * time and memory, which grow with the bytes that it reads. The copy writes
+ * what it has read to its standard output, or one line that says why it could
+ * not, with another status than 0.
+ *
+ * Units:     seconds, bytes
+ * Ownership: the output is the caller's, for free()
+ * Threads:   any
+ * Errors:    the message of the library, a crash, a limit: without the file's
+ *            name, which the caller adds
+ */
+#ifndef GLIM_LIBRARY_CHILD_H
+#define GLIM_LIBRARY_CHILD_H
+
+#include "base/child.h"
+#include "base/error.h"
+
+/* Most that a copy may use, and the time of the processor. */
+struct library_limits {
+    unsigned time_s;
+    uint64_t memory_bytes;
+};
+
+struct library_task {
+    const char *library; /* its name, for messages */
+    const char *program; /* NULL: there is no program to copy */
+    const char *option;  /* of the program, whose value are the limits */
+    const char *path;    /* NULL: the copy reads standard input */
+    const void *input;
+    size_t size_bytes; /* of the file or the input */
+};
+
+/* Runs the copy and waits for its end. After a failure the output is what the
+ * copy had written, or NULL. */
+bool library_child_run(const struct library_task *task,
+                       struct child_result *result, struct error *err);
+
+/* Limits this process, which is a copy. */
+void library_child_limit(struct library_limits limits);
+
+#endif
