@@ -26,7 +26,14 @@
 #define STEP        2
 #define STEP_SLOW   8
 
-#define STATUS_NS (250 * MS_NS)
+/* Time between two updates of the status line; on a slow line the picture needs
+ * the bytes. */
+#define STATUS_NS      (250 * MS_NS)
+#define STATUS_SLOW_NS S_NS
+
+/* The status line says that the picture is filtered until it was not for this
+ * time: the first frames after a move of the camera are not. */
+#define FILTERED_NS S_NS
 
 /* A terminal that has not answered within this time shows no pixels. */
 #define LACK_NS S_NS
@@ -247,6 +254,16 @@ void workspace_help_key(struct workspace *workspace, int key)
 
 /* ---- drawing ---- */
 
+static bool says_filtered(const struct workspace *workspace, uint64_t now_ns)
+{
+    const struct render_control *control = workspace->control;
+
+    return control->session->is_filtered &&
+           (workspace->inspector.view_mode.is_filtered ||
+            (control->is_live && control->progress.state == RENDER_RUNNING &&
+             now_ns < workspace->filtered_until_ns));
+}
+
 static void update_status(struct workspace *workspace, uint64_t now_ns)
 {
     const struct render_control *control = workspace->control;
@@ -262,7 +279,7 @@ static void update_status(struct workspace *workspace, uint64_t now_ns)
         .is_live = control->is_live,
         .is_orbiting = workspace->camera->input.is_orbiting,
         .passes_walls = workspace->camera->passes_walls,
-        .is_filtered = workspace->inspector.view_mode.is_filtered,
+        .is_filtered = says_filtered(workspace, now_ns),
         .is_halted = control->is_halted,
         .is_started = control->is_started,
         .load_key = control->has_changed_files ? load.text : NULL,
@@ -356,7 +373,9 @@ static void show_messages(struct workspace *workspace, uint64_t now_ns)
     if (now_ns < workspace->status_ns)
         return;
     update_status(workspace, now_ns);
-    workspace->status_ns = now_ns + STATUS_NS;
+    workspace->status_ns =
+        now_ns + (frame_pacing_is_slow(&workspace->screen.pace) ? STATUS_SLOW_NS
+                                                                : STATUS_NS);
 }
 
 static void outline_selection(struct workspace *workspace)
@@ -408,16 +427,19 @@ static enum screen_result send(struct workspace *workspace, bool has_frame)
 {
     struct screen *screen = &workspace->screen;
     struct view_mode *view_mode = &workspace->inspector.view_mode;
-    bool was_filtered = view_mode->is_filtered;
+    uint64_t now_ns = clock_ns();
+    bool said_filtered = says_filtered(workspace, now_ns);
     enum screen_result result;
 
-    if (!screen_draw_text(screen))
-        return SCREEN_GONE;
+    screen_draw_text(screen);
     if (!has_frame || screen->is_too_small)
         return screen_draw(screen, NULL, 0);
     paint(workspace);
     result = screen_draw(screen, &workspace->frame, frame_step(workspace));
-    if (view_mode->legend_is_new || view_mode->is_filtered != was_filtered)
+    if (view_mode->is_filtered)
+        workspace->filtered_until_ns = now_ns + FILTERED_NS;
+    if (view_mode->legend_is_new ||
+        says_filtered(workspace, now_ns) != said_filtered)
         workspace->status_ns = 0; /* it was written before the frame */
     view_mode->legend_is_new = false;
     return result;

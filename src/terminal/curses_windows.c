@@ -377,24 +377,37 @@ static void look_at(int col, int row, struct window_cell *cell)
                                      .style = style_of(role)};
 }
 
+/* Appends the parameters of a colour that changes. */
+static char *change_color(char *end, uint32_t from, uint32_t to,
+                          enum sgr_ground ground)
+{
+    if (from == to)
+        return end;
+    *end++ = ';';
+    return sgr_color(end, to, palette, ground);
+}
+
+/* Writes what changes of the style. Attributes end only with a reset: not every
+ * terminal can end them one by one. */
 static void put_style(struct writer *w, const struct text_style *style)
 {
-    char colors[2 * SGR_COLOR_BYTES + 3], *end = colors;
+    char text[2 * SGR_COLOR_BYTES + 16], *end = text;
+    unsigned added = style->attributes & ~w->style.attributes;
 
     if (memcmp(style, &w->style, sizeof *style) == 0)
         return;
-    if (style->fg != CELL_DEFAULT) {
-        *end++ = ';';
-        end = sgr_color(end, style->fg, palette, SGR_FOREGROUND);
+    if (w->style.attributes & ~style->attributes) {
+        end = stpcpy(end, ";0");
+        w->style = (struct text_style){CELL_DEFAULT, CELL_DEFAULT, 0};
+        added = style->attributes;
     }
-    if (style->bg != CELL_DEFAULT) {
-        *end++ = ';';
-        end = sgr_color(end, style->bg, palette, SGR_BACKGROUND);
-    }
+    end = stpcpy(end, added & TEXT_BOLD ? ";1" : "");
+    end = stpcpy(end, added & TEXT_DIM ? ";2" : "");
+    end = stpcpy(end, added & TEXT_REVERSE ? ";7" : "");
+    end = change_color(end, w->style.fg, style->fg, SGR_FOREGROUND);
+    end = change_color(end, w->style.bg, style->bg, SGR_BACKGROUND);
     *end = '\0';
-    fprintf(w->to, "\033[0%s%s%s%sm", style->attributes & TEXT_BOLD ? ";1" : "",
-            style->attributes & TEXT_DIM ? ";2" : "",
-            style->attributes & TEXT_REVERSE ? ";7" : "", colors);
+    fprintf(w->to, "\033[%sm", text + 1); /* without the first semicolon */
     w->style = *style;
 }
 
@@ -420,8 +433,10 @@ static void put_glyph(struct writer *w, uint32_t glyph)
 static void put_cell(struct writer *w, const struct window_cell *cell, int col,
                      int row)
 {
-    if (w->row != row || w->col != col)
+    if (w->row != row)
         fprintf(w->to, "\033[%d;%dH", row + 1, col + 1);
+    else if (w->col != col)
+        fprintf(w->to, "\033[%dC", col - w->col);
     put_style(w, &cell->style);
     if (cell->kind == WINDOW_CELL_PAINTED)
         put_glyph(w, (uint32_t)cell->text[0]);
@@ -455,7 +470,7 @@ static void update_cell(struct writer *w, int col, int row)
 /* Curses' doupdate() would destroy the picture, which it does not know: to save
  * bytes it scrolls, erases to the end of a line, and writes blanks instead of
  * moving the cursor. */
-void windows_update(void)
+size_t windows_update(void)
 {
     char *bytes;
     size_t size_bytes;
@@ -464,7 +479,7 @@ void windows_update(void)
                        .style = {CELL_DEFAULT, CELL_DEFAULT, 0}};
 
     if (!w.to)
-        return;
+        return 0;
     if (shown.must_clear)
         fputs("\033[m\033[H\033[J", w.to);
     shown.must_clear = false;
@@ -477,4 +492,5 @@ void windows_update(void)
     fclose(w.to);
     tty_write(bytes, size_bytes);
     free(bytes);
+    return size_bytes;
 }

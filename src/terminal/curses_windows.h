@@ -15,6 +15,7 @@
 #ifndef GLIM_CURSES_WINDOWS_H
 #define GLIM_CURSES_WINDOWS_H
 
+#include <stddef.h>
 #include <wchar.h>
 
 #include "terminal/theme.h"
@@ -80,9 +81,9 @@ void windows_hide_panel(void);
 /* Shows text in the middle of an empty screen. */
 void windows_notice(const char *text);
 
-/* Writes what has changed, and blanks once where the picture will be.
- * The cursor is in the last row, column 0, afterwards. */
-void windows_update(void);
+/* Writes what has changed, and blanks once where the picture will be. Returns
+ * the number of bytes. The cursor is in the last row, column 0, afterwards. */
+size_t windows_update(void);
 
 enum window_cell_kind {
     WINDOW_CELL_SPARED, /* written by others: the picture */

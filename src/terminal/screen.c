@@ -298,14 +298,20 @@ static void mark_pixels(const struct screen *screen, struct frame *f)
     frame_box(f, x0 - 2, y0 - 2, x1 + 2, y1 + 2, 0xffffff);
 }
 
-/* Appends changes of the picture. Returns false if the budget was too small for
- * all of them. */
-static bool add_picture(struct screen *screen, struct frame *frame, int step)
+/* Appends changes of the picture to a frame with some text. Returns false if
+ * the budget was too small for all of them; half of it is the picture's at
+ * least. */
+static bool add_picture(struct screen *screen, struct frame *frame, int step,
+                        size_t text_bytes)
 {
+    size_t budget_bytes = screen->pace.budget_bytes;
     struct ansi_diff_rect covered[3] = {screen->window};
     struct ansi_diff_draw draw = {.col = screen->fit.col,
                                   .row = screen->fit.row,
-                                  .budget_bytes = screen->pace.budget_bytes,
+                                  .budget_bytes =
+                                      budget_bytes > 2 * text_bytes
+                                          ? budget_bytes - text_bytes
+                                          : budget_bytes / 2,
                                   .step = step,
                                   .covered = covered,
                                   .covered_count = 1};
@@ -330,20 +336,16 @@ static bool add_picture(struct screen *screen, struct frame *frame, int step)
     return ansi_diff_picture(&screen->ansi, &screen->cells, &draw);
 }
 
-bool screen_draw_text(struct screen *screen)
+void screen_draw_text(struct screen *screen)
 {
     if (!screen->must_update)
-        return true;
+        return;
     screen->must_update = false;
-    if (screen->is_too_small) {
-        windows_update();
-        return true;
-    }
-    if (tty_has_sync())
+    if (tty_has_sync() && !screen->is_too_small) {
         tty_write(TTY_SYNC_BEGIN, sizeof TTY_SYNC_BEGIN - 1);
-    windows_update();
-    screen->has_drawn_text = true;
-    return true;
+        screen->text_bytes = sizeof TTY_SYNC_BEGIN - 1;
+    }
+    screen->text_bytes += windows_update();
 }
 
 /* One write() a frame. */
@@ -352,21 +354,21 @@ enum screen_result screen_draw(struct screen *screen, struct frame *frame,
 {
     struct ansi_diff *a = &screen->ansi;
     bool has_sync = tty_has_sync();
-    bool has_text = screen->has_drawn_text;
+    size_t text_bytes = screen->text_bytes;
     bool is_complete = true;
     bool asks;
     size_t before;
 
-    screen->has_drawn_text = false;
+    screen->text_bytes = 0;
     if (screen->is_too_small)
         return SCREEN_DONE;
     ansi_diff_begin(a);
-    if (has_sync && !has_text)
+    if (has_sync && text_bytes == 0)
         ansi_diff_text(a, TTY_SYNC_BEGIN);
     before = a->length;
     if (frame)
-        is_complete = add_picture(screen, frame, step);
-    if (a->length == before && !has_text)
+        is_complete = add_picture(screen, frame, step, text_bytes);
+    if (a->length == before && text_bytes == 0)
         return is_complete ? SCREEN_DONE : SCREEN_MORE;
     asks = a->length > before && frame_pacing_wants_request(&screen->pace);
     if (a->length > before)
@@ -378,7 +380,8 @@ enum screen_result screen_draw(struct screen *screen, struct frame *frame,
     uint64_t begin_ns = clock_ns();
     if (!tty_write(a->bytes, a->length))
         return SCREEN_GONE;
-    frame_pacing_sent(&screen->pace, a->length, asks, begin_ns, clock_ns());
+    frame_pacing_sent(&screen->pace, text_bytes + a->length, asks, begin_ns,
+                      clock_ns());
     return is_complete ? SCREEN_DONE : SCREEN_MORE;
 }
 

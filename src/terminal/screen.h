@@ -59,10 +59,10 @@ struct screen {
     struct status_row status;
     bool has_status;
     struct ansi_diff_rect window; /* in the picture's cells; 0 cols: closed */
-    bool must_update;    /* text has changed since screen_draw_text() */
-    bool has_drawn_text; /* screen_draw() has to end its update */
-    bool has_panel;      /* the next layout leaves room for the panel */
-    int panel_cols;      /* columns at the right edge; 0: none */
+    bool must_update;  /* text has changed since screen_draw_text() */
+    size_t text_bytes; /* of the text that screen_draw() has to end */
+    bool has_panel;    /* the next layout leaves room for the panel */
+    int panel_cols;    /* columns at the right edge; 0: none */
     bool has_cursor;
     int cursor_col, cursor_row; /* from the picture's corner */
 };
@@ -112,9 +112,8 @@ enum screen_result {
 };
 
 /* Writes text that has changed, so that the terminal has it while the frame is
- * made. Returns false if the terminal is gone. Call it only if
- * frame_pacing_may_send(); screen_draw() must follow. */
-bool screen_draw_text(struct screen *screen);
+ * made. Call it only if frame_pacing_may_send(); screen_draw() must follow. */
+void screen_draw_text(struct screen *screen);
 
 /* Writes the frame, if it is not NULL, and ends what screen_draw_text() began.
  * The frame has frame_width x frame_height pixels; a cursor is drawn into it
