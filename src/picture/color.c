@@ -105,7 +105,7 @@ bool color_parse(const char *text, double rgb[3], double *kelvin)
     if (decimal_parse(&p, end, kelvin) && end - p == 1 && (*p | 32) == 'k' &&
         *kelvin >= BLACKBODY_LEAST && *kelvin <= BLACKBODY_GREATEST) {
         blackbody_rgb(*kelvin, rgb);
-        largest = fmax(rgb[0], fmax(rgb[1], rgb[2]));
+        largest = color_largest(rgb);
         for (int i = 0; i < 3; i++)
             rgb[i] /= largest;
         return true;

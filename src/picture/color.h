@@ -13,6 +13,7 @@
 #ifndef GLIM_COLOR_H
 #define GLIM_COLOR_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "kernels/vec.h"
@@ -22,6 +23,12 @@
 static inline double color_mean(struct vec3 color)
 {
     return ((double)color.x + (double)color.y + (double)color.z) / 3;
+}
+
+/* Returns the largest channel. */
+static inline double color_largest(const double rgb[3])
+{
+    return fmax(rgb[0], fmax(rgb[1], rgb[2]));
 }
 
 /* Decode and encode a channel by the sRGB curve (IEC 61966-2-1). */

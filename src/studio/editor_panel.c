@@ -28,7 +28,8 @@ void editor_panel_init(struct editor_panel *p, struct render_control *control,
                        struct screen *screen)
 {
     *p = (struct editor_panel){.control = control, .screen = screen};
-    selection_init(&p->selection, control->session);
+    selection_init(&p->selection, &control->session->edit,
+                   &control->session->scene);
 }
 
 void editor_panel_free(struct editor_panel *p)
@@ -88,10 +89,10 @@ void editor_panel_select(struct editor_panel *p, const struct pick *pick)
 {
     struct selection *s = &p->selection;
 
-    s->index[PARAMETER_MATERIAL] = pick->material;
-    s->index[PARAMETER_OBJECT] = pick->object;
-    if (s->page == PARAMETER_LIGHT)
-        s->page = PARAMETER_MATERIAL;
+    s->index[PAGE_MATERIALS] = pick->material;
+    s->index[PAGE_OBJECTS] = pick->object;
+    if (s->page == PAGE_LIGHT)
+        s->page = PAGE_MATERIALS;
     selection_settle(s);
 }
 
@@ -101,7 +102,7 @@ void editor_panel_outline(struct editor_panel *p, const struct camera *camera,
                           struct frame *frame)
 {
     const struct session *s = p->control->session;
-    struct outline_choice choice = {p->selection.page == PARAMETER_OBJECT,
+    struct outline_choice choice = {p->selection.page == PAGE_OBJECTS,
                                     p->selection.index[p->selection.page]};
     struct bvh8_world w = {.world = world_arrays(&s->world, &s->scene),
                            .tree = world_tree(&s->world)};
@@ -140,26 +141,33 @@ static bool may_change(struct editor_panel *p)
     return true;
 }
 
+/* Returns the selected parameter; its id is -1 if there is none. */
+static struct parameter selected(struct editor_panel *p)
+{
+    struct parameter list[PARAMETERS_MAX];
+
+    if (panel_parameters(p, list) > 0)
+        return list[p->parameter];
+    return (struct parameter){.id = -1, .fraction = -1, .lamp = NO_INDEX};
+}
+
 /* Returns the id of the selected parameter, or -1 if there is none or it may
  * not change now. */
 static int changeable_id(struct editor_panel *p)
 {
-    struct parameter list[PARAMETERS_MAX];
+    int id = selected(p).id;
 
-    if (panel_parameters(p, list) == 0 || !may_change(p))
-        return -1;
-    return list[p->parameter].id;
+    return id < 0 || !may_change(p) ? -1 : id;
 }
 
 static void change_by(struct editor_panel *p, int steps)
 {
-    struct parameter_target target = selection_target(&p->selection);
     int id = changeable_id(p);
 
     if (id < 0)
         return;
     edit_begin_gesture(edit_of(p), GESTURES + (uint32_t)id, clock_ns());
-    parameter_step(&target, id, steps);
+    parameter_step(&p->selection, id, steps);
     take_change(p);
 }
 
@@ -167,13 +175,12 @@ static void change_by(struct editor_panel *p, int steps)
  * of the panel. */
 static void drag_to(struct editor_panel *p, int col)
 {
-    struct parameter_target target = selection_target(&p->selection);
     int id = changeable_id(p);
 
     if (id < 0)
         return;
     edit_begin_gesture(edit_of(p), GESTURES + (uint32_t)id, clock_ns());
-    parameter_set_fraction(&target, id,
+    parameter_set_fraction(&p->selection, id,
                            gauge_fraction(col - PANEL_SLIDER_COL,
                                           PANEL_SLIDER_COLS));
     take_change(p);
@@ -181,14 +188,13 @@ static void drag_to(struct editor_panel *p, int col)
 
 static void take_typed(struct editor_panel *p)
 {
-    struct parameter_target target = selection_target(&p->selection);
     int id = changeable_id(p);
     struct error err;
 
     if (id < 0)
         return;
     edit_end_step(edit_of(p));
-    if (parameter_set_text(&target, id, p->typed, &err)) {
+    if (parameter_set_text(&p->selection, id, p->typed, &err)) {
         p->is_typing = false;
         edit_end_step(edit_of(p));
         take_change(p);
@@ -205,32 +211,20 @@ static void compare(struct editor_panel *p)
     take_change(p);
 }
 
-/* Returns the lamp that has the selected parameter, or NO_INDEX. */
-static uint32_t selected_lamp(struct editor_panel *p)
-{
-    struct parameter_target target = selection_target(&p->selection);
-    struct parameter list[PARAMETERS_MAX];
-
-    panel_parameters(p, list);
-    return parameter_lamp(&target, list[p->parameter].id);
-}
-
 /* Selects the first parameter of a lamp, or the last of all. */
 static void select_lamp(struct editor_panel *p, uint32_t lamp)
 {
-    struct parameter_target target = selection_target(&p->selection);
     struct parameter list[PARAMETERS_MAX];
-    int count = parameters_list(&target, list);
+    int count = parameters_list(&p->selection, list);
 
     for (p->parameter = 0; p->parameter < count - 1; p->parameter++)
-        if (parameter_lamp(&target, list[p->parameter].id) == lamp)
+        if (list[p->parameter].lamp == lamp)
             break;
 }
 
 /* Copies the selected lamp, or adds a point light. */
 static void add_lamp(struct editor_panel *p)
 {
-    struct parameter_target target = selection_target(&p->selection);
     struct edit *e = edit_of(p);
     struct lamp lamp;
 
@@ -241,7 +235,7 @@ static void add_lamp(struct editor_panel *p)
                            PARAMETER_LAMPS);
         return;
     }
-    lamp = parameter_new_lamp(&target, selected_lamp(p));
+    lamp = parameter_new_lamp(&p->selection, selected(p).lamp);
     edit_end_step(e);
     select_lamp(p, edit_add_lamp(e, &lamp));
     edit_end_step(e);
@@ -250,8 +244,7 @@ static void add_lamp(struct editor_panel *p)
 
 static void remove_lamp(struct editor_panel *p)
 {
-    uint32_t lamp =
-        p->selection.page == PARAMETER_LIGHT ? selected_lamp(p) : NO_INDEX;
+    uint32_t lamp = selected(p).lamp;
 
     if (lamp == NO_INDEX) {
         render_control_say(p->control, "select a value of the light to remove "
@@ -272,21 +265,21 @@ static void duplicate(struct editor_panel *p)
 {
     struct selection *s = &p->selection;
     struct edit *e = edit_of(p);
-    uint32_t object = s->index[PARAMETER_OBJECT];
-    uint32_t *material = &s->index[PARAMETER_MATERIAL];
+    uint32_t object = s->index[PAGE_OBJECTS];
+    uint32_t *material = &s->index[PAGE_MATERIALS];
 
-    if (s->page == PARAMETER_LIGHT) {
+    if (s->page == PAGE_LIGHT) {
         add_lamp(p);
         return;
     }
     if (!selection_has_one(s) || !may_change(p))
         return;
     edit_end_step(e);
-    if (s->page == PARAMETER_OBJECT) {
+    if (s->page == PAGE_OBJECTS) {
         *material = edit_duplicate(e, selection_material_of(s, object));
         edit_assign(e, object, *material);
         render_control_say(p->control, "%.40s has its own material now: %.40s",
-                           selection_name(s, PARAMETER_OBJECT, object),
+                           selection_name(s, PAGE_OBJECTS, object),
                            e->names[*material]);
     } else {
         *material = edit_duplicate(e, *material);
@@ -303,7 +296,7 @@ static void duplicate(struct editor_panel *p)
 void editor_panel_open(struct editor_panel *p)
 {
     p->is_open = true;
-    p->is_in_parameters = p->selection.page == PARAMETER_LIGHT;
+    p->is_in_parameters = p->selection.page == PAGE_LIGHT;
     selection_settle(&p->selection);
 }
 
@@ -313,11 +306,11 @@ void editor_panel_close(struct editor_panel *p)
     p->is_typing = false;
 }
 
-static void show_page(struct editor_panel *p, enum parameter_page page)
+static void show_page(struct editor_panel *p, enum selection_page page)
 {
     p->selection.page = page;
     selection_settle(&p->selection);
-    p->is_in_parameters = page == PARAMETER_LIGHT;
+    p->is_in_parameters = page == PAGE_LIGHT;
     p->parameter = p->parameter_top = p->list_top = 0;
 }
 
@@ -333,11 +326,11 @@ static void move(struct editor_panel *p, int step)
  * that takes no text by one step. */
 static void begin_typing(struct editor_panel *p, int key)
 {
-    struct parameter list[PARAMETERS_MAX];
+    struct parameter parameter = selected(p);
 
-    if (panel_parameters(p, list) == 0)
+    if (parameter.id < 0)
         return;
-    if (!list[p->parameter].takes_text) {
+    if (!parameter.takes_text) {
         if (key == ENTER)
             change_by(p, 1);
         else
@@ -387,21 +380,13 @@ static void step(struct editor_panel *p, int by)
 
 static void leave(struct editor_panel *p)
 {
-    if (p->is_in_parameters && p->selection.page != PARAMETER_LIGHT)
+    if (p->is_in_parameters && p->selection.page != PAGE_LIGHT)
         p->is_in_parameters = false;
     else
         editor_panel_close(p);
 }
 
 /* ---- mouse ---- */
-
-static bool is_on_slider(struct editor_panel *p, int col)
-{
-    struct parameter list[PARAMETERS_MAX];
-
-    return panel_parameters(p, list) > 0 && col >= PANEL_SLIDER_COL &&
-           list[p->parameter].fraction >= 0;
-}
 
 static void click(struct editor_panel *p, int col, int row)
 {
@@ -412,16 +397,16 @@ static void click(struct editor_panel *p, int col, int row)
 
     p->is_typing = false;
     if (row == 0) {
-        show_page(p, col < PAGE_2   ? PARAMETER_MATERIAL
-                     : col < PAGE_3 ? PARAMETER_OBJECT
-                                    : PARAMETER_LIGHT);
+        show_page(p, col < PAGE_2   ? PAGE_MATERIALS
+                     : col < PAGE_3 ? PAGE_OBJECTS
+                                    : PAGE_LIGHT);
     } else if (row <= p->list_rows && list_row < s->listed_count) {
         selection_move(s, list_row - s->row);
         p->is_in_parameters = false;
     } else if (parameter_row >= 0 && parameter_row < p->parameter_rows) {
         p->parameter = p->parameter_top + parameter_row;
         p->is_in_parameters = true;
-        p->is_dragging = is_on_slider(p, col);
+        p->is_dragging = col >= PANEL_SLIDER_COL && selected(p).fraction >= 0;
         if (p->is_dragging)
             drag_to(p, col);
     }
@@ -482,8 +467,7 @@ bool editor_panel_key(struct editor_panel *p, int key)
         break;
     case PANEL_HSV: p->selection.by_hsv = !p->selection.by_hsv; break;
     case PANEL_NEXT_PAGE:
-        show_page(p, (enum parameter_page)((p->selection.page + 1) %
-                                           (PARAMETER_LIGHT + 1)));
+        show_page(p, (enum selection_page)((p->selection.page + 1) % (PAGES)));
         break;
     case PANEL_COPY: duplicate(p); break;
     case PANEL_REMOVE: remove_lamp(p); break;

@@ -24,7 +24,7 @@
 #include "terminal/screen.h"
 #include "studio/pick.h"
 #include "studio/render_control.h"
-#include "studio/selection.h"
+#include "studio/parameter.h"
 
 #define EDITOR_PANEL_TEXT 512
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "studio/material_parameters.h"
+#include "studio/parameter_table.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/decimal.h"
 #include "base/file.h"
+#include "picture/color.h"
 
 /* Ks that a material gets when it becomes plastic; see MATERIAL_SPECULAR. */
 #define KS_DEFAULT 0.5
@@ -36,28 +37,26 @@ static void put_grey(struct mtl_color *c, double value)
     put_color(c, (const double[3]){value, value, value});
 }
 
-static double largest(const double rgb[3])
-{
-    return fmax(rgb[0], fmax(rgb[1], rgb[2]));
-}
-
-/* Reads a number that a statement sets and that the material has as a float. */
+/* Reads a number that a statement sets: as the material has it if the row says
+ * where, else as the source has it. */
 static bool get_statement(const struct owner *o, struct value *v)
 {
-    const void *at = (const char *)&o->material + o->row->result;
-
-    v->number = (double)*(const float *)at;
-    return true;
-}
-
-/* Reads a number that a statement sets and that only the source has. */
-static bool get_source_number(const struct owner *o, struct value *v)
-{
+    const void *result = (const char *)&o->material + o->row->result;
     const void *at = (const char *)&o->source + o->row->member;
     const struct mtl_number *number = at;
 
-    v->number = number->value;
+    if (o->row->result != 0)
+        v->number = (double)*(const float *)result;
+    else
+        v->number = number->line != 0 ? number->value : o->row->absent;
     return true;
+}
+
+static void set_color_statement(struct owner *o, const struct value *v)
+{
+    void *color = (char *)&o->source + o->row->member;
+
+    put_color(color, v->rgb);
 }
 
 static void set_statement(struct owner *o, const struct value *v)
@@ -229,7 +228,7 @@ static bool get_transmission(const struct owner *o, struct value *v)
 static void set_transmission(struct owner *o, const struct value *v)
 {
     struct mtl_source *s = &o->source;
-    double top = largest(s->tf.rgb);
+    double top = color_largest(s->tf.rgb);
 
     if (s->pr.line == 0)
         put_number(&s->pr, sqrt((double)o->material.alpha));
@@ -250,11 +249,6 @@ static bool get_body(const struct owner *o, struct value *v)
     return o->material.transmission > 0;
 }
 
-static void set_body(struct owner *o, const struct value *v)
-{
-    put_number(&o->source.tf_thin, v->number);
-}
-
 /* Reads the distance after which light in a solid has the tint. */
 static bool get_distance(const struct owner *o, struct value *v)
 {
@@ -271,17 +265,12 @@ static bool get_attenuation(const struct owner *o, struct value *v)
            v->number > 0;
 }
 
-static void set_attenuation(struct owner *o, const struct value *v)
-{
-    put_color(&o->source.tf_attenuation, v->rgb);
-}
-
 /* Reads the weight of sheen, which is multiplied by its colour. */
 static bool get_sheen(const struct owner *o, struct value *v)
 {
     const struct mtl_color *color = &o->source.ps_color;
     struct vec3 sheen = o->material.sheen;
-    double top = color->line != 0 ? fmin(largest(color->rgb), 1) : 1;
+    double top = color->line != 0 ? fmin(color_largest(color->rgb), 1) : 1;
 
     v->number = top > 0 ? (double)v3_max_component(sheen) / top : 0;
     return true;
@@ -296,54 +285,24 @@ static bool get_sheen_color(const struct owner *o, struct value *v)
     return v3_max_component(o->material.sheen) > 0;
 }
 
-static void set_sheen_color(struct owner *o, const struct value *v)
-{
-    put_color(&o->source.ps_color, v->rgb);
-}
-
-/* Reads a number of the source, or what it is if it is absent. */
-static bool get_number_or(const struct owner *o, struct value *v, double absent)
-{
-    const void *at = (const char *)&o->source + o->row->member;
-    const struct mtl_number *number = at;
-
-    v->number = number->line != 0 ? number->value : absent;
-    return true;
-}
-
-static bool get_sheen_roughness(const struct owner *o, struct value *v)
-{
-    return get_number_or(o, v, MATERIAL_SHEEN_ROUGHNESS);
-}
-
-static bool get_film_index(const struct owner *o, struct value *v)
-{
-    return get_number_or(o, v, MATERIAL_FILM_IOR);
-}
-
-static bool get_film_thickness(const struct owner *o, struct value *v)
-{
-    return get_number_or(o, v, MATERIAL_FILM_THICKNESS);
-}
-
 /* Reads the thickness of the film where its map is black. */
 static bool get_film_thinnest(const struct owner *o, struct value *v)
 {
-    v->number = o->source.pf_thinnest.value;
-    return o->source.maps[MTL_MAP_PF_THICKNESS] != NO_INDEX;
+    return get_statement(o, v) &&
+           o->source.maps[MTL_MAP_PF_THICKNESS] != NO_INDEX;
 }
 
 /* Reads the coverage from which a surface is whole. */
 static bool get_cutoff(const struct owner *o, struct value *v)
 {
-    v->number = o->source.d_cutoff.value;
+    get_statement(o, v);
     return o->source.d_cutoff.line != 0 ||
            o->source.maps[MTL_MAP_D] != NO_INDEX;
 }
 
 static bool get_specular(const struct owner *o, struct value *v)
 {
-    v->number = largest(o->source.ks.rgb);
+    v->number = color_largest(o->source.ks.rgb);
     return true;
 }
 
@@ -365,19 +324,19 @@ static void set_coat(struct owner *o, const struct value *v)
 
 static bool get_map(const struct owner *o, struct value *v)
 {
-    uint32_t texture = o->source.maps[o->row->map];
+    uint32_t texture = o->source.maps[o->map];
 
     if (texture == NO_INDEX)
         return false;
-    v->number = o->source.maps_off >> o->row->map & 1;
-    v->note = path_name(o->target->scene->texture_paths[texture]);
+    v->number = o->source.maps_off >> o->map & 1;
+    v->note = path_name(o->selection->scene->texture_paths[texture]);
     return true;
 }
 
 static void set_map(struct owner *o, const struct value *v)
 {
-    o->source.maps_off &= ~(1u << o->row->map);
-    o->source.maps_off |= (uint32_t)v->number << o->row->map;
+    o->source.maps_off &= ~(1u << o->map);
+    o->source.maps_off |= (uint32_t)v->number << o->map;
 }
 
 /* ---- emission of a material ---- */
@@ -385,7 +344,7 @@ static void set_map(struct owner *o, const struct value *v)
 /* Returns the luminance of a black body, or the largest channel of Ke. */
 static double strength_of(const struct mtl_source *s)
 {
-    return s->kelvin.line != 0 ? s->luminance.value : largest(s->ke.rgb);
+    return s->kelvin.line != 0 ? s->luminance.value : color_largest(s->ke.rgb);
 }
 
 static bool get_emission(const struct owner *o, struct value *v)
@@ -397,7 +356,7 @@ static bool get_emission(const struct owner *o, struct value *v)
 static void set_emission(struct owner *o, const struct value *v)
 {
     struct mtl_source *s = &o->source;
-    double most = largest(s->ke.rgb);
+    double most = color_largest(s->ke.rgb);
     double rgb[3];
 
     if (s->kelvin.line != 0) {
@@ -413,7 +372,7 @@ static void set_emission(struct owner *o, const struct value *v)
 static bool get_emission_color(const struct owner *o, struct value *v)
 {
     struct mtl_color light = mtl_source_light(&o->source);
-    double most = largest(light.rgb);
+    double most = color_largest(light.rgb);
 
     v->number = o->source.kelvin.line != 0 ? o->source.kelvin.value : 0;
     for (int i = 0; i < 3; i++)
@@ -426,8 +385,8 @@ static bool get_emission_color(const struct owner *o, struct value *v)
 static void set_emission_color(struct owner *o, const struct value *v)
 {
     struct mtl_source *s = &o->source;
-    double strength = largest(mtl_source_light(s).rgb);
-    double most = largest(v->rgb);
+    double strength = color_largest(mtl_source_light(s).rgb);
+    double most = color_largest(v->rgb);
     double luminance = s->luminance.value;
     double rgb[3];
 
@@ -448,23 +407,27 @@ static void set_emission_color(struct owner *o, const struct value *v)
 
 /* ---- table ---- */
 
-#define STATEMENT(name, found)                   \
-    .get = get_statement, .set = set_statement,  \
-    .member = offsetof(struct mtl_source, name), \
+#define WRITES(name) \
+    .set = set_statement, .member = offsetof(struct mtl_source, name)
+
+#define WRITES_COLOR(name) \
+    .set = set_color_statement, .member = offsetof(struct mtl_source, name)
+
+/* Found in the material, or else in the statement itself. */
+#define STATEMENT(name, found)          \
+    .get = get_statement, WRITES(name), \
     .result = offsetof(struct material, found)
-
-#define SOURCE_NUMBER(name)                         \
-    .get = get_source_number, .set = set_statement, \
-    .member = offsetof(struct mtl_source, name)
-
-#define DEFAULTED(name, getter)          \
-    .get = getter, .set = set_statement, \
-    .member = offsetof(struct mtl_source, name)
+#define SOURCE_NUMBER(name) .get = get_statement, WRITES(name)
 
 static const char *const map_states[] = {"on", "off"};
 
-#define MAP(which) \
-    .get = get_map, .set = set_map, CHOICES(map_states), .map = which
+const struct parameter_row map_parameter = {NULL,
+                                            ALL,
+                                            VALUE_CHOICE,
+                                            NULL,
+                                            .get = get_map,
+                                            .set = set_map,
+                                            CHOICES(map_states)};
 
 const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"type", ALL, VALUE_CHOICE, NULL, .get = get_kind, .set = set_kind,
@@ -483,69 +446,49 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"transmits", MIXED, VALUE_NUMBER, &scale_unit, .get = get_transmission,
      .set = set_transmission},
     {"index", CLEAR | MIXED, VALUE_NUMBER, &scale_ior, STATEMENT(ni, ior)},
-    {"glass is", MIXED, VALUE_CHOICE, NULL, .get = get_body, .set = set_body,
+    {"glass is", MIXED, VALUE_CHOICE, NULL, .get = get_body, WRITES(tf_thin),
      CHOICES(body_names)},
-    {"tint after", GLASS | MIXED, VALUE_NUMBER, &scale_distance,
-     .get = get_distance, .set = set_statement,
-     .member = offsetof(struct mtl_source, tf_distance)},
+    {"tint after", GLASS | MIXED, VALUE_NUMBER, &scale_emission,
+     .get = get_distance, WRITES(tf_distance)},
     {"then", GLASS | MIXED, VALUE_COLOR, &scale_unit, .get = get_attenuation,
-     .set = set_attenuation},
+     WRITES_COLOR(tf_attenuation)},
     {"coat", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      .get = get_coat, .set = set_coat},
     {"coat rough", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(pcr)},
     {"sheen", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
-     DEFAULTED(ps, get_sheen)},
+     .get = get_sheen, WRITES(ps)},
     {"sheen tint", MIXED, VALUE_COLOR, &scale_unit, .get = get_sheen_color,
-     .set = set_sheen_color},
+     WRITES_COLOR(ps_color)},
     {"sheen rough", MIXED, VALUE_NUMBER, &scale_unit,
-     DEFAULTED(ps_roughness, get_sheen_roughness)},
+     SOURCE_NUMBER(ps_roughness), .absent = MATERIAL_SHEEN_ROUGHNESS},
     {"film", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(pf)},
-    {"film index", MIXED, VALUE_NUMBER, &scale_film_ior,
-     DEFAULTED(pf_ior, get_film_index)},
+    {"film index", MIXED, VALUE_NUMBER, &scale_film_ior, SOURCE_NUMBER(pf_ior),
+     .absent = MATERIAL_FILM_IOR},
     {"film nm", MIXED, VALUE_NUMBER, &scale_film_thickness,
-     DEFAULTED(pf_thickness, get_film_thickness)},
+     SOURCE_NUMBER(pf_thickness), .absent = MATERIAL_FILM_THICKNESS},
     {"film from", MIXED, VALUE_NUMBER, &scale_film_thickness,
-     DEFAULTED(pf_thinnest, get_film_thinnest)},
+     .get = get_film_thinnest, WRITES(pf_thinnest)},
     {"grain", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      STATEMENT(aniso, anisotropy)},
     {"grain turn", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(anisor)},
     {"cover", OPAQUE, VALUE_NUMBER, &scale_unit, STATEMENT(d, opacity)},
-    {"cut at", OPAQUE, VALUE_NUMBER, &scale_unit,
-     DEFAULTED(d_cutoff, get_cutoff)},
+    {"cut at", OPAQUE, VALUE_NUMBER, &scale_unit, .get = get_cutoff,
+     WRITES(d_cutoff)},
     {"light", ALL, VALUE_NUMBER, &scale_emission, .get = get_emission,
      .set = set_emission},
     {"of colour", ALL, VALUE_LIGHT_COLOR, &scale_kelvin,
      .get = get_emission_color, .set = set_emission_color},
-    {"map_Kd", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_KD)},
-    {"map_Ks", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_KS)},
-    {"map_Ke", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_KE)},
-    {"map_Pr", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PR)},
-    {"map_Pm", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PM)},
-    {"map_d", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_D)},
-    {"map_Tf", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_TF)},
-    {"map_Pc", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PC)},
-    {"map_Pcr", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PCR)},
-    {"map_Ps", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PS)},
-    {"map_Ps_color", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PS_COLOR)},
-    {"map_Ps_roughness", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PS_ROUGHNESS)},
-    {"map_Ks_weight", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_KS_WEIGHT)},
-    {"map_Pf", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PF)},
-    {"map_Pf_thickness", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PF_THICKNESS)},
-    {"map_grain", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_GRAIN)},
-    {"map_Pc_norm", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PC_NORM)},
-    {"norm", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_NORM)},
-    {"map_Bump", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_BUMP)},
 };
 
 const char *material_parameters_summary(const struct mtl_source *source,
                                         double swatch[3])
 {
-    struct owner o = {.target = NULL};
+    struct owner o = {.selection = NULL};
     struct value kind = {.number = 0}, color;
 
     material_parameters_open(&o, source);
     get_kind(&o, &kind);
-    if (largest(mtl_source_light(source).rgb) > 0)
+    if (color_largest(mtl_source_light(source).rgb) > 0)
         get_emission_color(&o, &color);
     else
         get_color(&o, &color);

@@ -7,7 +7,7 @@
 #include "base/text_width.h"
 #include "terminal/gauge.h"
 #include "studio/key_hints.h"
-#include "studio/material_parameters.h"
+#include "studio/parameter_table.h"
 #include "kernels/tone.h"
 
 /* Rows besides list and parameters: pages, a title, hints. */
@@ -46,11 +46,10 @@ struct sheet {
 int panel_parameters(struct editor_panel *p,
                      struct parameter list[PARAMETERS_MAX])
 {
-    struct parameter_target target = selection_target(&p->selection);
     int count = 0;
 
     if (selection_has_one(&p->selection))
-        count = parameters_list(&target, list);
+        count = parameters_list(&p->selection, list);
     p->parameter = p->parameter >= count ? count - 1 : p->parameter;
     p->parameter = p->parameter < 0 ? 0 : p->parameter;
     return count;
@@ -78,17 +77,17 @@ static void add_swatch(const struct sheet *s, const double rgb[3])
     windows_paint(WINDOW_PANEL, s->row - 1, SWATCH_COL, cells, SWATCH_COLS);
 }
 
-static void add_pages(struct sheet *s, enum parameter_page page)
+static void add_pages(struct sheet *s, enum selection_page page)
 {
     static const char *const titles[] = {
-        [PARAMETER_MATERIAL] = " Materials ",
-        [PARAMETER_OBJECT] = " Objects ",
-        [PARAMETER_LIGHT] = " Light ",
+        [PAGE_MATERIALS] = " Materials ",
+        [PAGE_OBJECTS] = " Objects ",
+        [PAGE_LIGHT] = " Light ",
     };
     int col = TEXT_COL;
 
     add_line(s, ROLE_FAINT, "");
-    for (int i = 0; i <= PARAMETER_LIGHT; i++) {
+    for (int i = 0; i <= PAGE_LIGHT; i++) {
         int cols = (int)strlen(titles[i]);
 
         windows_text(WINDOW_PANEL, 0, col, cols,
@@ -112,11 +111,10 @@ static void scroll(int *top, int selected, int rows)
 static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
 {
     const struct selection *sel = &p->selection;
-    bool is_object = sel->page == PARAMETER_OBJECT;
+    bool is_object = sel->page == PAGE_OBJECTS;
     bool is_selected = i == sel->index[sel->page];
     uint32_t material = is_object ? selection_material_of(sel, i) : i;
-    const struct mtl_source *source =
-        &edit_shown(&sel->session->edit)->sources[material];
+    const struct mtl_source *source = &edit_shown(sel->edit)->sources[material];
     char text[LINE_BYTES], name[NAME_BYTES], other[NAME_BYTES];
     const char *kind;
     double rgb[3];
@@ -125,7 +123,7 @@ static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
                    NAME_COLS);
     kind = material_parameters_summary(source, rgb);
     text_width_cut(other, sizeof other,
-                   is_object ? selection_name(sel, PARAMETER_MATERIAL, material)
+                   is_object ? selection_name(sel, PAGE_MATERIALS, material)
                              : kind,
                    OTHER_COLS);
     snprintf(text, sizeof text, "%s    %s %s", is_selected ? ">" : " ", name,
@@ -154,9 +152,9 @@ static void add_list(struct editor_panel *p, struct sheet *s, int rows)
 /* Formats what the title says after the name: what differs from the files. */
 static const char *title_note(const struct selection *sel)
 {
-    const struct edit *e = &sel->session->edit;
-    bool is_saved = sel->page == PARAMETER_LIGHT ? !edit_has_unsaved_view(e)
-                    : sel->page == PARAMETER_MATERIAL
+    const struct edit *e = sel->edit;
+    bool is_saved = sel->page == PAGE_LIGHT ? !edit_has_unsaved_view(e)
+                    : sel->page == PAGE_MATERIALS
                         ? edit_is_saved(e, sel->index[sel->page])
                         : true;
 
@@ -169,23 +167,23 @@ static void format_title(char text[LINE_BYTES], const struct selection *sel)
     uint32_t i = sel->index[sel->page];
     char object[NAME_BYTES], material[NAME_BYTES];
 
-    if (sel->session->edit.is_comparing) {
+    if (sel->edit->is_comparing) {
         snprintf(text, LINE_BYTES, " as saved: x goes back ");
-    } else if (sel->page == PARAMETER_LIGHT) {
+    } else if (sel->page == PAGE_LIGHT) {
         snprintf(text, LINE_BYTES, " Sky and picture%s ", title_note(sel));
     } else if (!selection_has_one(sel)) {
         snprintf(text, LINE_BYTES, " nothing to edit ");
-    } else if (sel->page == PARAMETER_OBJECT) {
+    } else if (sel->page == PAGE_OBJECTS) {
         text_width_cut(object, sizeof object,
-                       selection_name(sel, PARAMETER_OBJECT, i), NAME_COLS);
+                       selection_name(sel, PAGE_OBJECTS, i), NAME_COLS);
         text_width_cut(material, sizeof material,
-                       selection_name(sel, PARAMETER_MATERIAL,
+                       selection_name(sel, PAGE_MATERIALS,
                                       selection_material_of(sel, i)),
                        OTHER_COLS);
         snprintf(text, LINE_BYTES, " %s / %s ", object, material);
     } else {
         text_width_cut(material, sizeof material,
-                       selection_name(sel, PARAMETER_MATERIAL, i), TITLE_COLS);
+                       selection_name(sel, PAGE_MATERIALS, i), TITLE_COLS);
         snprintf(text, LINE_BYTES, " %s%s ", material, title_note(sel));
     }
 }
@@ -252,7 +250,6 @@ static void add_slider(const struct editor_panel *p, const struct sheet *s,
                        const struct parameter *v)
 {
     const struct term_caps *d = &s->screen->display;
-    struct parameter_target target = selection_target(&p->selection);
     struct cell cells[PANEL_SLIDER_COLS];
     double rgb[3];
     int room = s->screen->panel_cols - PANEL_SLIDER_COL;
@@ -261,9 +258,10 @@ static void add_slider(const struct editor_panel *p, const struct sheet *s,
     if (cols <= 0)
         return;
     if (d->palette != PALETTE_MONO &&
-        parameter_color_at(&target, v->id, 0, rgb)) {
+        parameter_color_at(&p->selection, v->id, 0, rgb)) {
         for (int i = 0; i < cols; i++) {
-            parameter_color_at(&target, v->id, gauge_fraction(i, cols), rgb);
+            parameter_color_at(&p->selection, v->id, gauge_fraction(i, cols),
+                               rgb);
             cells[i] = cells_of_color(srgb_of(rgb), d->palette);
         }
         gauge_handle(cells, cols, v->fraction, d->palette, d->has_unicode);
@@ -360,8 +358,7 @@ static const struct key_hint *hints_of(const struct editor_panel *p)
         return hints_typing;
     if (!p->is_in_parameters)
         return hints_list;
-    return p->selection.page == PARAMETER_LIGHT ? hints_light
-                                                : hints_parameters;
+    return p->selection.page == PAGE_LIGHT ? hints_light : hints_parameters;
 }
 
 static void add_hints(const struct editor_panel *p, struct sheet *s)
@@ -399,9 +396,9 @@ void panel_draw(struct editor_panel *p)
     p->parameter_rows = panel_parameters(p, list);
     if (p->parameter_rows > rows - LIST_MIN)
         p->parameter_rows = rows - LIST_MIN;
-    if (p->selection.page == PARAMETER_LIGHT)
+    if (p->selection.page == PAGE_LIGHT)
         p->parameter_rows = rows;
-    p->shows_ball = p->selection.page != PARAMETER_LIGHT &&
+    p->shows_ball = p->selection.page != PAGE_LIGHT &&
                     selection_has_one(&p->selection) &&
                     has_room_for_ball(p, rows - p->parameter_rows);
     p->list_rows = rows - p->parameter_rows - (p->shows_ball ? BALL_ROWS : 0);

@@ -92,7 +92,8 @@ static bool parse_number(const struct value_scale *s, const char *text,
     if (decimal_parse(&p, text + strlen(text), value) && *p == '\0' &&
         *value >= s->least && *value <= s->most)
         return true;
-    return fail(err, "found '%s', expected %s", text, s->expected);
+    return fail(err, "found '%s', expected a number from %g to %g", text,
+                s->least, s->most);
 }
 
 /* ---- numbers: of a parameter or a channel ---- */
@@ -101,7 +102,7 @@ static const struct value_scale *scale_of(const struct owner *o, int part)
 {
     if (o->row->scale == NULL)
         return &o->place;
-    if (part == 0 || !o->target->by_hsv)
+    if (part == 0 || !o->selection->by_hsv)
         return o->row->scale;
     return part == 1 ? &scale_hue : &scale_unit;
 }
@@ -113,7 +114,7 @@ static double number_of(const struct owner *o, const struct value *v, int part)
     if (part == 0)
         return v->number;
     color_to_hsv(v->rgb, hsv);
-    return (o->target->by_hsv ? hsv : v->rgb)[part - 1];
+    return (o->selection->by_hsv ? hsv : v->rgb)[part - 1];
 }
 
 static void set_number(const struct owner *o, struct value *v, int part,
@@ -123,7 +124,7 @@ static void set_number(const struct owner *o, struct value *v, int part,
 
     if (part == 0) {
         v->number = number;
-    } else if (!o->target->by_hsv) {
+    } else if (!o->selection->by_hsv) {
         v->rgb[part - 1] = number;
     } else {
         color_to_hsv(v->rgb, hsv);
@@ -166,7 +167,7 @@ static const char *label_of(const struct owner *o, int part)
         {NULL, "hue", "saturation", "value"},
     };
 
-    return part == 0 ? parameter_label(o) : labels[o->target->by_hsv][part];
+    return part == 0 ? parameter_label(o) : labels[o->selection->by_hsv][part];
 }
 
 static struct parameter describe(const struct owner *o, const struct value *v,
@@ -176,7 +177,8 @@ static struct parameter describe(const struct owner *o, const struct value *v,
     struct parameter p = {.label = label_of(o, part),
                           .fraction = -1,
                           .takes_text = true,
-                          .texture = NO_INDEX};
+                          .texture = NO_INDEX,
+                          .lamp = o->lamp_number};
 
     if (part > 0 || row->type == VALUE_NUMBER) {
         const struct value_scale *scale = scale_of(o, part);
@@ -188,11 +190,11 @@ static struct parameter describe(const struct owner *o, const struct value *v,
         p.takes_text = row->expected != NULL;
         snprintf(p.text, sizeof p.text, "%.60s",
                  choice_name(o, (uint32_t)v->number));
-        if (v->note != NULL)
-            p.texture = o->source.maps[row->map];
-        if (v->note != NULL)
-            snprintf(p.text + strlen(p.text), sizeof p.text - strlen(p.text),
-                     " %.50s", v->note);
+        if (v->note == NULL)
+            return p;
+        p.texture = o->source.maps[o->map];
+        snprintf(p.text + strlen(p.text), sizeof p.text - strlen(p.text),
+                 " %.50s", v->note);
     } else {
         p.has_color = true;
         memcpy(p.color, v->rgb, sizeof p.color);
@@ -204,7 +206,7 @@ static struct parameter describe(const struct owner *o, const struct value *v,
     return p;
 }
 
-int parameters_list(const struct parameter_target *t,
+int parameters_list(const struct selection *t,
                     struct parameter list[PARAMETERS_MAX])
 {
     struct owner o = parameter_owner(t, edit_shown(t->edit));
@@ -225,15 +227,7 @@ int parameters_list(const struct parameter_target *t,
     return count;
 }
 
-uint32_t parameter_lamp(const struct parameter_target *t, int id)
-{
-    struct owner o = parameter_owner(t, edit_shown(t->edit));
-
-    return parameter_choose_row(&o, id / PARTS) ? o.lamp_number : NO_INDEX;
-}
-
-struct lamp parameter_new_lamp(const struct parameter_target *t,
-                               uint32_t number)
+struct lamp parameter_new_lamp(const struct selection *t, uint32_t number)
 {
     const struct lamps *lamps = &t->edit->now.view.lamps;
     struct lamp lamp;
@@ -248,7 +242,7 @@ struct lamp parameter_new_lamp(const struct parameter_target *t,
 /* ---- changes ---- */
 
 /* Reads the parameter with this id. */
-static struct owner open_parameter(const struct parameter_target *t, int id,
+static struct owner open_parameter(const struct selection *t, int id,
                                    struct value *v)
 {
     struct owner o = parameter_owner(t, &t->edit->now);
@@ -260,24 +254,24 @@ static struct owner open_parameter(const struct parameter_target *t, int id,
 
 static void take_change(struct owner *o, const struct value *v)
 {
-    const struct parameter_target *t = o->target;
+    const struct selection *t = o->selection;
+    uint32_t index = t->index[t->page];
 
     o->row->set(o, v);
     switch (t->page) {
-    case PARAMETER_MATERIAL:
-        edit_material(t->edit, t->index, &o->source);
-        break;
-    case PARAMETER_OBJECT: edit_assign(t->edit, t->index, o->assigned); break;
-    case PARAMETER_LIGHT:
+    case PAGE_MATERIALS: edit_material(t->edit, index, &o->source); break;
+    case PAGE_OBJECTS: edit_assign(t->edit, index, o->assigned); break;
+    case PAGE_LIGHT:
         if (o->lamp_number != NO_INDEX)
             edit_lamp(t->edit, o->lamp_number, &o->lamp);
         else
             edit_lighting(t->edit, &o->lighting);
         break;
+    case PAGES: break;
     }
 }
 
-void parameter_step(const struct parameter_target *t, int id, int steps)
+void parameter_step(const struct selection *t, int id, int steps)
 {
     struct value v;
     struct owner o = open_parameter(t, id, &v);
@@ -296,8 +290,7 @@ void parameter_step(const struct parameter_target *t, int id, int steps)
     take_change(&o, &v);
 }
 
-void parameter_set_fraction(const struct parameter_target *t, int id,
-                            double fraction)
+void parameter_set_fraction(const struct selection *t, int id, double fraction)
 {
     struct value v;
     struct owner o = open_parameter(t, id, &v);
@@ -310,8 +303,8 @@ void parameter_set_fraction(const struct parameter_target *t, int id,
     take_change(&o, &v);
 }
 
-bool parameter_color_at(const struct parameter_target *t, int id,
-                        double fraction, double rgb[3])
+bool parameter_color_at(const struct selection *t, int id, double fraction,
+                        double rgb[3])
 {
     struct owner o = parameter_owner(t, edit_shown(t->edit));
     int part = id % PARTS;
@@ -330,8 +323,7 @@ bool parameter_color_at(const struct parameter_target *t, int id,
 static bool parse_color(const char *text, double most, struct value *v,
                         struct error *err)
 {
-    if (color_parse(text, v->rgb, &v->number) &&
-        fmax(v->rgb[0], fmax(v->rgb[1], v->rgb[2])) <= most)
+    if (color_parse(text, v->rgb, &v->number) && color_largest(v->rgb) <= most)
         return true;
     return fail(err,
                 "found '%s', expected #rrggbb, r g b or a temperature "
@@ -379,8 +371,8 @@ static bool parse(const struct owner *o, const char *text, int part,
     return true;
 }
 
-bool parameter_set_text(const struct parameter_target *t, int id,
-                        const char *text, struct error *err)
+bool parameter_set_text(const struct selection *t, int id, const char *text,
+                        struct error *err)
 {
     struct value v;
     struct owner o = open_parameter(t, id, &v);

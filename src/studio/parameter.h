@@ -17,19 +17,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "session/edit.h"
-
-enum parameter_page { PARAMETER_MATERIAL, PARAMETER_OBJECT, PARAMETER_LIGHT };
-
-/* Material, object or light that has the parameters. */
-struct parameter_target {
-    struct edit *edit;
-    const struct scene *scene;
-    enum parameter_page page;
-    uint32_t index; /* of the material or object */
-    bool by_hsv;    /* channels of colours are hue, saturation and value, else
-                       red, green and blue */
-};
+#include "studio/selection.h"
 
 #define PARAMETER_TEXT_BYTES 64
 
@@ -44,40 +32,38 @@ struct parameter {
     bool has_color;
     double color[3];  /* linear */
     uint32_t texture; /* the texture that it switches; NO_INDEX: none */
+    uint32_t lamp;    /* the light that has it; NO_INDEX: none */
 };
 
 /* Lamps that are listed at most, and room for their parameters. */
 #define PARAMETER_LAMPS 16
 #define PARAMETERS_MAX  288
 
-/* Lists the target's parameters and returns their number. */
-int parameters_list(const struct parameter_target *target,
+/* Lists the parameters of what is selected and returns their number. */
+int parameters_list(const struct selection *selection,
                     struct parameter list[PARAMETERS_MAX]);
-
-/* Returns the number of the lamp that has the parameter, or NO_INDEX. */
-uint32_t parameter_lamp(const struct parameter_target *target, int id);
 
 /* Returns a new lamp for the light: a copy of lamp `number`, or a point light
  * in the middle of the scene for NO_INDEX. */
-struct lamp parameter_new_lamp(const struct parameter_target *target,
+struct lamp parameter_new_lamp(const struct selection *selection,
                                uint32_t number);
 
 /* Changes a number by steps of its scale, and a choice to the next or previous
  * one. */
-void parameter_step(const struct parameter_target *target, int id, int steps);
+void parameter_step(const struct selection *selection, int id, int steps);
 
 /* Sets a number to a position on its scale, 0 to 1. */
-void parameter_set_fraction(const struct parameter_target *target, int id,
+void parameter_set_fraction(const struct selection *selection, int id,
                             double fraction);
 
 /* Finds the colour that a channel at a position on its scale makes of its
  * colour. Returns false if the parameter is no channel. */
-bool parameter_color_at(const struct parameter_target *target, int id,
+bool parameter_color_at(const struct selection *selection, int id,
                         double fraction, double rgb[3]);
 
 /* Sets a parameter to the value of a text. Returns false if the text does not
  * fit. */
-bool parameter_set_text(const struct parameter_target *target, int id,
+bool parameter_set_text(const struct selection *selection, int id,
                         const char *text, struct error *err);
 
 #endif

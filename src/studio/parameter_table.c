@@ -7,87 +7,62 @@
 #include "base/decimal.h"
 #include "base/file.h"
 #include "picture/blackbody.h"
+#include "picture/color.h"
 #include "light/daylight.h"
-#include "studio/material_parameters.h"
 
 /* ---- scales ---- */
 
-#define TO_1   "a number from 0 to 1"
-#define TO_MAX "a number from 0 to 1e30"
+/* Limits of typed numbers; ends of the scale, its step and digits. */
+#define TYPED(a, b) .least = a, .most = b
+#define SHOWN(a, b, by, numerals) \
+    .from = a, .to = b, .step = by, .digits = numerals
 
-const struct value_scale scale_unit = {0, 1, 0, 1, 0.01, 3, .expected = TO_1};
-const struct value_scale scale_specular = {
-    0, 1, 0, 1, 0.01, 3, .is_positive = true, .expected = TO_1};
-const struct value_scale scale_hue = {
-    0, 360, 0, 360, 1, 3, .wraps = true, .expected = "an angle from 0 to 360"};
-const struct value_scale scale_ior = {
-    1e-6, 1e6, 1, 3, 0.01, 4, .expected = "a number above 0"};
-const struct value_scale scale_film_ior = {
-    1, 10, 1, 3, 0.01, 4, .expected = "a number from 1 to 10"};
-const struct value_scale scale_film_thickness = {
-    0,
-    2000,
-    0,
-    1000,
-    10,
-    4,
-    .zero = "off",
-    .expected = "a number from 0 to 2000"};
-const struct value_scale scale_emission = {
-    0, RADIANCE_MAX, 0.01, 1e4, 0, 4, .zero = "off", .expected = TO_MAX};
-const struct value_scale scale_distance = {
-    0, RADIANCE_MAX, 0.01, 1e4, 0, 4, .zero = "off", .expected = TO_MAX};
-const struct value_scale scale_kelvin = {
-    BLACKBODY_LEAST, BLACKBODY_GREATEST, 1000, 20000, 100, 6, .suffix = "K"};
-static const struct value_scale scale_radiance = {
-    0, RADIANCE_MAX, 0, 1, 0.01, 3, .expected = TO_MAX};
-static const struct value_scale scale_sky = {0, RADIANCE_MAX,      0.01, 1e4, 0,
-                                             4, .expected = TO_MAX};
-static const struct value_scale scale_rotation = {
-    -1e6, 1e6, 0, 360, 1, 4, .wraps = true, .expected = "an angle in degrees"};
-static const struct value_scale scale_azimuth = {
-    -SUN_AZIMUTH_MAX,
-    SUN_AZIMUTH_MAX,
-    0,
-    360,
-    1,
-    4,
-    .wraps = true,
-    .expected = "an angle from -360 to 360 degrees"};
-static const struct value_scale scale_elevation = {
-    -SUN_ELEVATION_MAX,
-    SUN_ELEVATION_MAX,
-    0,
-    90,
-    1,
-    4,
-    .expected = "an angle from -90 to 90 degrees"};
+const struct value_scale scale_unit = {TYPED(0, 1), SHOWN(0, 1, 0.01, 3)};
+const struct value_scale scale_specular = {TYPED(0, 1), SHOWN(0, 1, 0.01, 3),
+                                           .is_positive = true};
+const struct value_scale scale_hue = {TYPED(0, 360), SHOWN(0, 360, 1, 3),
+                                      .wraps = true};
+const struct value_scale scale_ior = {TYPED(1e-6, 1e6), SHOWN(1, 3, 0.01, 4)};
+const struct value_scale scale_film_ior = {TYPED(1, 10), SHOWN(1, 3, 0.01, 4)};
+const struct value_scale scale_film_thickness = {TYPED(0, 2000),
+                                                 SHOWN(0, 1000, 10, 4),
+                                                 .zero = "off"};
+const struct value_scale scale_emission = {TYPED(0, RADIANCE_MAX),
+                                           SHOWN(0.01, 1e4, 0, 4),
+                                           .zero = "off"};
+const struct value_scale scale_kelvin = {TYPED(BLACKBODY_LEAST,
+                                               BLACKBODY_GREATEST),
+                                         SHOWN(1000, 20000, 100, 6),
+                                         .suffix = "K"};
+static const struct value_scale scale_radiance = {TYPED(0, RADIANCE_MAX),
+                                                  SHOWN(0, 1, 0.01, 3)};
+static const struct value_scale scale_sky = {TYPED(0, RADIANCE_MAX),
+                                             SHOWN(0.01, 1e4, 0, 4)};
+static const struct value_scale scale_rotation = {TYPED(-1e6, 1e6),
+                                                  SHOWN(0, 360, 1, 4),
+                                                  .wraps = true};
+static const struct value_scale scale_azimuth = {TYPED(-SUN_AZIMUTH_MAX,
+                                                       SUN_AZIMUTH_MAX),
+                                                 SHOWN(0, 360, 1, 4),
+                                                 .wraps = true};
+static const struct value_scale scale_elevation = {TYPED(-SUN_ELEVATION_MAX,
+                                                         SUN_ELEVATION_MAX),
+                                                   SHOWN(0, 90, 1, 4)};
 static const struct value_scale scale_turbidity = {
-    TURBIDITY_LEAST,
-    TURBIDITY_GREATEST,
-    TURBIDITY_LEAST,
-    TURBIDITY_GREATEST,
-    0.1,
-    3,
-    .expected = "a number from 1.7 to 10"};
-static const struct value_scale scale_lamp_elevation = {
-    -90, 90, -90, 90, 1, 4, .expected = "an angle from -90 to 90 degrees"};
-static const struct value_scale scale_cone = {
-    0, 90, 0, 90, 1, 4, .expected = "an angle from 0 to 90 degrees"};
-static const struct value_scale scale_disc = {
-    0, 180, 0.01,           180,
-    0, 4,   .zero = "none", .expected = "an angle from 0 to 180 degrees"};
-static const struct value_scale scale_radius = {
-    0, RADIANCE_MAX, 1e-3, 1e3, 0, 4, .zero = "none", .expected = TO_MAX};
-static const struct value_scale scale_exposure = {
-    -100,
-    100,
-    -8,
-    8,
-    0.1,
-    3,
-    .suffix = " stops",
-    .expected = "a number of stops from -100 to 100"};
+    TYPED(TURBIDITY_LEAST, TURBIDITY_GREATEST),
+    SHOWN(TURBIDITY_LEAST, TURBIDITY_GREATEST, 0.1, 3)};
+static const struct value_scale scale_lamp_elevation = {TYPED(-90, 90),
+                                                        SHOWN(-90, 90, 1, 4)};
+static const struct value_scale scale_cone = {TYPED(0, 90), SHOWN(0, 90, 1, 4)};
+static const struct value_scale scale_disc = {TYPED(0, 180),
+                                              SHOWN(0.01, 180, 0, 4),
+                                              .zero = "none"};
+static const struct value_scale scale_radius = {TYPED(0, RADIANCE_MAX),
+                                                SHOWN(1e-3, 1e3, 0, 4),
+                                                .zero = "none"};
+static const struct value_scale scale_exposure = {TYPED(-100, 100),
+                                                  SHOWN(-8, 8, 0.1, 3),
+                                                  .suffix = " stops"};
 
 /* ---- material of an object ---- */
 
@@ -95,7 +70,7 @@ static const struct value_scale scale_exposure = {
  * material of the file. */
 static const char *material_name(const struct owner *o, uint32_t i)
 {
-    const struct edit *e = o->target->edit;
+    const struct edit *e = o->selection->edit;
 
     if (i >= e->material_count)
         return i == e->material_count ? "as in the file" : NULL;
@@ -104,8 +79,8 @@ static const char *material_name(const struct owner *o, uint32_t i)
 
 static bool get_assigned(const struct owner *o, struct value *v)
 {
-    v->number =
-        o->assigned != NO_INDEX ? o->assigned : o->target->edit->material_count;
+    v->number = o->assigned != NO_INDEX ? o->assigned
+                                        : o->selection->edit->material_count;
     return true;
 }
 
@@ -113,7 +88,7 @@ static void set_assigned(struct owner *o, const struct value *v)
 {
     uint32_t i = (uint32_t)v->number;
 
-    o->assigned = i < o->target->edit->material_count ? i : NO_INDEX;
+    o->assigned = i < o->selection->edit->material_count ? i : NO_INDEX;
 }
 
 /* ---- light ---- */
@@ -138,7 +113,7 @@ static void set_sun(struct owner *o, const struct value *v)
 
 static const char *sky_name(const struct owner *o, uint32_t i)
 {
-    const struct name_table *skies = &o->target->edit->skies;
+    const struct name_table *skies = &o->selection->edit->skies;
 
     if (i == 0)
         return "none";
@@ -149,7 +124,7 @@ static bool get_sky(const struct owner *o, struct value *v)
 {
     const char *path = o->lighting.sky_path;
 
-    v->number = path ? name_table_find(&o->target->edit->skies, path) : 0;
+    v->number = path ? name_table_find(&o->selection->edit->skies, path) : 0;
     return true;
 }
 
@@ -157,12 +132,12 @@ static void set_sky(struct owner *o, const struct value *v)
 {
     uint32_t i = (uint32_t)v->number;
 
-    o->lighting.sky_path = i > 0 ? o->target->edit->skies.items[i] : NULL;
+    o->lighting.sky_path = i > 0 ? o->selection->edit->skies.items[i] : NULL;
 }
 
 static uint32_t find_sky(const struct owner *o, const char *path)
 {
-    return edit_sky(o->target->edit, path);
+    return edit_sky(o->selection->edit, path);
 }
 
 /* Reads a member of struct lighting: a double, or a choice as uint32_t. */
@@ -200,14 +175,9 @@ static void set_background(struct owner *o, const struct value *v)
 
 /* ---- lamps ---- */
 
-static double strongest(const double rgb[3])
-{
-    return fmax(rgb[0], fmax(rgb[1], rgb[2]));
-}
-
 static bool get_strength(const struct owner *o, struct value *v)
 {
-    v->number = strongest(o->lamp.rgb);
+    v->number = color_largest(o->lamp.rgb);
     return true;
 }
 
@@ -215,7 +185,7 @@ static bool get_strength(const struct owner *o, struct value *v)
  */
 static bool get_lamp_color(const struct owner *o, struct value *v)
 {
-    double most = strongest(o->lamp.rgb);
+    double most = color_largest(o->lamp.rgb);
 
     for (int i = 0; i < 3; i++)
         v->rgb[i] = most > 0 ? o->lamp.rgb[i] / most : 1;
@@ -225,7 +195,7 @@ static bool get_lamp_color(const struct owner *o, struct value *v)
 /* Changes the colour and keeps the strength. */
 static void set_lamp_color(struct owner *o, const struct value *v)
 {
-    double strength = strongest(o->lamp.rgb), most = strongest(v->rgb);
+    double strength = color_largest(o->lamp.rgb), most = color_largest(v->rgb);
 
     for (int i = 0; i < 3; i++)
         o->lamp.rgb[i] =
@@ -312,13 +282,8 @@ static struct value_scale place_scale(const struct scene *scene)
     for (int k = 0; k < 3; k++)
         reach = fmax(reach, fabs(scene->center[k]) + 1 / scene->scale);
     most = pow(10, ceil(log10(reach)));
-    return (struct value_scale){-RADIANCE_MAX,
-                                RADIANCE_MAX,
-                                -most,
-                                most,
-                                most / 200,
-                                5,
-                                .expected = "a number from -1e30 to 1e30"};
+    return (struct value_scale){TYPED(-RADIANCE_MAX, RADIANCE_MAX),
+                                SHOWN(-most, most, most / 200, 5)};
 }
 
 /* ---- table ---- */
@@ -390,47 +355,55 @@ static const struct {
     const struct parameter_row *rows;
     int count;
 } tables[] = {
-    [PARAMETER_MATERIAL] = {material_parameters, MATERIAL_PARAMETERS},
-    [PARAMETER_OBJECT] = {object_rows, COUNT(object_rows)},
-    [PARAMETER_LIGHT] = {light_rows, COUNT(light_rows)},
+    [PAGE_MATERIALS] = {material_parameters, MATERIAL_PARAMETERS},
+    [PAGE_OBJECTS] = {object_rows, COUNT(object_rows)},
+    [PAGE_LIGHT] = {light_rows, COUNT(light_rows)},
 };
 
 bool parameter_choose_row(struct owner *o, int i)
 {
-    enum parameter_page page = o->target->page;
-    int of_lamps = i - tables[page].count;
+    enum selection_page page = o->selection->page;
+    int after = i - tables[page].count;
 
     o->lamp_number = NO_INDEX;
-    if (of_lamps < 0) {
+    if (after < 0) {
         o->row = &tables[page].rows[i];
         return true;
     }
-    if (o->lamps == NULL ||
-        of_lamps / COUNT(lamp_rows) >= (int)o->lamps->count ||
-        of_lamps / COUNT(lamp_rows) >= PARAMETER_LAMPS)
+    if (page == PAGE_MATERIALS && after < MTL_MAPS) {
+        o->row = &map_parameter;
+        o->map = (enum mtl_map)after;
+        return true;
+    }
+    if (o->lamps == NULL || after / COUNT(lamp_rows) >= (int)o->lamps->count ||
+        after / COUNT(lamp_rows) >= PARAMETER_LAMPS)
         return false;
-    o->row = &lamp_rows[of_lamps % COUNT(lamp_rows)];
-    o->lamp_number = (uint32_t)(of_lamps / COUNT(lamp_rows));
+    o->row = &lamp_rows[after % COUNT(lamp_rows)];
+    o->lamp_number = (uint32_t)(after / COUNT(lamp_rows));
     o->lamp = o->lamps->items[o->lamp_number];
     return true;
 }
 
 const char *parameter_label(const struct owner *o)
 {
-    return o->row->label != NULL ? o->row->label : lamp_kinds[o->lamp.kind];
+    if (o->row->label != NULL)
+        return o->row->label;
+    return o->row == &map_parameter ? mtl_map_keys[o->map]
+                                    : lamp_kinds[o->lamp.kind];
 }
 
-struct owner parameter_owner(const struct parameter_target *t,
+struct owner parameter_owner(const struct selection *t,
                              const struct edit_state *state)
 {
-    struct owner o = {.target = t};
+    struct owner o = {.selection = t};
+    uint32_t index = t->index[t->page];
 
     switch (t->page) {
-    case PARAMETER_MATERIAL:
-        material_parameters_open(&o, &state->sources[t->index]);
+    case PAGE_MATERIALS:
+        material_parameters_open(&o, &state->sources[index]);
         break;
-    case PARAMETER_OBJECT: o.assigned = state->assigned[t->index]; break;
-    case PARAMETER_LIGHT:
+    case PAGE_OBJECTS: o.assigned = state->assigned[index]; break;
+    case PAGE_LIGHT:
         o.lighting = state->view.lighting;
         o.lamps = &state->view.lamps;
         o.place = place_scale(t->scene);
@@ -438,6 +411,7 @@ struct owner parameter_owner(const struct parameter_target *t,
                  : o.lighting.sky_path != NULL ? SKY_IMAGE
                                                : SKY_CONSTANT;
         break;
+    case PAGES: break;
     }
     return o;
 }

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 /*
- * parameter_table.h - table of parameters: label, scale, and functions that
+ * parameter_table.h - tables of parameters: label, scale, and functions that
  * read and write the value
  *
  * A new parameter is a new row. A number that one MTL statement sets needs
  * nothing else; other values have a function that reads them and one that
  * writes them. Rows are listed on the screen in the order of the table.
+ *
+ * A material has one kind, one colour, one roughness and one emission on the
+ * screen. Its kind decides which statements hold them, as in
+ * material_from_source(), which finds the same values after a change.
  *
  * Units:     those of MTL and view files
  * Ownership: names live as long as edit and scene do not change
@@ -28,7 +32,6 @@ struct value_scale {
     bool is_positive; /* steps do not reach 0 */
     const char *suffix; /* text after the number, or NULL */
     const char *zero;   /* text for 0; NULL shows the number */
-    const char *expected;
 };
 
 /* Limit for the channels of a colour that is radiance. */
@@ -40,8 +43,7 @@ extern const struct value_scale scale_hue;
 extern const struct value_scale scale_ior;
 extern const struct value_scale scale_film_ior;
 extern const struct value_scale scale_film_thickness; /* in nanometres */
-extern const struct value_scale scale_emission;
-extern const struct value_scale scale_distance;
+extern const struct value_scale scale_emission;       /* and distances */
 extern const struct value_scale scale_kelvin;
 
 struct parameter_row;
@@ -49,12 +51,13 @@ struct parameter_row;
 /* Kind of sky of the light, as owner.kind. */
 enum sky_kind { SKY_CONSTANT, SKY_IMAGE, SKY_SUN };
 
-/* Owner of parameters: a copy of the values of a target. */
+/* Owner of parameters: a copy of the values of what is selected. */
 struct owner {
-    const struct parameter_target *target;
+    const struct selection *selection;
     const struct parameter_row *row;
     struct mtl_source source;  /* statements of a material */
     struct material material;  /* material made from them */
+    enum mtl_map map;          /* of the row */
     uint32_t assigned;         /* material of an object, or NO_INDEX */
     struct lighting lighting;  /* values of the light; sky_path is lent */
     const struct lamps *lamps; /* all lamps of the light, lent */
@@ -82,7 +85,7 @@ struct value {
 #define ALL 0xffffffffu
 
 struct parameter_row {
-    const char *label; /* NULL: the kind of the lamp */
+    const char *label; /* NULL: the kind of the lamp, or the key of the map */
     /* bits 1 << owner.kind of the owners that have it; for a lamp's parameters
      * 1 << lamp.kind */
     uint32_t kinds;
@@ -95,7 +98,7 @@ struct parameter_row {
     void (*set)(struct owner *owner, const struct value *value);
     size_t member; /* offset in mtl_source, lighting or lamp */
     size_t result; /* offset of a float in struct material, for get */
-    enum mtl_map map;
+    double absent; /* value of a statement that the file does not have */
 
     const char *const *names; /* names of the choices; NULL to call name() */
     uint32_t name_count;
@@ -112,18 +115,36 @@ struct parameter_row {
 #define CHOICES(array) \
     .names = array, .name_count = sizeof array / sizeof array[0]
 
-/* Sets owner->row to row i of its page: the table's, and for the light those of
- * each lamp. Returns false behind the last. */
+/* Sets owner->row to row i of its page: the table's, then those of each map or
+ * lamp. Returns false behind the last. */
 bool parameter_choose_row(struct owner *owner, int i);
 
 /* Returns the label of owner->row. */
 const char *parameter_label(const struct owner *owner);
 
-/* Copies the values of the target from a state of the edit. */
-struct owner parameter_owner(const struct parameter_target *target,
+/* Copies the values of what is selected from a state of the edit. */
+struct owner parameter_owner(const struct selection *selection,
                              const struct edit_state *state);
 
 /* Reads the value of owner->row. Returns false if the owner has none. */
 bool parameter_read(const struct owner *owner, struct value *value);
+
+/* ---- materials: material_parameters.c ---- */
+
+#define MATERIAL_PARAMETERS 27
+
+extern const struct parameter_row material_parameters[MATERIAL_PARAMETERS];
+
+/* The row of each map. */
+extern const struct parameter_row map_parameter;
+
+/* Fills the owner with the material of these statements. */
+void material_parameters_open(struct owner *owner,
+                              const struct mtl_source *source);
+
+/* Returns the name of the material's kind. The swatch is the colour of its
+ * emission if it emits light, else the colour of the material. */
+const char *material_parameters_summary(const struct mtl_source *source,
+                                        double swatch[3]);
 
 #endif

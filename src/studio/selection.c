@@ -9,7 +9,7 @@
 
 static void find_first_tris(struct selection *s)
 {
-    const struct scene *scene = &s->session->scene;
+    const struct scene *scene = s->scene;
 
     free(s->first_tris);
     s->first_tris = xcalloc(scene->object_count + 1, sizeof *s->first_tris);
@@ -23,9 +23,10 @@ static void find_first_tris(struct selection *s)
         s->first_tris[scene->tri_objects[i]] = i;
 }
 
-void selection_init(struct selection *s, struct session *session)
+void selection_init(struct selection *s, struct edit *edit,
+                    const struct scene *scene)
 {
-    *s = (struct selection){.session = session};
+    *s = (struct selection){.edit = edit, .scene = scene};
     find_first_tris(s);
     selection_settle(s);
 }
@@ -40,17 +41,17 @@ void selection_free(struct selection *s)
 
 static bool is_listed(const struct selection *s, uint32_t i)
 {
-    if (s->page == PARAMETER_MATERIAL)
-        return i > 0 && s->session->edit.now.is_there[i];
+    if (s->page == PAGE_MATERIALS)
+        return i > 0 && s->edit->now.is_there[i];
     return s->first_tris[i] != NO_INDEX;
 }
 
 void selection_settle(struct selection *s)
 {
     const uint32_t counts[] = {
-        [PARAMETER_MATERIAL] = s->session->edit.material_count,
-        [PARAMETER_OBJECT] = s->session->edit.object_count,
-        [PARAMETER_LIGHT] = 0,
+        [PAGE_MATERIALS] = s->edit->material_count,
+        [PAGE_OBJECTS] = s->edit->object_count,
+        [PAGE_LIGHT] = 0,
     };
     uint32_t count = counts[s->page];
 
@@ -68,7 +69,7 @@ void selection_settle(struct selection *s)
 
 bool selection_has_one(const struct selection *s)
 {
-    return s->page == PARAMETER_LIGHT || s->listed_count > 0;
+    return s->page == PAGE_LIGHT || s->listed_count > 0;
 }
 
 void selection_move(struct selection *s, int steps)
@@ -86,10 +87,10 @@ void selection_move(struct selection *s, int steps)
 
 struct selection_names selection_names(const struct selection *s)
 {
-    const struct scene *scene = &s->session->scene;
-    const struct edit *e = &s->session->edit;
-    uint32_t material = s->index[PARAMETER_MATERIAL];
-    uint32_t object = s->index[PARAMETER_OBJECT];
+    const struct scene *scene = s->scene;
+    const struct edit *e = s->edit;
+    uint32_t material = s->index[PAGE_MATERIALS];
+    uint32_t object = s->index[PAGE_OBJECTS];
 
     return (struct selection_names){
         xstrdup(material < e->material_count ? e->names[material] : ""),
@@ -99,45 +100,33 @@ struct selection_names selection_names(const struct selection *s)
 
 bool selection_renew(struct selection *s, const struct selection_names *names)
 {
-    const struct scene *scene = &s->session->scene;
+    const struct scene *scene = s->scene;
     uint32_t found[] = {
-        [PARAMETER_MATERIAL] = mtl_find(scene, names->material),
-        [PARAMETER_OBJECT] = scene_find_object(scene, names->object),
-        [PARAMETER_LIGHT] = 0,
+        [PAGE_MATERIALS] = mtl_find(scene, names->material),
+        [PAGE_OBJECTS] = scene_find_object(scene, names->object),
+        [PAGE_LIGHT] = 0,
     };
 
-    for (int page = 0; page <= PARAMETER_LIGHT; page++)
+    for (int page = 0; page <= PAGE_LIGHT; page++)
         s->index[page] = found[page] != NO_INDEX ? found[page] : 0;
     find_first_tris(s);
     selection_settle(s);
     return found[s->page] != NO_INDEX;
 }
 
-struct parameter_target selection_target(const struct selection *s)
-{
-    return (struct parameter_target){
-        .edit = &s->session->edit,
-        .scene = &s->session->scene,
-        .page = s->page,
-        .index = s->index[s->page],
-        .by_hsv = s->by_hsv,
-    };
-}
-
-const char *selection_name(const struct selection *s, enum parameter_page page,
+const char *selection_name(const struct selection *s, enum selection_page page,
                            uint32_t i)
 {
-    const char *name = page == PARAMETER_OBJECT
-                           ? s->session->scene.object_names[i]
-                           : s->session->edit.names[i];
+    const char *name =
+        page == PAGE_OBJECTS ? s->scene->object_names[i] : s->edit->names[i];
 
     return *name != '\0' ? name : "(no name)";
 }
 
 uint32_t selection_material_of(const struct selection *s, uint32_t object)
 {
-    const struct scene *scene = &s->session->scene;
-    uint32_t assigned = edit_shown(&s->session->edit)->assigned[object];
+    const struct scene *scene = s->scene;
+    uint32_t assigned = edit_shown(s->edit)->assigned[object];
     uint32_t tri = s->first_tris[object];
 
     if (assigned != NO_INDEX)
@@ -147,7 +136,7 @@ uint32_t selection_material_of(const struct selection *s, uint32_t object)
 
 uint32_t selection_material(const struct selection *s)
 {
-    return s->page == PARAMETER_OBJECT
-               ? selection_material_of(s, s->index[PARAMETER_OBJECT])
-               : s->index[PARAMETER_MATERIAL];
+    return s->page == PAGE_OBJECTS
+               ? selection_material_of(s, s->index[PAGE_OBJECTS])
+               : s->index[PAGE_MATERIALS];
 }

@@ -5,7 +5,7 @@
  * Each page of the panel lists the materials or the objects of the scene, one
  * of which is selected. The page of the light has no list.
  *
- * Ownership: the session stays the caller's; selection_free() frees the rest
+ * Ownership: edit and scene stay the caller's; selection_free() frees the rest
  * Threads:   one thread at a time
  */
 #ifndef GLIM_SELECTION_H
@@ -14,20 +14,23 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "session/session.h"
-#include "studio/parameter.h"
+#include "session/edit.h"
+#include "scene/scene.h"
+
+enum selection_page { PAGE_MATERIALS, PAGE_OBJECTS, PAGE_LIGHT, PAGES };
 
 struct selection {
-    struct session *session;
-    uint32_t *first_tris; /* first triangle of each object, or NO_INDEX */
-    enum parameter_page page;
-    uint32_t index[PARAMETER_LIGHT + 1]; /* selected material or object of each
-                                            page */
+    struct edit *edit;
+    const struct scene *scene;
+    enum selection_page page;
+    uint32_t index[PAGES]; /* selected material or object of each page */
+    bool by_hsv;           /* channels of colours are hue, saturation and value,
+                              else red, green and blue */
+    uint32_t *first_tris;  /* first triangle of each object, or NO_INDEX */
     uint32_t *listed; /* list of the page: materials with a name, objects with a
                          face, no duplicate that was undone */
     int listed_count;
-    int row;     /* row of the selected entry in the list */
-    bool by_hsv; /* see struct parameter_target */
+    int row; /* row of the selected entry in the list */
 };
 
 /* Names of the selected material and object, for free(). */
@@ -35,7 +38,8 @@ struct selection_names {
     char *material, *object;
 };
 
-void selection_init(struct selection *s, struct session *session);
+void selection_init(struct selection *s, struct edit *edit,
+                    const struct scene *scene);
 void selection_free(struct selection *s);
 
 /* Makes the list again after a change of page, index or scene. If the selected
@@ -55,10 +59,8 @@ struct selection_names selection_names(const struct selection *s);
  * again. Returns false if the page has none. */
 bool selection_renew(struct selection *s, const struct selection_names *names);
 
-struct parameter_target selection_target(const struct selection *s);
-
 /* Returns the name of a material or object, or a text for an empty name. */
-const char *selection_name(const struct selection *s, enum parameter_page page,
+const char *selection_name(const struct selection *s, enum selection_page page,
                            uint32_t i);
 
 /* Returns the selected material, or that of the selected object. */

@@ -75,10 +75,10 @@ static void edit(struct session *s, const uint8_t *bytes)
 {
     struct edit *e = &s->edit;
     uint32_t material = bytes[0] % e->material_count;
-    struct parameter_target target = {.edit = e,
-                                      .scene = &s->scene,
-                                      .page = PARAMETER_MATERIAL,
-                                      .index = material};
+    struct selection target = {.edit = e,
+                               .scene = &s->scene,
+                               .page = PAGE_MATERIALS,
+                               .index = {material}};
     struct parameter list[PARAMETERS_MAX];
     int count;
 

@@ -9,7 +9,7 @@
 
 #include "base/file.h"
 #include "load/scene_load.h"
-#include "studio/material_parameters.h"
+#include "studio/parameter_table.h"
 #include "tests/unit/check.h"
 #include "tests/unit/files.h"
 
@@ -86,7 +86,7 @@ static double luminance(struct vec3 c)
 static struct owner open_source(const struct mtl_source *source,
                                 const char *label)
 {
-    struct owner o = {.target = NULL};
+    struct owner o = {.selection = NULL};
 
     material_parameters_open(&o, source);
     for (int i = 0; i < MATERIAL_PARAMETERS; i++) {
@@ -333,11 +333,12 @@ static void check_same(const struct parameter *a, const struct parameter *b,
     }
 }
 
-static struct parameter_target target_of(struct fixture *s,
-                                         enum parameter_page page,
-                                         uint32_t index, bool by_hsv)
+static struct selection target_of(struct fixture *s, enum selection_page page,
+                                  uint32_t index, bool by_hsv)
 {
-    return (struct parameter_target){&s->edit, &s->scene, page, index, by_hsv};
+    return (struct selection){&s->edit,       &s->scene, page,
+                              {index, index}, by_hsv,    NULL,
+                              NULL,           0,         0};
 }
 
 static const struct parameter *find(const struct parameter *list, int count,
@@ -355,13 +356,13 @@ static const struct parameter *find(const struct parameter *list, int count,
 static void steps_are_undone(void **state)
 {
     static const struct {
-        enum parameter_page page;
+        enum selection_page page;
         uint32_t index;
         bool by_hsv;
     } targets[] = {
-        {PARAMETER_MATERIAL, 1, false}, {PARAMETER_MATERIAL, 1, true},
-        {PARAMETER_MATERIAL, 2, false}, {PARAMETER_OBJECT, 1, false},
-        {PARAMETER_LIGHT, 0, false},    {PARAMETER_LIGHT, 0, true},
+        {PAGE_MATERIALS, 1, false}, {PAGE_MATERIALS, 1, true},
+        {PAGE_MATERIALS, 2, false}, {PAGE_OBJECTS, 1, false},
+        {PAGE_LIGHT, 0, false},     {PAGE_LIGHT, 0, true},
     };
     struct fixture s;
 
@@ -369,7 +370,7 @@ static void steps_are_undone(void **state)
     open_fixture(&s);
     edit_sky(&s.edit, "b.hdr");
     for (size_t i = 0; i < sizeof targets / sizeof targets[0]; i++) {
-        struct parameter_target target =
+        struct selection target =
             target_of(&s, targets[i].page, targets[i].index, targets[i].by_hsv);
         struct parameter before[PARAMETERS_MAX], after[PARAMETERS_MAX];
         int count = parameters_list(&target, before);
@@ -396,20 +397,19 @@ static void steps_are_undone(void **state)
 static void choices_are_cyclic(void **state)
 {
     static const struct {
-        enum parameter_page page;
+        enum selection_page page;
         const char *label;
         int count;
-    } choices[] = {{PARAMETER_MATERIAL, "type", 6},
-                   {PARAMETER_MATERIAL, "map_Kd", 2},
-                   {PARAMETER_OBJECT, "material", 3},
-                   {PARAMETER_LIGHT, "tone", 3}};
+    } choices[] = {{PAGE_MATERIALS, "type", 6},
+                   {PAGE_MATERIALS, "map_Kd", 2},
+                   {PAGE_OBJECTS, "material", 3},
+                   {PAGE_LIGHT, "tone", 3}};
     struct fixture s;
 
     (void)state;
     open_fixture(&s);
     for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
-        struct parameter_target target =
-            target_of(&s, choices[i].page, 1, false);
+        struct selection target = target_of(&s, choices[i].page, 1, false);
         struct parameter list[PARAMETERS_MAX];
         int count = parameters_list(&target, list);
         struct parameter first = *find(list, count, choices[i].label);
@@ -438,8 +438,7 @@ static void texts_can_be_typed(void **state)
     (void)state;
     open_fixture(&s);
     for (uint32_t m = 1; m <= 2; m++) {
-        struct parameter_target target =
-            target_of(&s, PARAMETER_MATERIAL, m, m == 2);
+        struct selection target = target_of(&s, PAGE_MATERIALS, m, m == 2);
         struct parameter before[PARAMETERS_MAX], after[PARAMETERS_MAX];
         int count = parameters_list(&target, before);
         struct error err;
@@ -475,14 +474,14 @@ static void typed_values_reach_the_material(void **state)
         {"of colour", "2700K", "2700K"},  {"of colour", "4000", "4000K"},
         {"cover", ".75", "0.75"},         {"of colour", "#ffffff", "#ffffff"},
     };
-    struct parameter_target target;
+    struct selection target;
     struct parameter list[PARAMETERS_MAX];
     struct fixture s;
     int count;
 
     (void)state;
     open_fixture(&s);
-    target = target_of(&s, PARAMETER_MATERIAL, 1, false);
+    target = target_of(&s, PAGE_MATERIALS, 1, false);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct error err;
 
@@ -506,7 +505,7 @@ static void typed_values_reach_the_material(void **state)
 /* Types a value for a parameter of the light. */
 static void type(struct fixture *s, const char *label, const char *text)
 {
-    struct parameter_target target = target_of(s, PARAMETER_LIGHT, 0, false);
+    struct selection target = target_of(s, PAGE_LIGHT, 0, false);
     struct parameter list[PARAMETERS_MAX];
     int count = parameters_list(&target, list);
     struct error err;
@@ -552,14 +551,13 @@ static void typed_values_reach_the_lamp(void **state)
 static void type_lamp(struct fixture *s, uint32_t number, const char *label,
                       const char *text)
 {
-    struct parameter_target target = target_of(s, PARAMETER_LIGHT, 0, false);
+    struct selection target = target_of(s, PAGE_LIGHT, 0, false);
     struct parameter list[PARAMETERS_MAX];
     int count = parameters_list(&target, list);
     struct error err;
 
     for (int i = 0; i < count; i++)
-        if (parameter_lamp(&target, list[i].id) == number &&
-            strcmp(list[i].label, label) == 0) {
+        if (list[i].lamp == number && strcmp(list[i].label, label) == 0) {
             check_or_say(parameter_set_text(&target, list[i].id, text, &err),
                          err.text);
             return;
@@ -623,13 +621,13 @@ static void lamps_come_and_go(void **state)
 {
     struct fixture s;
     struct lamps *now = &s.edit.now.view.lamps;
-    struct parameter_target target;
+    struct selection target;
     struct lamp lamp;
     uint32_t number;
 
     (void)state;
     open_fixture(&s);
-    target = target_of(&s, PARAMETER_LIGHT, 0, false);
+    target = target_of(&s, PAGE_LIGHT, 0, false);
     lamp = parameter_new_lamp(&target, NO_INDEX);
     number = edit_add_lamp(&s.edit, &lamp);
     edit_end_step(&s.edit);
@@ -663,7 +661,7 @@ static void lamps_come_and_go(void **state)
 static void many_lamps_fit_the_list(void **state)
 {
     struct parameter list[PARAMETERS_MAX];
-    struct parameter_target target;
+    struct selection target;
     struct fixture s;
 
     (void)state;
@@ -671,14 +669,13 @@ static void many_lamps_fit_the_list(void **state)
     for (int i = 0; i < 100; i++)
         assert_true(
             lamps_add(&s.edit.now.view.lamps, &s.view.lamps.items[i % 3]));
-    target = target_of(&s, PARAMETER_LIGHT, 0, false);
+    target = target_of(&s, PAGE_LIGHT, 0, false);
     assert_in_range(parameters_list(&target, list), 40, PARAMETERS_MAX);
     close_fixture(&s);
 }
 
 /* Returns the parameter with this id as it is now. */
-static struct parameter parameter_now(const struct parameter_target *target,
-                                      int id)
+static struct parameter parameter_now(const struct selection *target, int id)
 {
     struct parameter list[PARAMETERS_MAX];
     int count = parameters_list(target, list), i = 0;
@@ -689,7 +686,7 @@ static struct parameter parameter_now(const struct parameter_target *target,
     return list[i];
 }
 
-static void set_slider(const struct parameter_target *target,
+static void set_slider(const struct selection *target,
                        const struct parameter *p)
 {
     double rgb[3];
@@ -719,13 +716,13 @@ static void set_slider(const struct parameter_target *target,
 static void sliders_set_values(void **state)
 {
     struct parameter list[PARAMETERS_MAX];
-    struct parameter_target target;
+    struct selection target;
     struct fixture s;
     int count;
 
     (void)state;
     open_fixture(&s);
-    target = target_of(&s, PARAMETER_MATERIAL, 1, false);
+    target = target_of(&s, PAGE_MATERIALS, 1, false);
     count = parameters_list(&target, list);
     assert_in_range(count, 8, PARAMETERS_MAX);
     for (int i = 0; i < count; i++)
