@@ -149,6 +149,11 @@ void camera_control_switch_walls(struct camera_control *camera)
 
 /* ---- moves ---- */
 
+static bool may_move(struct camera_control *camera)
+{
+    return render_control_need_live(camera->control, "the camera moves");
+}
+
 static void say_lens(struct camera_control *camera)
 {
     const struct pose *pose = pose_of(camera);
@@ -197,7 +202,7 @@ void camera_control_move(struct camera_control *camera,
 {
     uint64_t now_ns = clock_ns();
 
-    if (!render_control_may_move(camera->control))
+    if (!may_move(camera))
         return;
     steer_held(camera, now_ns);
     if (edit_begin_gesture(edit_of(camera), 1 + 2 * (uint32_t)axis + (sign > 0),
@@ -211,7 +216,7 @@ void camera_control_move(struct camera_control *camera,
 /* Returns true if the camera may jump now, and releases held keys. */
 static bool may_jump(struct camera_control *camera)
 {
-    if (!render_control_may_move(camera->control))
+    if (!may_move(camera))
         return false;
     camera_control_stop(camera);
     return true;
@@ -225,7 +230,7 @@ static void jump(struct camera_control *camera, const struct pose *pose)
     camera->reported = CAMERA_FREE;
 }
 
-static void change_speed(struct camera_control *camera, int steps)
+void camera_control_change_speed(struct camera_control *camera, int steps)
 {
     camera_input_change_speed(&camera->input, steps);
     update_input(camera);
@@ -234,38 +239,13 @@ static void change_speed(struct camera_control *camera, int steps)
                        camera->input.speed, camera_input_speed(&camera->input));
 }
 
-void camera_control_faster(struct camera_control *camera)
-{
-    change_speed(camera, 1);
-}
-
-void camera_control_slower(struct camera_control *camera)
-{
-    change_speed(camera, -1);
-}
-
-/* Returns true if undo is allowed now. During a reload it is not: the loaded
- * files would restore an undone change of materials. */
-static bool may_undo(struct camera_control *camera)
-{
-    struct render_control *control = camera->control;
-
-    if (!control->is_live)
-        render_control_say(control,
-                           "undo works only in live mode: %s switches to it",
-                           render_control_key(control, ACTION_MODE).text);
-    else if (control->reload.is_busy)
-        render_control_say(control,
-                           "the scene is being loaded: undo works after that");
-    return control->is_live && !control->reload.is_busy;
-}
-
-static void step_history(struct camera_control *camera, bool is_back)
+void camera_control_step_history(struct camera_control *camera, int by)
 {
     struct pose before = *pose_of(camera);
+    bool is_back = by < 0;
     const char *step;
 
-    if (!may_undo(camera))
+    if (!render_control_may_edit(camera->control, "undo works"))
         return;
     camera_control_stop(camera);
     step = is_back ? edit_undo(edit_of(camera)) : edit_redo(edit_of(camera));
@@ -277,16 +257,6 @@ static void step_history(struct camera_control *camera, bool is_back)
                            is_back ? "undone" : "redone", step);
     if (memcmp(&before, pose_of(camera), sizeof before) != 0)
         camera->reported = CAMERA_FREE;
-}
-
-void camera_control_undo(struct camera_control *camera)
-{
-    step_history(camera, true);
-}
-
-void camera_control_redo(struct camera_control *camera)
-{
-    step_history(camera, false);
 }
 
 /* ---- orbit, frame, focus ---- */
@@ -446,7 +416,7 @@ static void wheel(struct camera_control *camera, bool is_up, bool is_modified)
     if (is_modified)
         camera_control_move(camera, HELD_KEYS_WIDEN, is_up ? -1 : 1);
     else
-        change_speed(camera, is_up ? 1 : -1);
+        camera_control_change_speed(camera, is_up ? 1 : -1);
 }
 
 static bool steer_by(struct camera_control *camera, const struct event *event)
@@ -468,7 +438,7 @@ static bool steer_by(struct camera_control *camera, const struct event *event)
 
 static void drag(struct camera_control *camera, const struct event *event)
 {
-    if (!render_control_may_move(camera->control))
+    if (!may_move(camera))
         camera->input.is_dragging = false; /* the release is no click */
     else if (steer_by(camera, event))
         report_trouble(camera);

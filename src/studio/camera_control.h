@@ -52,8 +52,8 @@ void camera_control_move(struct camera_control *camera,
  * that the next command does not depend on how soon its key is pressed. */
 void camera_control_end_move(struct camera_control *camera);
 
-void camera_control_faster(struct camera_control *camera);
-void camera_control_slower(struct camera_control *camera);
+/* Changes the speed by steps; negative steps are slower. */
+void camera_control_change_speed(struct camera_control *camera, int steps);
 
 /* Picks the surface under the cursor, which becomes the centre of orbits. */
 void camera_control_pick(struct camera_control *camera);
@@ -74,9 +74,8 @@ void camera_control_frame_all(struct camera_control *camera);
 /* Focuses on the picked point. */
 void camera_control_focus(struct camera_control *camera);
 
-/* Undo or redo the last change of the edit, of any kind. */
-void camera_control_undo(struct camera_control *camera);
-void camera_control_redo(struct camera_control *camera);
+/* Undoes (-1) or redoes (1) the last change of the edit, of any kind. */
+void camera_control_step_history(struct camera_control *camera, int by);
 
 /* Restores the camera that the scene was opened with, and the initial speed and
  * modes. Frames the whole scene if that camera is the present one. */

@@ -1,27 +1,111 @@
 // SPDX-License-Identifier: MIT
-#include "studio/commands.h"
+#include "studio/studio.h"
 
 #include <assert.h>
+#include <signal.h>
 
 #include "studio/save_commands.h"
 
+/* ---- commands that concern several parts ---- */
+
+void studio_end(struct studio *studio, int status)
+{
+    studio->is_ending = true;
+    studio->status = status;
+}
+
+void studio_suspend(struct studio *studio)
+{
+    screen_drain(&studio->workspace.screen, &studio->input);
+    studio->input.length = 0; /* keys typed after ^Z are for the shell */
+    tty_suspend();
+    workspace_layout(&studio->workspace);
+}
+
+void studio_set_live(struct studio *studio, bool is_live)
+{
+    camera_control_stop(&studio->camera);
+    inspector_leave(&studio->workspace.inspector);
+    render_control_set_live(&studio->control, is_live);
+}
+
+/* Returns true if a render of normal mode has not been saved. Waits for a save
+ * in progress. */
+static bool would_lose_render(struct studio *studio)
+{
+    return save_finish(&studio->control) &&
+           render_control_has_unsaved(&studio->control);
+}
+
+static void change_mode(struct studio *studio)
+{
+    if (would_lose_render(studio))
+        question_ask(studio, QUESTION_LIVE);
+    else
+        studio_set_live(studio, !studio->control.is_live);
+}
+
+static void restart(struct studio *studio)
+{
+    if (would_lose_render(studio))
+        question_ask(studio, QUESTION_RESTART);
+    else
+        render_control_restart(&studio->control);
+}
+
+void studio_quit(struct studio *studio)
+{
+    if (!save_finish(&studio->control))
+        return;
+    if (render_control_has_unsaved(&studio->control))
+        question_ask(studio, QUESTION_QUIT);
+    else if (render_control_has_unsaved_edit(&studio->control))
+        question_ask(studio, QUESTION_EDIT);
+    else
+        studio_end(studio, 0);
+}
+
+static void keep_view(struct studio *studio)
+{
+    question_ask(studio, QUESTION_NUMBER);
+}
+
+static void switch_mouse(struct studio *studio)
+{
+    studio->has_mouse = !studio->has_mouse;
+    camera_control_stop(&studio->camera);
+    tty_set_mouse(studio->has_mouse);
+    render_control_say(&studio->control, studio->has_mouse
+                                             ? "mouse on: drag to look around"
+                                             : "mouse off");
+}
+
+/* ---- table ---- */
+
 /* Command of an action: a function of one part of the studio, or one of the
  * values below. Functions and numbered views first end a move of the camera.
- * Functions of control, inspector, workspace and studio first restart the
- * render if the view has changed. */
+ * Functions of other parts than camera and cursor first restart the render if
+ * the view has changed. */
 struct command {
     void (*camera)(struct camera_control *camera);
+    void (*camera_by)(struct camera_control *camera, int by);
     void (*cursor)(struct pick_cursor *cursor);
     void (*control)(struct render_control *control);
     void (*inspector)(struct inspector *inspector);
+    void (*inspector_by)(struct inspector *inspector, int by);
+    void (*comparison)(struct comparison *comparison);
     void (*workspace)(struct workspace *workspace);
     void (*studio)(struct studio *studio);
 
-    enum held_keys_axis axis; /* the camera moves along this axis */
-    int sign;                 /* while the key is held: 1 or -1, or 0 for no
-                                 move */
-    int right, down;          /* cells by which the cursor moves */
-    int number;               /* number of the view to go to, from 1 */
+    int by;          /* for functions that take it: 1 or -1 */
+    int end_signal;  /* the program ends as by this signal */
+    int right, down; /* cells by which the cursor moves */
+    int number;      /* number of the view to go to, from 1 */
+
+    /* the camera moves along the axis while the key is held: sign is 1 or -1,
+     * or 0 for no move */
+    enum held_keys_axis axis;
+    int sign;
 };
 
 static const struct command commands[ACTIONS] = {
@@ -35,8 +119,8 @@ static const struct command commands[ACTIONS] = {
     [ACTION_LOOK_DOWN] = {.axis = HELD_KEYS_LOOK_UP, .sign = -1},
     [ACTION_LOOK_LEFT] = {.axis = HELD_KEYS_LOOK_RIGHT, .sign = -1},
     [ACTION_LOOK_RIGHT] = {.axis = HELD_KEYS_LOOK_RIGHT, .sign = 1},
-    [ACTION_FASTER] = {.camera = camera_control_faster},
-    [ACTION_SLOWER] = {.camera = camera_control_slower},
+    [ACTION_FASTER] = {.camera_by = camera_control_change_speed, .by = 1},
+    [ACTION_SLOWER] = {.camera_by = camera_control_change_speed, .by = -1},
     [ACTION_CURSOR] = {.cursor = pick_cursor_show},
     [ACTION_CANCEL] = {.control = render_control_clear_message},
     [ACTION_ORBIT] = {.camera = camera_control_switch_orbit},
@@ -48,10 +132,10 @@ static const struct command commands[ACTIONS] = {
     [ACTION_FOCUS] = {.camera = camera_control_focus},
     [ACTION_CLOSE] = {.axis = HELD_KEYS_OPEN, .sign = -1},
     [ACTION_OPEN] = {.axis = HELD_KEYS_OPEN, .sign = 1},
-    [ACTION_UNDO] = {.camera = camera_control_undo},
-    [ACTION_REDO] = {.camera = camera_control_redo},
+    [ACTION_UNDO] = {.camera_by = camera_control_step_history, .by = -1},
+    [ACTION_REDO] = {.camera_by = camera_control_step_history, .by = 1},
     [ACTION_RESET] = {.camera = camera_control_reset},
-    [ACTION_KEEP] = {.studio = studio_keep_view},
+    [ACTION_KEEP] = {.studio = keep_view},
     [ACTION_VIEW_1] = {.number = 1},
     [ACTION_VIEW_2] = {.number = 2},
     [ACTION_VIEW_3] = {.number = 3},
@@ -62,19 +146,19 @@ static const struct command commands[ACTIONS] = {
     [ACTION_VIEW_8] = {.number = 8},
     [ACTION_VIEW_9] = {.number = 9},
     [ACTION_SAVE_VIEW] = {.control = save_view},
-    [ACTION_VIEW_NEXT] = {.inspector = inspector_next_view},
-    [ACTION_VIEW_BACK] = {.inspector = inspector_previous_view},
-    [ACTION_KEEP_RENDER] = {.workspace = workspace_keep_render},
-    [ACTION_COMPARE] = {.workspace = workspace_compare},
+    [ACTION_VIEW_NEXT] = {.inspector_by = inspector_turn_view, .by = 1},
+    [ACTION_VIEW_BACK] = {.inspector_by = inspector_turn_view, .by = -1},
+    [ACTION_KEEP_RENDER] = {.comparison = comparison_keep},
+    [ACTION_COMPARE] = {.comparison = comparison_next},
     [ACTION_FILTER] = {.inspector = inspector_switch_filter},
     [ACTION_DRAWING] = {.workspace = workspace_next_drawing},
-    [ACTION_LESS] = {.inspector = inspector_less},
-    [ACTION_MORE] = {.inspector = inspector_more},
+    [ACTION_LESS] = {.inspector_by = inspector_change, .by = -1},
+    [ACTION_MORE] = {.inspector_by = inspector_change, .by = 1},
     [ACTION_PANEL] = {.workspace = workspace_open_panel},
-    [ACTION_MODE] = {.studio = studio_change_mode},
+    [ACTION_MODE] = {.studio = change_mode},
     [ACTION_START] = {.control = render_control_start_or_halt},
     [ACTION_STEP] = {.control = render_control_step},
-    [ACTION_RESTART] = {.studio = studio_restart},
+    [ACTION_RESTART] = {.studio = restart},
     [ACTION_SAVE] = {.inspector = inspector_save},
     [ACTION_SAVE_TEXT] = {.inspector = inspector_save_text},
     [ACTION_SAVE_LINEAR] = {.inspector = inspector_save_hdr},
@@ -84,12 +168,12 @@ static const struct command commands[ACTIONS] = {
     [ACTION_GLYPHS] = {.workspace = workspace_next_glyphs},
     [ACTION_METER] = {.workspace = workspace_switch_progress},
     [ACTION_HIDE] = {.workspace = workspace_switch_status},
-    [ACTION_MOUSE] = {.studio = studio_switch_mouse},
+    [ACTION_MOUSE] = {.studio = switch_mouse},
     [ACTION_REDRAW] = {.workspace = workspace_layout},
     [ACTION_HELP] = {.workspace = workspace_open_help},
     [ACTION_SUSPEND] = {.studio = studio_suspend},
-    [ACTION_INTERRUPT] = {.studio = studio_interrupt},
-    [ACTION_ABORT] = {.studio = studio_abort},
+    [ACTION_INTERRUPT] = {.end_signal = SIGINT},
+    [ACTION_ABORT] = {.end_signal = SIGQUIT},
     [ACTION_QUIT] = {.studio = studio_quit},
 };
 
@@ -106,13 +190,19 @@ static const struct command cursor_commands[ACTIONS] = {
 
 static void run_settled(struct studio *studio, const struct command *c)
 {
+    struct workspace *workspace = &studio->workspace;
+
     render_control_restart_if_outdated(&studio->control);
     if (c->control)
         c->control(&studio->control);
     else if (c->inspector)
-        c->inspector(&studio->workspace.inspector);
+        c->inspector(&workspace->inspector);
+    else if (c->inspector_by)
+        c->inspector_by(&workspace->inspector, c->by);
+    else if (c->comparison)
+        c->comparison(&workspace->comparison);
     else if (c->workspace)
-        c->workspace(&studio->workspace);
+        c->workspace(workspace);
     else if (c->studio)
         c->studio(studio);
     else
@@ -132,23 +222,27 @@ static void run(struct studio *studio, const struct command *c)
         return;
     }
     camera_control_end_move(camera);
-    if (c->number != 0)
+    if (c->end_signal != 0)
+        studio_end(studio, 128 + c->end_signal);
+    else if (c->number != 0)
         camera_control_go_to_view(camera, c->number);
     else if (c->cursor)
         c->cursor(&camera->cursor);
     else if (c->camera)
         c->camera(camera);
+    else if (c->camera_by)
+        c->camera_by(camera, c->by);
     else
         run_settled(studio, c);
 }
 
-void command_run(struct studio *studio, enum action action)
+void studio_run(struct studio *studio, enum action action)
 {
     if (action != ACTION_NONE)
         run(studio, &commands[action]);
 }
 
-bool command_run_at_cursor(struct studio *studio, enum action action)
+bool studio_run_at_cursor(struct studio *studio, enum action action)
 {
     const struct command *c = &cursor_commands[action];
 

@@ -126,19 +126,7 @@ static void take_change(struct editor_panel *p)
 
 static bool may_change(struct editor_panel *p)
 {
-    if (!p->control->is_live) {
-        render_control_say(
-            p->control, "materials change only in live mode: %s switches to it",
-            render_control_key(p->control, ACTION_MODE).text);
-        return false;
-    }
-    if (p->control->reload.is_busy) {
-        render_control_say(
-            p->control,
-            "the scene is being loaded: materials change after that");
-        return false;
-    }
-    return true;
+    return render_control_may_edit(p->control, "materials change");
 }
 
 /* Returns the selected parameter; its id is -1 if there is none. */

@@ -13,7 +13,6 @@
 #include "base/event_fd.h"
 #include "base/print.h"
 #include "session/stats_json.h"
-#include "studio/commands.h"
 #include "studio/panel_draw.h"
 #include "studio/save_commands.h"
 #include "studio/studio.h"
@@ -99,15 +98,15 @@ static void take_key(struct studio *studio, int key)
         question_answer(studio, key))
         return;
     if (is_urgent(action))
-        command_run(studio, action);
+        studio_run(studio, action);
     else if (workspace->help.is_open)
         workspace_help_key(workspace, key);
     else if (workspace->screen.is_too_small && action != ACTION_QUIT)
         return;
     else if (!panel_takes(studio, key) &&
              !comparison_takes(&workspace->comparison, action) &&
-             !command_run_at_cursor(studio, action))
-        command_run(studio, action);
+             !studio_run_at_cursor(studio, action))
+        studio_run(studio, action);
     if (action == ACTION_UNDO || action == ACTION_REDO)
         panel_draw(&workspace->panel);
     follow_pick(studio);

@@ -235,7 +235,7 @@ static void change_step(struct inspector *inspector, int by)
     inspector_open_table(inspector);
 }
 
-static void change(struct inspector *inspector, int by)
+void inspector_change(struct inspector *inspector, int by)
 {
     inspector->control->has_changed = true;
     if (inspector->drawing == INSPECTOR_BOXES)
@@ -249,16 +249,6 @@ static void change(struct inspector *inspector, int by)
             render_control_key(inspector->control, ACTION_LESS).text,
             render_control_key(inspector->control, ACTION_MORE).text,
             render_control_key(inspector->control, ACTION_DRAWING).text);
-}
-
-void inspector_less(struct inspector *inspector)
-{
-    change(inspector, -1);
-}
-
-void inspector_more(struct inspector *inspector)
-{
-    change(inspector, 1);
 }
 
 /* ---- saving ---- */
@@ -368,9 +358,7 @@ static void show(struct inspector *inspector, enum show_kind kind)
             inspector->control); /* the film has samples of the old kind */
 }
 
-/* Switches to the next or previous view mode. Normal mode has only those made
- * from light. */
-static void turn(struct inspector *inspector, int by)
+void inspector_turn_view(struct inspector *inspector, int by)
 {
     int kind = (int)inspector->view_mode.kind;
 
@@ -379,16 +367,6 @@ static void turn(struct inspector *inspector, int by)
     while (!inspector->control->is_live &&
            view_mode_sample((enum show_kind)kind) != SAMPLE_LIGHT);
     show(inspector, (enum show_kind)kind);
-}
-
-void inspector_next_view(struct inspector *inspector)
-{
-    turn(inspector, 1);
-}
-
-void inspector_previous_view(struct inspector *inspector)
-{
-    turn(inspector, -1);
 }
 
 void inspector_step(struct inspector *inspector)

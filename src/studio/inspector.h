@@ -58,9 +58,9 @@ void inspector_init(struct inspector *inspector, struct render_control *control,
  * drawings over it. */
 void inspector_preview(struct inspector *inspector, struct frame *frame);
 
-/* Switch between the view modes: light, preview, normals, and so on. */
-void inspector_next_view(struct inspector *inspector);
-void inspector_previous_view(struct inspector *inspector);
+/* Switches to the next (1) or previous (-1) view mode: light, preview, normals,
+ * and so on. Normal mode has only those made from light. */
+void inspector_turn_view(struct inspector *inspector, int by);
 
 /* Switches the denoising filter of the screen off and on. */
 void inspector_switch_filter(struct inspector *inspector);
@@ -68,9 +68,8 @@ void inspector_switch_filter(struct inspector *inspector);
 /* Switches to the next drawing: boxes, directions, a path, nothing. */
 void inspector_next_drawing(struct inspector *inspector);
 
-/* Change the level of the boxes, or the step of the path, by one. */
-void inspector_less(struct inspector *inspector);
-void inspector_more(struct inspector *inspector);
+/* Changes the level of the boxes, or the step of the path, by 1 or -1. */
+void inspector_change(struct inspector *inspector, int by);
 
 /* Save the picture with the current view mode and drawings as PNG, as HDR
  * (light alone), or as coloured text. */

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "studio/questions.h"
+#include "studio/studio.h"
 
 #include "studio/save_commands.h"
-#include "studio/studio.h"
 
 static void end(struct studio *studio)
 {

@@ -235,13 +235,22 @@ bool render_control_has_unsaved_edit(const struct render_control *control)
     return edit_has_unsaved_materials(edit) || edit_has_unsaved_view(edit);
 }
 
-bool render_control_may_move(struct render_control *control)
+bool render_control_need_live(struct render_control *control, const char *what)
 {
     if (!control->is_live)
-        render_control_say(
-            control, "the camera moves only in live mode: %s switches to it",
-            render_control_key(control, ACTION_MODE).text);
+        render_control_say(control, "%s only in live mode: %s switches to it",
+                           what, render_control_key(control, ACTION_MODE).text);
     return control->is_live;
+}
+
+bool render_control_may_edit(struct render_control *control, const char *what)
+{
+    if (!render_control_need_live(control, what))
+        return false;
+    if (control->reload.is_busy)
+        render_control_say(control, "the scene is being loaded: %s after that",
+                           what);
+    return !control->reload.is_busy;
 }
 
 void render_control_set_live(struct render_control *control, bool is_live)
@@ -360,11 +369,9 @@ void render_control_switch_backend(struct render_control *control)
 {
     struct backends *m = &control->session->backends;
 
-    if (!control->is_live) {
-        render_control_say(
-            control, "the backend changes only in live mode: %s switches to it",
-            render_control_key(control, ACTION_MODE).text);
-    } else if (session_uses_device(control->session)) {
+    if (!render_control_need_live(control, "the backend changes"))
+        return;
+    if (session_uses_device(control->session)) {
         use_backend(control, m->cpu);
     } else if (m->device != NULL) {
         use_backend(control, m->device);
@@ -435,12 +442,8 @@ void render_control_reload(struct render_control *control)
 {
     struct error err;
 
-    if (!control->is_live) {
-        render_control_say(
-            control, "files are loaded only in live mode: %s switches to it",
-            render_control_key(control, ACTION_MODE).text);
+    if (!render_control_need_live(control, "files are loaded"))
         return;
-    }
     if (render_control_has_unsaved_edit(control)) {
         render_control_say(
             control, "not loaded: changes of materials or light are not saved; "

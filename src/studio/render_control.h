@@ -101,8 +101,13 @@ bool render_control_has_unsaved(const struct render_control *control);
 /* Returns true if changes of materials, assignments or light are unsaved. */
 bool render_control_has_unsaved_edit(const struct render_control *control);
 
-/* Returns true if the view may change now. Otherwise shows a message. */
-bool render_control_may_move(struct render_control *control);
+/* Returns true in live mode. Otherwise a message says that something, such as
+ * "the camera moves", is only possible there. */
+bool render_control_need_live(struct render_control *control, const char *what);
+
+/* Returns true if the edit may change now: in live mode, and not during a
+ * reload, whose files would undo the change. Otherwise shows a message. */
+bool render_control_may_edit(struct render_control *control, const char *what);
 
 /* Changes the mode. Discards the picture of normal mode. */
 void render_control_set_live(struct render_control *control, bool is_live);

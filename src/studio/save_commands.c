@@ -4,7 +4,6 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/clock.h"
 #include "base/file.h"
@@ -16,11 +15,18 @@
 static char *scene_name(const struct render_control *control)
 {
     char *stem = xchecked(path_stem_of_input(control->session->scene.path));
-    const char *slash = strrchr(stem, '/');
-    char *name = xstrdup(slash ? slash + 1 : stem);
+    char *name = xstrdup(path_name(stem));
 
     free(stem);
     return name;
+}
+
+/* Shows a line, which is also printed at the end, and frees it. */
+static void say_saved(struct render_control *control, char *text)
+{
+    render_control_say(control, "%s", text);
+    render_control_add_result(control, text);
+    free(text);
 }
 
 void save_picture(struct render_control *control, const char *ending)
@@ -54,7 +60,7 @@ void save_picture(struct render_control *control, const char *ending)
 bool save_finish(struct render_control *control)
 {
     struct error err;
-    char *name, *text;
+    char *name;
 
     if (!control->saver.copying.is_busy)
         return true;
@@ -64,20 +70,10 @@ bool save_finish(struct render_control *control)
         render_control_add_result(control, err.text);
         return false;
     }
-    text = xformat("saved %s %s", name, control->saving_what);
-    render_control_say(control, "%s", text);
-    render_control_add_result(control, text);
+    say_saved(control, xformat("saved %s %s", name, control->saving_what));
     control->saved_samples = control->saving_samples;
-    free(text);
     free(name);
     return true;
-}
-
-static void say_saved(struct render_control *control, char *text)
-{
-    render_control_say(control, "%s", text);
-    render_control_add_result(control, text);
-    free(text);
 }
 
 void save_frame(struct render_control *control, const struct frame *frame)
@@ -121,8 +117,6 @@ void save_view(struct render_control *control)
     struct session *s = control->session;
     struct file_change change;
     struct error err;
-    const char *slash;
-    char *text;
 
     /* the reload may have read the old view file */
     if (control->reload.is_busy) {
@@ -142,14 +136,10 @@ void save_view(struct render_control *control)
         return;
     }
     file_watch_wrote(&control->watch, s->view_path, &change.after);
-    slash = strrchr(s->view_path, '/');
-    text = change.is_kept
-               ? xformat("wrote the view to %s, the old one is %s~",
-                         s->view_path, slash ? slash + 1 : s->view_path)
-               : xformat("wrote the view to %s", s->view_path);
-    render_control_say(control, "%s", text);
-    render_control_add_result(control, text);
-    free(text);
+    say_saved(control, xformat("wrote the view to %s%s%s%s", s->view_path,
+                               change.is_kept ? ", the old one is " : "",
+                               change.is_kept ? path_name(s->view_path) : "",
+                               change.is_kept ? "~" : ""));
 }
 
 bool save_edit(struct render_control *control)
@@ -162,8 +152,6 @@ bool save_edit(struct render_control *control)
         return false;
     }
     control->files_ns = clock_ns(); /* reload changed files now */
-    render_control_say(control, "%s", what);
-    render_control_add_result(control, what);
-    free(what);
+    say_saved(control, what);
     return true;
 }

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * studio.h - the interactive program: its parts, and commands that concern
- * several of them
+ * studio.h - the interactive program: its parts, the commands of actions, and
+ * questions in the last line
  *
- * Units:     nanoseconds of clock_ns()
+ * The table from actions to functions is in commands.c, the one from keys to
+ * actions in session/keymap.c. Keys of the editor panel have their own in
+ * editor_panel.c, answers to questions in questions.c.
+ *
+ * Units:     nanoseconds of clock_ns(); keys are bytes or enum tty_key
  * Threads:   main only
  * Errors:    errors become messages
  */
@@ -14,11 +18,22 @@
 #include <stdint.h>
 
 #include "terminal/tty_input.h"
+#include "session/keymap.h"
 #include "studio/camera_control.h"
-#include "studio/questions.h"
 #include "studio/render_control.h"
 #include "studio/session_keeper.h"
 #include "studio/workspace.h"
+
+/* Most questions come before something is lost. */
+enum question {
+    QUESTION_NONE,
+    QUESTION_QUIT,
+    QUESTION_EDIT, /* quit without saving edits */
+    QUESTION_LIVE, /* leave normal mode */
+    QUESTION_RESTART,
+    QUESTION_NUMBER, /* number for a view */
+    QUESTION_KEPT    /* go on with a kept session */
+};
 
 struct studio {
     struct render_control control;
@@ -37,25 +52,27 @@ struct studio {
 /* Ends the loop; the program exits with this status. */
 void studio_end(struct studio *studio, int status);
 
-/* End the program as Ctrl-C and Ctrl-\ do. */
-void studio_interrupt(struct studio *studio);
-void studio_abort(struct studio *studio);
-
 /* Stops the program until the shell continues it. */
 void studio_suspend(struct studio *studio);
 
 /* Switches to live or normal mode. The render of normal mode is lost. */
 void studio_set_live(struct studio *studio, bool is_live);
 
-/* Ask first if something would be lost. */
-void studio_change_mode(struct studio *studio);
-void studio_restart(struct studio *studio);
+/* Ends the loop. Asks first if something would be lost. */
 void studio_quit(struct studio *studio);
 
-/* Asks for the number under which to keep the view. */
-void studio_keep_view(struct studio *studio);
+/* Runs the command of an action. ACTION_NONE does nothing. */
+void studio_run(struct studio *studio, enum action action);
 
-/* Switches the mouse on or off. */
-void studio_switch_mouse(struct studio *studio);
+/* Runs the command that an action has while the cursor is shown. Returns false
+ * if the cursor is not shown, or if the action has no other command then. */
+bool studio_run_at_cursor(struct studio *studio, enum action action);
+
+/* Shows a question instead of the status line. QUESTION_NONE removes it. */
+void question_ask(struct studio *studio, enum question question);
+
+/* Takes any key as the answer and removes the question. Returns false if the
+ * key is to have its effect, too. */
+bool question_answer(struct studio *studio, int key);
 
 #endif

@@ -187,16 +187,6 @@ static void close_help(struct workspace *workspace)
     workspace_refresh(workspace);
 }
 
-void workspace_keep_render(struct workspace *workspace)
-{
-    comparison_keep(&workspace->comparison);
-}
-
-void workspace_compare(struct workspace *workspace)
-{
-    comparison_next(&workspace->comparison);
-}
-
 void workspace_next_drawing(struct workspace *workspace)
 {
     if (workspace->progress_panel.is_on) /* there is one window at a time */

@@ -73,8 +73,6 @@ void workspace_ask(struct workspace *workspace, const char *prompt);
 
 void workspace_switch_progress(struct workspace *workspace);
 void workspace_open_panel(struct workspace *workspace);
-void workspace_keep_render(struct workspace *workspace);
-void workspace_compare(struct workspace *workspace);
 void workspace_next_drawing(struct workspace *workspace);
 void workspace_next_colors(struct workspace *workspace);
 void workspace_next_glyphs(struct workspace *workspace);

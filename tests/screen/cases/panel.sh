@@ -105,7 +105,7 @@ expect "     strength   1"
 keys Down Down
 raw_keys '91'
 keys Enter
-wait_for "found '91', expected an angle from -90 to 90 degrees"
+wait_for "found '91', expected a number from -90 to 90"
 keys Escape
 wait_until_gone "91_"
 keys ']'
@@ -123,7 +123,7 @@ wait_until eval "screen_colors | grep -q '[34]8;2;0;0;188m'"
 # nonsense is refused
 raw_keys '1x'
 keys Enter
-wait_for "found '1x', expected a number of stops"
+wait_for "found '1x', expected a number from -100 to 100"
 keys Escape Escape
 wait_until_gone "│"
 keys q
