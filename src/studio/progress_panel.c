@@ -12,9 +12,6 @@
 /* Time between two updates, long enough to read the numbers. */
 #define UPDATE_NS UINT64_C(500000000)
 
-/* Row of the gauge in the window. */
-#define GAUGE_ROW 2
-
 static const struct backend *backend_of(const struct render_control *control)
 {
     return render_backend(control->session->render);
@@ -54,7 +51,7 @@ static void measure_loads(struct progress_panel *panel,
     panel->load_ns = now_ns;
 }
 
-/* Draws the gauge in place of its text. */
+/* Draws the gauge into its blank line. */
 static void draw_gauge(const struct render_progress *p, struct screen *screen)
 {
     const struct term_caps *d = &screen->display;
@@ -64,7 +61,8 @@ static void draw_gauge(const struct render_progress *p, struct screen *screen)
     status_line_part(p, &part);
     gauge_cells(cells, PROGRESS_TEXT_COLS, part,
                 theme_style(d->theme, d->palette, ROLE_GAUGE), d->has_unicode);
-    windows_paint(WINDOW_OVER, GAUGE_ROW, 2, cells, PROGRESS_TEXT_COLS);
+    windows_paint(WINDOW_OVER, 1 + PROGRESS_TEXT_GAUGE, 2, cells,
+                  PROGRESS_TEXT_COLS);
 }
 
 void progress_panel_draw(struct progress_panel *panel,

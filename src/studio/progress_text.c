@@ -2,26 +2,15 @@
 #include "studio/progress_text.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "render/error_text.h"
 #include "render/render_left.h"
-#include "studio/error_plot.h"
 #include "studio/status_line.h"
 
-#define PLOT_ROWS 3
-
-/* Number of dots of a braille character in each direction. */
-#define DOT_COLS 2
-#define DOT_ROWS 4
-
 #define NUMBER_BYTES 16
-
-static double greatest(double a, double b)
-{
-    return a > b ? a : b;
-}
 
 void progress_text_number(char *text, size_t size_bytes, double value)
 {
@@ -89,16 +78,6 @@ static void format_noise(char *line, const struct render_progress *p)
     put_sides(line, is_doubtful ? "unresolved" : "noise", interval);
 }
 
-static void format_bar(char *line, const struct progress_text_facts *f)
-{
-    int filled = (int)(render_left(f->progress).part * PROGRESS_TEXT_COLS);
-    const char *full = f->has_unicode ? "\xe2\x96\x88" : "#";
-    const char *empty = f->has_unicode ? "\xe2\x96\x91" : "-";
-
-    for (int i = 0; i < PROGRESS_TEXT_COLS; i++)
-        line = put(line, i < filled ? full : empty);
-}
-
 static void format_rate(char *line, const char *name, uint64_t count,
                         uint64_t time_ns)
 {
@@ -128,60 +107,13 @@ static void format_time(char *line, const struct render_progress *p)
 
 /* ---- diagrams ---- */
 
-/* Returns the speed in span `i`, which is half a column of the plot, or 0 if
- * there is no such span. */
-static double speed_at(const struct speeds *s, int i)
-{
-    return i < s->count ? speeds_at(s, i) : 0;
-}
-
 static double top_speed(const struct speeds *s)
 {
     double top = 0;
 
     for (int i = 0; i < s->count; i++)
-        top = greatest(top, speeds_at(s, i));
+        top = fmax(top, speeds_at(s, i));
     return top;
-}
-
-/* Returns the number of dots that a bar of this height has in a row of the
- * plot, 0 to DOT_ROWS. Row 0 is the top. */
-static int dots_in_row(double part, int row)
-{
-    int dots = (int)(part * PLOT_ROWS * DOT_ROWS + 0.5);
-
-    dots -= (PLOT_ROWS - 1 - row) * DOT_ROWS;
-    return dots < 0 ? 0 : dots > DOT_ROWS ? DOT_ROWS : dots;
-}
-
-/* Formats a braille character with two columns of dots, filled from the bottom.
- * The tables hold Unicode's bits of the dots. */
-static void put_braille(char *to, int left_dots, int right_dots)
-{
-    static const unsigned char left[] = {0, 0x40, 0x44, 0x46, 0x47};
-    static const unsigned char right[] = {0, 0x80, 0xa0, 0xb0, 0xb8};
-    unsigned bits = left[left_dots] | right[right_dots];
-
-    snprintf(to, 4, "\xe2%c%c", (char)(0xa0 | bits >> 6),
-             (char)(0x80 | (bits & 0x3f)));
-}
-
-static void format_plot(char *line, const struct progress_text_facts *f,
-                        int row)
-{
-    static const char ascii[] = " .:|#";
-    double top = top_speed(f->speeds);
-    double scale = top > 0 ? 1 / top : 0;
-
-    for (int i = 0; i < PROGRESS_TEXT_COLS; i++) {
-        double a = scale * speed_at(f->speeds, DOT_COLS * i);
-        double b = scale * speed_at(f->speeds, DOT_COLS * i + 1);
-        char cell[4] = {ascii[dots_in_row(greatest(a, b), row)]};
-
-        if (f->has_unicode)
-            put_braille(cell, dots_in_row(a, row), dots_in_row(b, row));
-        line = put(line, cell);
-    }
 }
 
 static void format_plot_title(char *line, const struct speeds *s)
@@ -262,10 +194,10 @@ static int format_errors(char lines[][PROGRESS_TEXT_BYTES],
         snprintf(right, sizeof right, "%g %% in %s", 100 * target, left);
     }
     put_sides(lines[0], "error over time", right);
-    error_plot_format(lines + 1, f->errors, target,
-                      ns > 0 ? (ns + (double)p->render_ns) * 1e-9 : 0,
-                      f->has_unicode);
-    return 1 + ERROR_PLOT_ROWS;
+    plot_errors(lines + 1, f->errors, target,
+                ns > 0 ? (ns + (double)p->render_ns) * 1e-9 : 0,
+                f->has_unicode);
+    return 1 + PLOT_ERROR_ROWS;
 }
 
 /* ---- ranks ---- */
@@ -335,14 +267,14 @@ int progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],
     int row = 0, chosen[PROGRESS_TEXT_RANKS], count = choose_ranks(f, chosen);
 
     format_done(lines[row++], p);
-    format_bar(lines[row++], f);
+    lines[row++][0] = '\0'; /* PROGRESS_TEXT_GAUGE */
     format_noise(lines[row++], p);
     format_rate(lines[row++], "samples", p->samples, p->render_ns);
     format_rate(lines[row++], "rays", p->rays, p->render_ns);
     format_time(lines[row++], p);
     format_plot_title(lines[row++], f->speeds);
-    for (int i = 0; i < PLOT_ROWS; i++)
-        format_plot(lines[row++], f, i);
+    plot_speeds(lines + row, f->speeds, top_speed(f->speeds), f->has_unicode);
+    row += PLOT_SPEED_ROWS;
     format_load_title(lines[row++], f);
     format_loads(lines[row++], f);
     row += format_errors(lines + row, f);

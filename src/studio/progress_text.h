@@ -17,11 +17,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "render/error_history.h"
 #include "render/render_loop.h"
-#include "render/render_rates.h"
+#include "studio/plots.h"
 
-#define PROGRESS_TEXT_COLS 36
+#define PROGRESS_TEXT_COLS PLOT_COLS
 
 /* Ranks that have a line: the late ones first, then the slow ones. */
 #define PROGRESS_TEXT_RANKS 8
@@ -30,7 +29,7 @@
 #define PROGRESS_TEXT_ROWS (12 + 5 + 1 + PROGRESS_TEXT_RANKS)
 
 /* Size of a line: characters of the diagrams take three bytes in UTF-8. */
-#define PROGRESS_TEXT_BYTES (3 * PROGRESS_TEXT_COLS + 1)
+#define PROGRESS_TEXT_BYTES PLOT_BYTES
 
 struct progress_text_facts {
     const struct render_progress *progress;
@@ -42,6 +41,9 @@ struct progress_text_facts {
     const struct rank_progress *ranks;
     int rank_count; /* 0 without a cluster */
 };
+
+/* Line of the gauge, which the text leaves blank. */
+#define PROGRESS_TEXT_GAUGE 1
 
 /* Returns the number of lines. */
 int progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],

@@ -62,7 +62,7 @@ static void half_done_renders_show_their_progress(void **state)
     speeds_update(&speeds, 100 * S_NS, 25000000);
     progress_text_format(lines, &f);
     assert_string_equal(lines[0], "250 of 1000 spp               25.0 %");
-    assert_string_equal(lines[1], "#########---------------------------");
+    assert_string_equal(lines[PROGRESS_TEXT_GAUGE], "");
     assert_string_equal(lines[2], "noise                        unknown");
     assert_string_equal(lines[3], "samples       25.0 M         250 k/s");
     assert_string_equal(lines[4], "rays           200 M        2.00 M/s");
@@ -78,8 +78,6 @@ static void half_done_renders_show_their_progress(void **state)
     progress_text_format(lines, &f);
     assert_string_equal(lines[2], "unresolved      2.3 % (2.2 to 2.4 %)");
     assert_string_equal(lines[11], "█▄");
-    assert_int_equal(cols_of(lines[1]), PROGRESS_TEXT_COLS);
-    assert_true(strncmp(lines[1], "█████████░", 30) == 0);
 }
 
 /* Speeds of 12 twelfths, 6, 0, 3, ... make columns of as many dots, from

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_error_plot.c - the course of an error that falls as one over the root of
+ * test_plots.c - the course of an error that falls as one over the root of
  * time is a straight line; the history keeps few points and begins anew
  */
 #include <math.h>
 #include <string.h>
 
-#include "studio/error_plot.h"
+#include "studio/plots.h"
 #include "tests/unit/check.h"
 
-static char rows[ERROR_PLOT_ROWS][PROGRESS_TEXT_BYTES];
+static char rows[PLOT_ERROR_ROWS][PLOT_BYTES];
 
 /* A history of errors .5 / sqrt(t). */
 static void fill(struct error_history *h, double end_s)
@@ -50,13 +50,13 @@ static void a_root_is_a_straight_line(void **state)
 
     (void)state;
     fill(&h, 100);
-    error_plot_format(rows, &h, 0, 0, false);
-    for (int col = 0; col < PROGRESS_TEXT_COLS; col++) {
-        double row = (col + 0.5) * ERROR_PLOT_ROWS / PROGRESS_TEXT_COLS;
+    plot_errors(rows, &h, 0, 0, false);
+    for (int col = 0; col < PLOT_COLS; col++) {
+        double row = (col + 0.5) * PLOT_ERROR_ROWS / PLOT_COLS;
         int stars = 0;
 
-        for (int y = 0; y < ERROR_PLOT_ROWS; y++) {
-            if (rows[y][col] != '*')
+        for (int y = 0; y < PLOT_ERROR_ROWS; y++) {
+            if (rows[y][col] == ' ')
                 continue;
             stars++;
             check_close(y + 0.5, row, 0.75);
@@ -64,9 +64,9 @@ static void a_root_is_a_straight_line(void **state)
         assert_in_range(stars, 1, 2);
     }
     /* braille takes three bytes a character, and begins at the upper left */
-    error_plot_format(rows, &h, 0, 0, true);
-    for (int y = 0; y < ERROR_PLOT_ROWS; y++)
-        assert_int_equal(strlen(rows[y]), 3 * PROGRESS_TEXT_COLS);
+    plot_errors(rows, &h, 0, 0, true);
+    for (int y = 0; y < PLOT_ERROR_ROWS; y++)
+        assert_int_equal(strlen(rows[y]), 3 * PLOT_COLS);
     assert_int_equal((unsigned char)rows[0][0], 0xe2);
     assert_int_equal(rows[0][2] & 1, 1);
 }
@@ -79,17 +79,17 @@ static void the_target_is_reached_by_dots(void **state)
 
     (void)state;
     fill(&h, 1);
-    error_plot_format(rows, &h, 0.05, 90, false);
-    for (int y = 0; y < ERROR_PLOT_ROWS; y++)
-        for (int col = 0; col < PROGRESS_TEXT_COLS; col++)
-            stars[col >= PROGRESS_TEXT_COLS / 2] += rows[y][col] == '*';
+    plot_errors(rows, &h, 0.05, 90, false);
+    for (int y = 0; y < PLOT_ERROR_ROWS; y++)
+        for (int col = 0; col < PLOT_COLS; col++)
+            stars[col >= PLOT_COLS / 2] += rows[y][col] != ' ';
     assert_in_range(stars[0], 17, 22);
     assert_in_range(stars[1], 8, 16);
-    assert_int_equal(rows[ERROR_PLOT_ROWS - 1][PROGRESS_TEXT_COLS - 1], '*');
+    assert_int_not_equal(rows[PLOT_ERROR_ROWS - 1][PLOT_COLS - 1], ' ');
     /* too far away: the course so far takes all columns */
-    error_plot_format(rows, &h, 1e-6, 1e9, false);
-    assert_int_equal(rows[ERROR_PLOT_ROWS - 1][PROGRESS_TEXT_COLS - 1], '*');
-    assert_int_equal(rows[0][0], '*');
+    plot_errors(rows, &h, 1e-6, 1e9, false);
+    assert_int_not_equal(rows[PLOT_ERROR_ROWS - 1][PLOT_COLS - 1], ' ');
+    assert_int_not_equal(rows[0][0], ' ');
 }
 
 static void nothing_is_shown_before_two_errors(void **state)
@@ -97,9 +97,9 @@ static void nothing_is_shown_before_two_errors(void **state)
     struct error_history h = {.count = 0};
 
     (void)state;
-    error_plot_format(rows, &h, 0.01, 5, true);
-    for (int y = 0; y < ERROR_PLOT_ROWS; y++)
-        assert_int_equal(strspn(rows[y], " "), PROGRESS_TEXT_COLS);
+    plot_errors(rows, &h, 0.01, 5, true);
+    for (int y = 0; y < PLOT_ERROR_ROWS; y++)
+        assert_int_equal(strspn(rows[y], " "), PLOT_COLS);
 }
 
 int main(void)
