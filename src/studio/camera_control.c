@@ -5,7 +5,6 @@
 
 #include "base/clock.h"
 #include "studio/camera_moves.h"
-#include "studio/clearance.h"
 #include "studio/framing.h"
 
 /* Share of an object that is seen from which it counts as not hidden. */
@@ -90,7 +89,7 @@ static void update_input(struct camera_control *camera)
         camera->passes_walls ? (struct surfaces){0} : surfaces;
     if (surfaces.scene == NULL)
         return;
-    c = clearance_of(&surfaces, pose_of(camera)->eye);
+    c = surfaces_clearance(&surfaces, pose_of(camera)->eye);
     camera_input_adapt(&camera->input, c.near, c.box_distance);
 }
 

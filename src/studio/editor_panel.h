@@ -22,9 +22,9 @@
 #include "inspect/material_ball.h"
 #include "inspect/outline.h"
 #include "terminal/screen.h"
-#include "studio/pick.h"
 #include "studio/render_control.h"
 #include "studio/parameter.h"
+#include "studio/surfaces.h"
 
 #define EDITOR_PANEL_TEXT 512
 

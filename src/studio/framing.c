@@ -7,8 +7,6 @@
 #include "base/geometry.h"
 #include "kernels/instance.h"
 #include "studio/camera_moves.h"
-#include "studio/clearance.h"
-#include "studio/pick.h"
 
 /* Turns of the camera that are tried, in degrees. */
 static const double turns_deg[] = {0,   30,  -30,  60,  -60,  90,
@@ -79,6 +77,39 @@ static void choose_points(struct framing *f)
     }
 }
 
+/* Joins a box, which is empty until *has_points is true, with the corners of a
+ * triangle. */
+static void join_tri(const struct scene *scene, const struct placed_tri *t,
+                     double lo[3], double hi[3], bool *has_points)
+{
+    for (int c = 0; c < 3; c++) {
+        double point[3];
+
+        scene_file_point(scene, t->p[c], point);
+        for (int k = 0; k < 3; k++) {
+            lo[k] = *has_points ? fmin(lo[k], point[k]) : point[k];
+            hi[k] = *has_points ? fmax(hi[k], point[k]) : point[k];
+        }
+        *has_points = true;
+    }
+}
+
+/* Computes the bounding box of an object's triangles. */
+static void find_box(const struct scene *scene, uint32_t object, double lo[3],
+                     double hi[3])
+{
+    const struct world w = scene_shape(scene);
+    struct tri_run run = {0};
+    bool has_points = false;
+
+    while (scene_next_run(scene, object, &run))
+        for (uint32_t i = 0; i < run.count; i++) {
+            struct placed_tri t = tri_placed(&w, run.first + i);
+
+            join_tri(scene, &t, lo, hi, &has_points);
+        }
+}
+
 void framing_init(struct framing *f, const struct surfaces *surfaces,
                   uint32_t object, double aspect)
 {
@@ -91,7 +122,7 @@ void framing_init(struct framing *f, const struct surfaces *surfaces,
     if (f->point_count == 0)
         return;
     if (object != NO_INDEX) {
-        pick_bounds(s, object, f->lo, f->hi);
+        find_box(s, object, f->lo, f->hi);
     } else {
         memcpy(f->lo, s->bounds_lo, sizeof f->lo);
         memcpy(f->hi, s->bounds_hi, sizeof f->hi);
@@ -154,7 +185,7 @@ static struct pose candidate(const struct framing *f, const struct pose *pose,
 static double weight_of_place(const struct framing *f, const struct pose *pose,
                               bool is_enclosed)
 {
-    struct clearance c = clearance_of(f->surfaces, pose->eye);
+    struct clearance c = surfaces_clearance(f->surfaces, pose->eye);
 
     if (c.nearest < NEAR_LEAST * pose_reach(pose))
         return 0;
@@ -189,8 +220,8 @@ static void try_direction(const struct framing *f, const struct pose *pose,
 
 double framing_find(const struct framing *f, struct pose *pose)
 {
-    bool is_enclosed =
-        clearance_of(f->surfaces, pose->eye).hit_share >= CLEARANCE_ENCLOSED;
+    bool is_enclosed = surfaces_clearance(f->surfaces, pose->eye).hit_share >=
+                       CLEARANCE_ENCLOSED;
     struct choice best = {.pose = *pose};
 
     for (size_t i = 0; i < SIZE(turns_deg) && f->point_count > 0; i++)

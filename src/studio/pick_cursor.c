@@ -43,17 +43,37 @@ static void describe(const struct pick_cursor *cursor, const struct pick *pick,
 
 /* ---- finding surfaces ---- */
 
+bool pick_cursor_point(const struct cells_rect *fit, int width_px,
+                       int height_px, int col, int row, double *x_px,
+                       double *y_px)
+{
+    if (col < fit->col || col >= fit->col + fit->cols || row < fit->row ||
+        row >= fit->row + fit->rows)
+        return false;
+    *x_px = (col - fit->col + 0.5) * width_px / fit->cols;
+    *y_px = (row - fit->row + 0.5) * height_px / fit->rows;
+    return true;
+}
+
+static struct surfaces surfaces_of(const struct pick_cursor *cursor)
+{
+    const struct session *s = cursor->control->session;
+
+    return (struct surfaces){&s->scene, &s->world};
+}
+
 static bool pick_cell(const struct pick_cursor *cursor, int col, int row,
                       struct pick *pick)
 {
     const struct session *s = cursor->control->session;
+    struct surfaces surfaces = surfaces_of(cursor);
     struct rect r = pick_cursor_shown_rect(cursor);
     double x_px, y_px;
 
-    return pick_point_of_cell(&cursor->screen->fit, r.width, r.height, col, row,
-                              &x_px, &y_px) &&
-           pick_at(&s->scene, &s->world, &s->edit.now.view, r.x + x_px,
-                   r.y + y_px, pick);
+    return pick_cursor_point(&cursor->screen->fit, r.width, r.height, col, row,
+                             &x_px, &y_px) &&
+           surfaces_pick(&surfaces, &s->edit.now.view, r.x + x_px, r.y + y_px,
+                         pick);
 }
 
 static bool pick_under_cursor(const struct pick_cursor *cursor,
@@ -69,10 +89,11 @@ bool pick_cursor_find_center(const struct pick_cursor *cursor,
                              struct pick *pick)
 {
     const struct session *s = cursor->control->session;
+    struct surfaces surfaces = surfaces_of(cursor);
     struct rect r = pick_cursor_shown_rect(cursor);
 
-    return pick_at(&s->scene, &s->world, &s->edit.now.view, r.x + r.width / 2.0,
-                   r.y + r.height / 2.0, pick);
+    return surfaces_pick(&surfaces, &s->edit.now.view, r.x + r.width / 2.0,
+                         r.y + r.height / 2.0, pick);
 }
 
 void pick_cursor_step(struct pick_cursor *cursor)

@@ -18,8 +18,8 @@
 
 #include "terminal/screen.h"
 #include "session/keymap.h"
-#include "studio/pick.h"
 #include "studio/render_control.h"
+#include "studio/surfaces.h"
 
 struct pick_cursor {
     struct render_control *control;
@@ -36,6 +36,13 @@ struct pick_cursor {
 
 /* Returns the part of the picture that is on the screen, in pixels. */
 struct rect pick_cursor_shown_rect(const struct pick_cursor *cursor);
+
+/* Computes the point of the picture at the centre of a cell. The picture has
+ * width_px x height_px pixels and covers the cells of `fit`. Returns false for
+ * a cell outside of these. */
+bool pick_cursor_point(const struct cells_rect *fit, int width_px,
+                       int height_px, int col, int row, double *x_px,
+                       double *y_px);
 
 /* Show the cursor at its last cell, at first in the middle, or hide it. */
 void pick_cursor_show(struct pick_cursor *cursor);

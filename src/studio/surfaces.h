@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * surfaces.h - rays to the surfaces of a scene, for moves of the camera
+ * surfaces.h - rays to the surfaces of a scene, for picks and for moves of the
+ * camera
  *
  * Both sides of a face are a surface. Cut-outs with an opacity below one half
- * are holes, as for picks.
+ * are holes, so that picks are not random.
  *
- * Units:     file units of the scene
+ * Units:     file units of the scene; pixels, (0, 0) is the top left corner of
+ *            the picture
  * Ownership: scene and world stay the caller's
  * Threads:   any, while scene and world are only read
  */
@@ -29,6 +31,16 @@ struct surface_hit {
     uint32_t object;
 };
 
+/* The surface at a point of the picture. */
+struct pick {
+    uint32_t tri;
+    uint32_t face;     /* number in the file, from 0 */
+    uint32_t object;   /* index into scene.object_names */
+    uint32_t material; /* index into the world's materials */
+    double distance;   /* from the eye */
+    double position[3];
+};
+
 enum surface_glass { SURFACE_GLASS_STOPS, SURFACE_GLASS_PASSES };
 
 /* Finds the first surface on a ray with the unit direction d. `most` may be
@@ -36,6 +48,30 @@ enum surface_glass { SURFACE_GLASS_STOPS, SURFACE_GLASS_PASSES };
 bool surfaces_hit(const struct surfaces *s, const double from[3],
                   const double d[3], double most, enum surface_glass glass,
                   struct surface_hit *hit);
+
+/* Finds the surface at a point of the picture of a view, as the render shows it
+ * there, by a ray through the middle of the lens. Returns false, with *pick
+ * unchanged, if there is only sky. */
+bool surfaces_pick(const struct surfaces *s, const struct view *view,
+                   double x_px, double y_px, struct pick *pick);
+
+/* Share of directions with a hit from which a place counts as enclosed.
+ * Measured: at least 0.98 in rooms and an arcade, at most 0.5 outdoors. */
+#define CLEARANCE_ENCLOSED 0.75
+
+/* Distances from a point to the surfaces around it. */
+struct clearance {
+    double nearest; /* distance of the nearest hit; INFINITY without one */
+    /* distance within which a tenth of all directions hit a surface; INFINITY
+     * if fewer hit any */
+    double near;
+    double box_distance; /* distance to the scene's bounding box; 0 inside */
+    double hit_share;    /* share of directions that hit a surface */
+};
+
+/* Traces 64 rays in fixed directions all around, in 5 to 12 us. */
+struct clearance surfaces_clearance(const struct surfaces *s,
+                                    const double point[3]);
 
 /* Returns the length of the diagonal of the scene's bounding box. */
 double surfaces_size(const struct surfaces *s);

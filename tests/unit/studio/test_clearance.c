@@ -6,7 +6,6 @@
 #include <math.h>
 
 #include "studio/camera_input.h"
-#include "studio/clearance.h"
 #include "tests/unit/folder.h"
 #include "tests/unit/room.h"
 
@@ -36,7 +35,7 @@ static void a_floor_is_as_near_as_its_height(void **state)
         room_open_box(&r, lo, hi, scale);
         for (double h = 1; h < 100; h *= 3) {
             struct pose v = pose_from(0, (0.001 + h) * scale, 0);
-            struct clearance c = clearance_of(&r.surfaces, v.eye);
+            struct clearance c = surfaces_clearance(&r.surfaces, v.eye);
 
             assert_true(c.near > h * scale / (1 - 2 * 0.09));
             assert_true(c.near < h * scale / (1 - 2 * 0.12));
@@ -55,7 +54,7 @@ static void press(struct camera_input *s, const struct room *r, struct pose *v,
 
     held_keys_press(&s->motion, HELD_KEYS_FORWARD, -1, at_ns);
     while ((next = held_keys_next_ns(&s->motion)) != UINT64_MAX) {
-        struct clearance c = clearance_of(&r->surfaces, v->eye);
+        struct clearance c = surfaces_clearance(&r->surfaces, v->eye);
 
         camera_input_adapt(s, c.near, c.box_distance);
         camera_input_step(s, v, next);

@@ -11,7 +11,6 @@
 
 #include "base/geometry.h"
 #include "studio/camera_input.h"
-#include "studio/clearance.h"
 #include "studio/collision.h"
 #include "studio/framing.h"
 #include "tests/unit/folder.h"
@@ -240,8 +239,9 @@ static void framed_objects_are_seen(void **state)
                 is_seen = !is_hidden(&r, pose.eye, f.points[i], object);
             assert_true(is_seen);
             if (k == 1) /* the camera of the room stays in it */
-                assert_true(clearance_of(&r.surfaces, pose.eye).hit_share >=
-                            CLEARANCE_ENCLOSED);
+                assert_true(
+                    surfaces_clearance(&r.surfaces, pose.eye).hit_share >=
+                    CLEARANCE_ENCLOSED);
         }
         check_at_most(hidden, 0);
         room_close(&r);

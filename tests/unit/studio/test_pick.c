@@ -9,7 +9,8 @@
 #include "bvh/bvh.h"
 #include "scene/world.h"
 #include "load/scene_load.h"
-#include "studio/pick.h"
+#include "studio/framing.h"
+#include "studio/pick_cursor.h"
 #include "tests/unit/check.h"
 #include "tests/unit/files.h"
 #include "kernels/camera_sample.h"
@@ -20,6 +21,7 @@ static struct host_world host; /* the most recently loaded scene */
 static void load(struct scene *scene, const char *obj)
 {
     struct warnings report = {0};
+    struct world world;
     struct error err;
 
     *scene = (struct scene){0};
@@ -27,6 +29,8 @@ static void load(struct scene *scene, const char *obj)
     check_or_say(scene_load(scene, "a.obj", SCENE_UP_OF_FILE, &report, &err) &&
                      world_init(&host, scene, 1, &report, &err),
                  err.text);
+    world = world_arrays(&host, scene);
+    check_or_say(world_ensure_tree(&host, &world, NULL, &err), err.text);
     warnings_free(&report);
 }
 
@@ -78,6 +82,7 @@ static void load_soup(struct scene *scene)
 static void picks_hit_what_the_render_hits(void **state)
 {
     struct scene scene;
+    struct surfaces surfaces = {&scene, &host};
     struct view view = view_from(72, 73, 78);
     struct world w;
     struct bvh bvh = {0};
@@ -102,8 +107,8 @@ static void picks_hit_what_the_render_hits(void **state)
         struct hit hit;
         bool is_hit = hit_closest(&w, start.ray, &hit);
 
-        assert_int_equal(pick_at(&scene, &host, &view, x + (double)at.x,
-                                 y + (double)at.y, &pick),
+        assert_int_equal(surfaces_pick(&surfaces, &view, x + (double)at.x,
+                                       y + (double)at.y, &pick),
                          is_hit);
         if (!is_hit)
             continue;
@@ -120,6 +125,7 @@ static void picks_hit_what_the_render_hits(void **state)
 static void picks_are_in_file_units(void **state)
 {
     struct scene scene;
+    struct surfaces surfaces = {&scene, &host};
     struct view view = view_from(1000, 2030, -500);
     struct pick pick;
 
@@ -133,7 +139,7 @@ static void picks_are_in_file_units(void **state)
     view.pose.at[0] = 1010; /* 10 to the right and 30 down, on the floor */
     view.pose.at[1] = 2000;
     view.pose.at[2] = -500;
-    assert_true(pick_at(&scene, &host, &view, 512, 288, &pick));
+    assert_true(surfaces_pick(&surfaces, &view, 512, 288, &pick));
     assert_string_equal(scene.object_names[pick.object], "right");
     assert_string_equal(scene.material_names[pick.material], "blue");
     assert_int_equal(pick.face, 1);
@@ -144,7 +150,7 @@ static void picks_are_in_file_units(void **state)
     /* At the left edge the ray differs from the view direction, which is along
      * (3, *, 3), by half the horizontal field of view: it is along z. */
     double side = tan(20 * M_PI / 180) * 1024 / 576;
-    assert_true(pick_at(&scene, &host, &view, 0, 288, &pick));
+    assert_true(surfaces_pick(&surfaces, &view, 0, 288, &pick));
     check_close(pick.distance, sqrt(1000) * hypot(1, side), 1e-3);
     check_close(pick.position[2], -500 - sqrt(1000) * side, 1e-3);
     unload(&scene);
@@ -153,15 +159,16 @@ static void picks_are_in_file_units(void **state)
 static void picks_have_the_box_of_their_object(void **state)
 {
     struct scene scene;
-    double lo[3], hi[3];
+    struct surfaces surfaces = {&scene, &host};
+    struct framing f;
 
     (void)state;
     load(&scene, "o one\nv 1 2 3\nv 4 1 3\nv 2 5 9\nf 1 2 3\n"
                  "o two\nv -7 0 0\nv 0 -8 0\nv 0 0 20\nf 4 5 6\n");
-    pick_bounds(&scene, 1, lo, hi);
+    framing_init(&f, &surfaces, 1, 1);
     for (int k = 0; k < 3; k++) {
-        check_close(lo[k], ((double[]){1, 1, 3})[k], 1e-5);
-        check_close(hi[k], ((double[]){4, 5, 9})[k], 1e-5);
+        check_close(f.lo[k], ((double[]){1, 1, 3})[k], 1e-5);
+        check_close(f.hi[k], ((double[]){4, 5, 9})[k], 1e-5);
     }
     unload(&scene);
 }
@@ -169,20 +176,21 @@ static void picks_have_the_box_of_their_object(void **state)
 static void picks_of_the_sky_miss(void **state)
 {
     struct scene scene;
+    struct surfaces surfaces = {&scene, &host};
     struct view view = view_from(0, 0, 5);
     struct pick pick = {.tri = 77};
 
     (void)state;
     load(&scene, "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
-    assert_false(pick_at(&scene, &host, &view, 5, 5, &pick));
-    assert_false(pick_at(&scene, &host, &view, -512, 288, &pick));
-    assert_false(pick_at(&scene, &host, &view, 1024, 288, &pick));
-    assert_false(pick_at(&scene, &host, &view, 512, 576, &pick));
-    assert_false(pick_at(&scene, &host, &view, 512, NAN, &pick));
+    assert_false(surfaces_pick(&surfaces, &view, 5, 5, &pick));
+    assert_false(surfaces_pick(&surfaces, &view, -512, 288, &pick));
+    assert_false(surfaces_pick(&surfaces, &view, 1024, 288, &pick));
+    assert_false(surfaces_pick(&surfaces, &view, 512, 576, &pick));
+    assert_false(surfaces_pick(&surfaces, &view, 512, NAN, &pick));
     assert_int_equal(pick.tri, 77);
-    assert_true(pick_at(&scene, &host, &view, 512, 288, &pick));
+    assert_true(surfaces_pick(&surfaces, &view, 512, 288, &pick));
     view.pose.at[2] = 5; /* without a direction */
-    assert_false(pick_at(&scene, &host, &view, 512, 288, &pick));
+    assert_false(surfaces_pick(&surfaces, &view, 512, 288, &pick));
     unload(&scene);
 }
 
@@ -191,6 +199,7 @@ static void picks_of_the_sky_miss(void **state)
 static void picks_pass_transparent_surfaces(void **state)
 {
     struct scene scene;
+    struct surfaces surfaces = {&scene, &host};
     struct view view = view_from(0, 0, 5);
     struct pick pick;
 
@@ -200,7 +209,7 @@ static void picks_pass_transparent_surfaces(void **state)
                  "v -1 -1 2\nv 1 -1 2\nv 0 1 2\nusemtl clear\nf 1 2 3\n"
                  "v -1 -1 1\nv 1 -1 1\nv 0 1 1\nusemtl dense\nf 4 5 6\n"
                  "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 7 8 9\n");
-    assert_true(pick_at(&scene, &host, &view, 512, 288, &pick));
+    assert_true(surfaces_pick(&surfaces, &view, 512, 288, &pick));
     check_close(pick.distance, 4, 1e-6);
     unload(&scene);
 }
@@ -212,16 +221,16 @@ static void cells_cover_the_picture(void **state)
     double x, y;
 
     (void)state;
-    assert_true(pick_point_of_cell(&fit, 200, 100, 3, 2, &x, &y));
+    assert_true(pick_cursor_point(&fit, 200, 100, 3, 2, &x, &y));
     check_close(x, 2.5, 1e-12);
     check_close(y, 5, 1e-12);
-    assert_true(pick_point_of_cell(&fit, 200, 100, 42, 11, &x, &y));
+    assert_true(pick_cursor_point(&fit, 200, 100, 42, 11, &x, &y));
     check_close(x, 197.5, 1e-12);
     check_close(y, 95, 1e-12);
-    assert_false(pick_point_of_cell(&fit, 200, 100, 2, 2, &x, &y));
-    assert_false(pick_point_of_cell(&fit, 200, 100, 3, 1, &x, &y));
-    assert_false(pick_point_of_cell(&fit, 200, 100, 43, 2, &x, &y));
-    assert_false(pick_point_of_cell(&fit, 200, 100, 3, 12, &x, &y));
+    assert_false(pick_cursor_point(&fit, 200, 100, 2, 2, &x, &y));
+    assert_false(pick_cursor_point(&fit, 200, 100, 3, 1, &x, &y));
+    assert_false(pick_cursor_point(&fit, 200, 100, 43, 2, &x, &y));
+    assert_false(pick_cursor_point(&fit, 200, 100, 3, 12, &x, &y));
 }
 
 int main(void)
