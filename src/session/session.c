@@ -218,9 +218,12 @@ static bool begin(struct session *s, struct render_limits limits,
                     err))
         return false;
     /* a device has its own tree; the interactive program needs this one for
-     * camera speed and clearance */
+     * picks and for walls, also after a reload */
     if (session_uses_device(s) && s->options->batch)
         world_drop_tree(&s->world);
+    else if (session_uses_device(s) &&
+             !world_ensure_tree(&s->world, &job.world, NULL, err))
+        return false;
     job.world.settings.features = session_features(s);
     features = job.world.settings.features;
     if (is_live && s->sample != SAMPLE_LIGHT) {

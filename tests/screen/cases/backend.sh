@@ -56,3 +56,16 @@ start -t 1 --backend opencl flat.obj
 wait_for "LIVE"
 keys q
 expect_end 0
+# after a reload of another shape the device alone has a tree: picks need one
+fresh
+lamp_scene
+start -t 1 --backend opencl lamp.obj
+wait_for "LIVE .* OpenCL pthread"
+sed -i 's/^v 0 1 0/v 0 2 0/' lamp.obj
+wait_for "changed: l loads"
+keys l
+wait_for "loaded lamp.obj"
+keys v
+wait_for "face 1, 5[0-9.]* away"
+keys q
+expect_end 0
