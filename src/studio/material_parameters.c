@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "studio/parameter_table.h"
+#include "studio/material_parameters.h"
 
 #include <math.h>
 #include <string.h>

@@ -7,7 +7,7 @@
 #include "base/text_width.h"
 #include "terminal/gauge.h"
 #include "studio/key_hints.h"
-#include "studio/parameter_table.h"
+#include "studio/material_parameters.h"
 #include "kernels/tone.h"
 
 /* Rows besides list and parameters: pages, a title, hints. */

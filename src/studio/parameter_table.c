@@ -9,6 +9,7 @@
 #include "picture/blackbody.h"
 #include "picture/color.h"
 #include "light/daylight.h"
+#include "studio/material_parameters.h"
 
 /* ---- scales ---- */
 

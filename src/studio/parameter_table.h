@@ -7,10 +7,6 @@
  * nothing else; other values have a function that reads them and one that
  * writes them. Rows are listed on the screen in the order of the table.
  *
- * A material has one kind, one colour, one roughness and one emission on the
- * screen. Its kind decides which statements hold them, as in
- * material_from_source(), which finds the same values after a change.
- *
  * Units:     those of MTL and view files
  * Ownership: names live as long as edit and scene do not change
  * Threads:   one thread at a time
@@ -128,23 +124,5 @@ struct owner parameter_owner(const struct selection *selection,
 
 /* Reads the value of owner->row. Returns false if the owner has none. */
 bool parameter_read(const struct owner *owner, struct value *value);
-
-/* ---- materials: material_parameters.c ---- */
-
-#define MATERIAL_PARAMETERS 27
-
-extern const struct parameter_row material_parameters[MATERIAL_PARAMETERS];
-
-/* The row of each map. */
-extern const struct parameter_row map_parameter;
-
-/* Fills the owner with the material of these statements. */
-void material_parameters_open(struct owner *owner,
-                              const struct mtl_source *source);
-
-/* Returns the name of the material's kind. The swatch is the colour of its
- * emission if it emits light, else the colour of the material. */
-const char *material_parameters_summary(const struct mtl_source *source,
-                                        double swatch[3]);
 
 #endif

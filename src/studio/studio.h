@@ -3,9 +3,9 @@
  * studio.h - the interactive program: its parts, the commands of actions, and
  * questions in the last line
  *
- * The table from actions to functions is in commands.c, the one from keys to
+ * The table from actions to functions is in studio.c, the one from keys to
  * actions in session/keymap.c. Keys of the editor panel have their own in
- * editor_panel.c, answers to questions in questions.c.
+ * editor_panel.c.
  *
  * Units:     nanoseconds of clock_ns(); keys are bytes or enum tty_key
  * Threads:   main only

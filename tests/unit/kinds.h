@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-#include "studio/parameter_table.h"
+#include "studio/material_parameters.h"
 
 /* Steps forward by this many kinds, or back. */
 static inline void step_kind(struct mtl_source *source, int steps)

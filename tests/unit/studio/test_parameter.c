@@ -9,7 +9,7 @@
 
 #include "base/file.h"
 #include "load/scene_load.h"
-#include "studio/parameter_table.h"
+#include "studio/material_parameters.h"
 #include "tests/unit/check.h"
 #include "tests/unit/files.h"
 

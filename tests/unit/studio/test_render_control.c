@@ -90,7 +90,7 @@ static void live_mode_has_nothing_to_lose(void **state)
     while (render_control_awaits_picture(w))
         render_control_update(w);
     assert_false(render_control_has_unsaved(w));
-    assert_true(render_control_may_move(w));
+    assert_true(render_control_need_live(w, "the camera moves"));
 }
 
 /* Moves the camera very little. */
@@ -164,7 +164,7 @@ static void normal_mode_renders_to_its_end(void **state)
     render_control_set_live(w, false);
     run_to_end(w);
     assert_int_equal(w->progress.state, RENDER_IDLE);
-    assert_false(render_control_may_move(w));
+    assert_false(render_control_need_live(w, "the camera moves"));
     assert_false(render_control_has_unsaved(w)); /* nothing has begun */
     render_control_start_or_halt(w);
     run_to_end(w);
@@ -467,7 +467,7 @@ static void messages_name_the_chosen_keys(void **state)
     keymap_choose(&f->options.keys, ACTION_MODE, chosen);
     keymap_settle(&f->options.keys, false);
     render_control_set_live(&f->control, false);
-    assert_false(render_control_may_move(&f->control));
+    assert_false(render_control_need_live(&f->control, "the camera moves"));
     assert_string_equal(f->control.message.text,
                         "the camera moves only in live mode: j switches to it");
     render_control_restart(&f->control);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/*
+ * material_parameters.h - the parameters of a material, on its MTL statements
+ *
+ * A material has one kind, one colour, one roughness and one emission on the
+ * screen. Its kind decides which statements hold them, as in
+ * material_from_source(), which finds the same values after a change.
+ *
+ * Units:     those of MTL
+ * Threads:   any
+ */
+#ifndef GLIM_MATERIAL_PARAMETERS_H
+#define GLIM_MATERIAL_PARAMETERS_H
+
+#include "studio/parameter_table.h"
+
+#define MATERIAL_PARAMETERS 27
+
+extern const struct parameter_row material_parameters[MATERIAL_PARAMETERS];
+
+/* The row of each map. */
+extern const struct parameter_row map_parameter;
+
+/* Fills the owner with the material of these statements. */
+void material_parameters_open(struct owner *owner,
+                              const struct mtl_source *source);
+
+/* Returns the name of the material's kind. The swatch is the colour of its
+ * emission if it emits light, else the colour of the material. */
+const char *material_parameters_summary(const struct mtl_source *source,
+                                        double swatch[3]);
+
+#endif
