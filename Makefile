@@ -429,7 +429,7 @@ bench-cycles: $(B)/glim
 
 ## stress: runs checks at numerical limits, and others that take minutes;
 ##         FILTER=NAME selects one: samples geometry light films schedulers
-##         error filter blender extremes sizes keys rays oclgrind valgrind
+##         error filter gltf blender extremes sizes keys rays oclgrind valgrind
 stress: $(B)/glim $(MPI_PROGRAM) $(STRESSES) $(B)/unit/terminal/test_tty
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 

@@ -210,11 +210,15 @@ stress_filter() {
     rows filter
 }
 
+stress_gltf() {
+    rows gltf
+}
+
 stress_extremes() {
     rows extremes
 }
 
-for name in samples geometry light films schedulers error filter blender extremes sizes keys rays oclgrind valgrind; do
+for name in samples geometry light films schedulers error filter gltf blender extremes sizes keys rays oclgrind valgrind; do
     if wanted "$name"; then
         "stress_$name"
     fi
