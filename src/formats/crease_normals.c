@@ -368,6 +368,7 @@ static bool take_normals(struct mesh *m)
         m->blocks[i].base = count;
         count += m->blocks[i].normal_count;
     }
+    free(s->normals); /* those of the file that were all unusable */
     s->normals = alloc_array(count, sizeof *s->normals);
     if (s->normals == NULL)
         return false;

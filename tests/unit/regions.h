@@ -27,7 +27,7 @@
  * scattering are between low and high. */
 struct region_truth {
     double low[REGIONS], high[REGIONS], error[REGIONS];
-    double cycles[REGIONS], mitsuba[REGIONS];
+    double cycles[REGIONS], cycles_high[REGIONS], mitsuba[REGIONS];
     double least; /* darker regions are compared as if they had this mean */
     double tolerance;
     char *background; /* statement of a view file */
@@ -61,6 +61,10 @@ static inline void region_truth_read(const char *path, struct region_truth *t)
                      json_object_get(regions, "cycles") != NULL ? "cycles"
                                                                 : "mean",
                      t->cycles);
+    memcpy(t->cycles_high,
+           json_is_array(json_object_get(regions, "mean_multi")) ? multi
+                                                                 : t->cycles,
+           sizeof t->cycles_high);
     region_grid_read(json_object_get(regions, "second"), "mean", t->mitsuba);
     t->least = 0;
     for (int i = 0; i < REGIONS; i++) {
