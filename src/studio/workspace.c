@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "base/clock.h"
+#include "filter/screen_filter.h"
 #include "studio/panel_draw.h"
 #include "studio/screen_draft.h"
 #include "studio/status_line.h"
@@ -34,6 +35,10 @@
 /* The status line says that the picture is filtered until it was not for this
  * time: the first frames after a move of the camera are not. */
 #define FILTERED_NS S_NS
+
+/* A picture counts as moving until this time after a restart: keys that are
+ * held come again within it. */
+#define REST_NS (400 * MS_NS)
 
 /* A terminal that has not answered within this time shows no pixels. */
 #define LACK_NS S_NS
@@ -411,6 +416,34 @@ static void paint(struct workspace *workspace)
         dim(&workspace->frame);
 }
 
+static enum pixel_graphics_pace pace_of(const struct workspace *workspace,
+                                        uint64_t now_ns)
+{
+    const struct render_control *control = workspace->control;
+
+    if (!control->is_live || control->progress.state != RENDER_RUNNING)
+        return PIXEL_GRAPHICS_RESTS;
+    if (now_ns < control->restarted_ns + REST_NS)
+        return PIXEL_GRAPHICS_MOVES;
+    return control->progress.spp_done == 0 ? PIXEL_GRAPHICS_BEGINS
+                                           : PIXEL_GRAPHICS_RESTS;
+}
+
+/* A picture of pixels has no more of them than the draft until it rests. */
+static void size_frame(struct workspace *workspace,
+                       enum pixel_graphics_pace pace)
+{
+    const struct screen *screen = &workspace->screen;
+    struct frame *frame = &workspace->frame;
+
+    frame->width = screen->frame_width;
+    frame->height = screen->frame_height;
+    if (pace != PIXEL_GRAPHICS_RESTS &&
+        screen->graphics.shape.kind != PIXEL_GRAPHICS_NONE)
+        screen_filter_draft_size(screen->frame_width, screen->frame_height,
+                                 &frame->width, &frame->height);
+}
+
 /* Writes text that has changed, then makes and writes a frame if `has_frame`.
  */
 static enum screen_result send(struct workspace *workspace, bool has_frame)
@@ -419,13 +452,17 @@ static enum screen_result send(struct workspace *workspace, bool has_frame)
     struct view_mode *view_mode = &workspace->inspector.view_mode;
     uint64_t now_ns = clock_ns();
     bool said_filtered = says_filtered(workspace, now_ns);
+    struct screen_frame frame = {.pixels = &workspace->frame};
     enum screen_result result;
 
     screen_draw_text(screen);
     if (!has_frame || screen->is_too_small)
-        return screen_draw(screen, NULL, 0);
+        return screen_draw(screen, &(struct screen_frame){.pixels = NULL});
+    frame.pace = pace_of(workspace, now_ns);
+    frame.step = frame_step(workspace);
+    size_frame(workspace, frame.pace);
     paint(workspace);
-    result = screen_draw(screen, &workspace->frame, frame_step(workspace));
+    result = screen_draw(screen, &frame);
     if (view_mode->is_filtered)
         workspace->filtered_until_ns = now_ns + FILTERED_NS;
     if (view_mode->legend_is_new ||

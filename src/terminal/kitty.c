@@ -7,15 +7,15 @@
 /* Transmission with display: 24-bit pixels, no answers, the cursor stays,
  * base64 in pieces of at most 4096 bytes.
  * https://sw.kovidgoyal.net/kitty/graphics-protocol/ */
-#define BEGIN "\033_Ga=T,f=24,s=%d,v=%d,i=%d,p=1,q=2,C=1,m=%d;"
+#define BEGIN "\033_Ga=T,f=24,s=%d,v=%d,c=%d,r=%d,i=%d,p=1,q=2,C=1,m=%d;"
 #define GO_ON "\033_Gm=%d;"
 #define END   "\033\\"
 #define ERASE "\033_Ga=d,d=I,i=%d,q=2\033\\"
 
 #define PIECE_BYTES 3072 /* 4096 bytes in base64 */
 
-/* Upper bounds: BEGIN and ERASE; GO_ON with END. */
-#define BEGIN_BYTES 96
+/* Upper bounds: BEGIN with ERASE; GO_ON with END. */
+#define BEGIN_BYTES 192
 #define GO_ON_BYTES 16
 
 static const char digits[] =
@@ -51,8 +51,8 @@ size_t kitty_encode(const struct kitty_image *image, char *bytes)
         int has_more = count - i > piece;
 
         if (i == 0)
-            p += sprintf(p, BEGIN, image->width, image->height, image->id,
-                         has_more);
+            p += sprintf(p, BEGIN, image->width, image->height, image->cols,
+                         image->rows, image->id, has_more);
         else if (i % piece == 0)
             p += sprintf(p, GO_ON, has_more);
         p = put_pixel(p, row + 3 * (i % image->width));

@@ -2,6 +2,7 @@
 #include "terminal/pixel_graphics.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,38 +10,52 @@
 #include "terminal/kitty.h"
 #include "terminal/sixel.h"
 
-/* Columns of a tile. Few enough for the budget of a slow line, enough to
- * outweigh the 200 bytes or so of colour definitions that an image needs. */
-#define TILE_COLS 16
+/* Rows of images. With images of SIXEL_WIDTH_MAX a window of 1900 pixels has
+ * 16: xterm keeps no more, and shows what is below when it forgets one. */
+#define IMAGE_ROWS 4
 
 /* Most bytes of a jump to any cell. */
 #define JUMP_BYTES 24
 
-static bool init_frame(struct frame *frame,
-                       const struct pixel_graphics_shape *shape,
-                       struct error *err)
+/* First guess of the bytes of a pixel: base64 of three bytes. Sixels have as
+ * many in a picture with some noise. */
+#define PIXEL_BYTES 4
+
+/* At rest a frame may take so many times as long as while the camera moves. */
+#define REST_SHARE 4
+
+/* Remembers an image of kitty that is to be removed. */
+static void retire(struct pixel_graphics *g, int id)
 {
-    return frame_init(frame, shape->cols * shape->cell_width_px,
-                      shape->rows * shape->cell_height_px, err);
+    if (id > 0 && g->old_count < PIXEL_GRAPHICS_OLD)
+        g->old_images[g->old_count++] = id;
 }
 
 bool pixel_graphics_init(struct pixel_graphics *g,
                          const struct pixel_graphics_shape *shape,
-                         struct error *err)
+                         const struct pixel_graphics *before, struct error *err)
 {
-    int most = SIXEL_WIDTH_MAX / shape->cell_width_px;
+    size_t rows_px = ((size_t)shape->rows + IMAGE_ROWS - 1) / IMAGE_ROWS *
+                     (size_t)shape->cell_height_px;
 
     assert(shape->kind != PIXEL_GRAPHICS_NONE);
-    *g = (struct pixel_graphics){.shape = *shape};
-    g->tile_cols = most < 1 ? 1 : most < TILE_COLS ? most : TILE_COLS;
-    g->tiles_across = (shape->cols + g->tile_cols - 1) / g->tile_cols;
-    g->tiles = alloc_array((size_t)g->tiles_across * (size_t)shape->rows,
-                           sizeof g->tiles[0]);
-    g->numbers =
-        alloc_array((size_t)g->tile_cols * (size_t)shape->cell_width_px,
-                    (size_t)shape->cell_height_px);
-    if (g->tiles && g->numbers && init_frame(&g->wanted, shape, err) &&
-        init_frame(&g->shown, shape, err) && dither_init(&g->dither, err))
+    *g = (struct pixel_graphics){
+        .shape = *shape,
+        .is_stale = true,
+        .pixel_bytes = PIXEL_BYTES,
+        .width_px = shape->cols * shape->cell_width_px,
+        .height_px = shape->rows * shape->cell_height_px,
+    };
+    g->last_id = before->last_id;
+    for (int i = 0; i < before->old_count; i++)
+        retire(g, before->old_images[i]);
+    for (int i = 0; i < before->image_count; i++)
+        retire(g, before->images[i].id);
+    g->pixels = alloc_array(3 * rows_px, SIXEL_WIDTH_MAX);
+    g->numbers = alloc_array(rows_px, SIXEL_WIDTH_MAX);
+    if (g->pixels && g->numbers &&
+        frame_init(&g->shown, g->width_px, g->height_px, err) &&
+        dither_init(&g->dither, err))
         return true;
     pixel_graphics_free(g);
     return fail(err, "out of memory for a picture of %dx%d cells as pixels",
@@ -49,55 +64,102 @@ bool pixel_graphics_init(struct pixel_graphics *g,
 
 void pixel_graphics_free(struct pixel_graphics *g)
 {
-    free(g->tiles);
+    free(g->pixels);
     free(g->numbers);
-    frame_free(&g->wanted);
     frame_free(&g->shown);
     dither_free(&g->dither);
     *g = (struct pixel_graphics){0};
 }
 
-void pixel_graphics_invalidate(struct pixel_graphics *g,
-                               struct ansi_diff_rect rect)
+void pixel_graphics_invalidate(struct pixel_graphics *g)
 {
-    int count = g->tiles_across * g->shape.rows;
+    g->is_stale = true;
+}
 
-    for (int i = 0; i < count; i++) {
-        int row = i / g->tiles_across;
-        int begin = i % g->tiles_across * g->tile_cols;
+/* ---- places of the images ---- */
 
-        if (row >= rect.row && row < rect.row + rect.rows &&
-            begin < rect.col + rect.cols && begin + g->tile_cols > rect.col)
-            g->tiles[i].is_known = false;
+static int at_most(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* Finds the images that show what no window covers. Rows that are covered alike
+ * are of one image, if it does not become too high. Returns their number. */
+static int find_images(const struct pixel_graphics *g,
+                       const struct ansi_diff_draw *how,
+                       struct ansi_diff_rect rects[PIXEL_GRAPHICS_IMAGES])
+{
+    int cols_max = SIXEL_WIDTH_MAX / g->shape.cell_width_px;
+    int rows_max = (g->shape.rows + IMAGE_ROWS - 1) / IMAGE_ROWS;
+    int count = 0;
+
+    for (int row = 0; row < g->shape.rows; row++) {
+        int col = ansi_diff_uncovered(how, 0, row);
+
+        while (col < g->shape.cols) {
+            int last = at_most(g->shape.cols, col + cols_max);
+            int end = col + 1, i = 0;
+
+            while (end < last && ansi_diff_uncovered(how, end, row) == end)
+                end++;
+            while (i < count &&
+                   !(rects[i].col == col && rects[i].cols == end - col &&
+                     rects[i].row + rects[i].rows == row &&
+                     rects[i].rows < rows_max))
+                i++;
+            if (i < count)
+                rects[i].rows++;
+            else if (count < PIXEL_GRAPHICS_IMAGES)
+                rects[count++] =
+                    (struct ansi_diff_rect){col, row, end - col, 1};
+            col = ansi_diff_uncovered(how, end, row);
+        }
     }
+    return count;
 }
 
-const char *pixel_graphics_eraser(enum pixel_graphics_kind kind)
+/* Takes new places of the images. Returns true if all have to be sent. */
+static bool place_images(struct pixel_graphics *g,
+                         const struct ansi_diff_draw *how)
 {
-    return kind == PIXEL_GRAPHICS_KITTY ? KITTY_ERASE_ALL : NULL;
+    struct ansi_diff_rect rects[PIXEL_GRAPHICS_IMAGES];
+    int count = find_images(g, how, rects);
+    bool is_other = count != g->image_count;
+
+    for (int i = 0; i < count && !is_other; i++)
+        is_other = memcmp(&rects[i], &g->images[i].rect, sizeof rects[0]) != 0;
+    if (!is_other)
+        return g->is_stale;
+    for (int i = 0; i < g->image_count; i++)
+        retire(g, g->images[i].id);
+    for (int i = 0; i < count; i++)
+        g->images[i] = (struct pixel_graphics_image){.rect = rects[i]};
+    g->image_count = count;
+    return true;
 }
 
-/* Returns the first run of columns of a tile that no window covers. Every
- * window of glim is wider than a tile, so none leaves both ends free. */
-static struct pixel_graphics_tile wanted_tile(const struct pixel_graphics *g,
-                                              int index,
-                                              const struct ansi_diff_draw *how)
+/* Rectangle in pixels. */
+struct area {
+    int x, y, width, height;
+};
+
+/* Returns the pixels of a picture of width x height that show an image. */
+static struct area area_in(const struct pixel_graphics *g,
+                           const struct ansi_diff_rect *r, int width,
+                           int height)
 {
-    int row = index / g->tiles_across;
-    int first = index % g->tiles_across * g->tile_cols;
-    int last = first + g->tile_cols;
-    struct pixel_graphics_tile tile = {.is_known = true};
+    int x0 = r->col * width / g->shape.cols;
+    int y0 = r->row * height / g->shape.rows;
+    int x1 = (r->col + r->cols) * width / g->shape.cols;
+    int y1 = (r->row + r->rows) * height / g->shape.rows;
 
-    last = last < g->shape.cols ? last : g->shape.cols;
-    tile.begin = ansi_diff_uncovered(how, first, row);
-    if (tile.begin >= last)
-        return (struct pixel_graphics_tile){.is_known = true};
-    for (tile.end = tile.begin + 1;
-         tile.end < last &&
-         ansi_diff_uncovered(how, tile.end, row) == tile.end;)
-        tile.end++;
-    return tile;
+    /* small frames have less than a pixel for each cell */
+    x0 = x1 > x0 ? x0 : at_most(x0, width - 1);
+    y0 = y1 > y0 ? y0 : at_most(y0, height - 1);
+    return (struct area){x0, y0, x1 > x0 ? x1 - x0 : 1, y1 > y0 ? y1 - y0 : 1};
 }
+
+/* ---- pixels ---- */
 
 static uint8_t *pixel_of(const struct frame *frame, int x, int y)
 {
@@ -116,154 +178,241 @@ static bool rows_close(const uint8_t *a, const uint8_t *b, size_t count,
     return true;
 }
 
-/* Rectangle of a tile in pixels. */
-struct area {
-    int x, y, width, height;
-};
-
-static struct area area_of(const struct pixel_graphics *g, int row,
-                           const struct pixel_graphics_tile *tile)
+/* Returns true if an image shows its part of the frame, with channel
+ * differences up to `step`. */
+static bool may_stay(const struct pixel_graphics *g,
+                     const struct pixel_graphics_image *image,
+                     const struct frame *frame, int step)
 {
-    const struct pixel_graphics_shape *s = &g->shape;
+    struct area area = area_in(g, &image->rect, frame->width, frame->height);
 
-    return (struct area){tile->begin * s->cell_width_px,
-                         row * s->cell_height_px,
-                         (tile->end - tile->begin) * s->cell_width_px,
-                         s->cell_height_px};
-}
-
-/* Returns true if the tile is shown already, with channel differences up to
- * `step`. */
-static bool may_stay(const struct pixel_graphics *g, int index,
-                     const struct pixel_graphics_tile *wanted, int step)
-{
-    const struct pixel_graphics_tile *tile = &g->tiles[index];
-    struct area area = area_of(g, index / g->tiles_across, wanted);
-
-    if (!tile->is_known || tile->begin != wanted->begin ||
-        tile->end != wanted->end)
+    if (!image->is_fine || g->shown.width != frame->width ||
+        g->shown.height != frame->height)
         return false;
-    for (int y = area.y; area.width > 0 && y < area.y + area.height; y++) {
+    for (int y = area.y; y < area.y + area.height; y++) {
         if (!rows_close(pixel_of(&g->shown, area.x, y),
-                        pixel_of(&g->wanted, area.x, y), 3 * (size_t)area.width,
+                        pixel_of(frame, area.x, y), 3 * (size_t)area.width,
                         step))
             return false;
     }
     return true;
 }
 
-static size_t encode_sixel(struct pixel_graphics *g, const struct area *area,
-                           char *bytes)
+/* Remembers the part of the frame that an image shows. */
+static void keep_shown(struct pixel_graphics *g, const struct area *area,
+                       const struct frame *frame)
 {
-    struct sixel_image image = {area->width, area->height, g->shape.palette,
-                                g->numbers};
-    uint8_t *number = g->numbers;
+    g->shown.width = frame->width;
+    g->shown.height = frame->height;
+    for (int y = area->y; y < area->y + area->height; y++)
+        memcpy(pixel_of(&g->shown, area->x, y), pixel_of(frame, area->x, y),
+               3 * (size_t)area->width);
+}
 
-    for (int y = area->y; y < area->y + area->height; y++) {
-        for (int x = area->x; x < area->x + area->width; x++) {
-            const uint8_t *p = pixel_of(&g->wanted, x, y);
+/* Reduces an area of the frame to the mean colours of width x height blocks. */
+static void reduce(const struct frame *frame, const struct area *area,
+                   int width, int height, uint8_t *to)
+{
+    for (int y = 0; y < height; y++) {
+        int y0 = area->y + y * area->height / height;
+        int y1 = area->y + (y + 1) * area->height / height;
 
-            *number++ = (uint8_t)dither_color(&g->dither,
-                                              (struct rgb){p[0], p[1], p[2]}, x,
-                                              y, g->shape.palette);
+        for (int x = 0; x < width; x++, to += 3) {
+            int x0 = area->x + x * area->width / width;
+            int x1 = area->x + (x + 1) * area->width / width;
+            int count = (x1 - x0) * (y1 - y0);
+            int sum[3] = {count / 2, count / 2, count / 2};
+
+            for (int i = y0; i < y1; i++) {
+                const uint8_t *p = pixel_of(frame, x0, i);
+
+                for (int k = 0; k < 3 * (x1 - x0); k++)
+                    sum[k % 3] += p[k];
+            }
+            for (int c = 0; c < 3; c++)
+                to[c] = (uint8_t)(sum[c] / count);
         }
     }
-    return sixel_encode(&image, bytes);
 }
 
-static size_t encode_kitty(const struct pixel_graphics *g, int index,
-                           const struct area *area, char *bytes)
+/* Makes the palette numbers of an image of the terminal's pixels, which repeats
+ * those of g->pixels. A repeated pixel is dithered as one. */
+static void fill_numbers(struct pixel_graphics *g, const struct area *area,
+                         int width, int height)
 {
-    struct kitty_image image = {index + 1, area->width, area->height,
-                                pixel_of(&g->wanted, area->x, area->y),
-                                3 * (size_t)g->wanted.width};
+    uint8_t *number = g->numbers;
+    int before_y = -1;
 
-    return kitty_encode(&image, bytes);
-}
+    for (int y = 0; y < area->height; y++) {
+        int from_y = y * height / area->height;
+        int before_x = -1;
 
-static size_t tile_bytes_max(const struct pixel_graphics *g,
-                             const struct area *area)
-{
-    return JUMP_BYTES + (g->shape.kind == PIXEL_GRAPHICS_KITTY
-                             ? kitty_bytes_max(area->width, area->height)
-                             : sixel_bytes_max(area->width, area->height));
-}
+        if (from_y == before_y) {
+            memcpy(number, number - area->width, (size_t)area->width);
+            number += area->width;
+            continue;
+        }
+        for (int x = 0; x < area->width; x++, number++) {
+            int from_x = x * width / area->width;
+            const uint8_t *p = g->pixels + 3 * (from_y * width + from_x);
 
-/* Sends the pixels of a tile, or removes them where a window is. Returns false
- * when memory is out. */
-static bool put_tile(struct pixel_graphics *g, struct ansi_diff *a, int index,
-                     const struct pixel_graphics_tile *wanted,
-                     const struct ansi_diff_draw *how)
-{
-    bool is_kitty = g->shape.kind == PIXEL_GRAPHICS_KITTY;
-    int row = index / g->tiles_across;
-    struct area area = area_of(g, row, wanted);
-
-    if (!ansi_diff_reserve(a, tile_bytes_max(g, &area)))
-        return false;
-    if (area.width > 0) {
-        ansi_diff_jump(a, how->row + row, how->col + wanted->begin);
-        char *bytes = a->bytes + a->length;
-        a->length += is_kitty ? encode_kitty(g, index, &area, bytes)
-                              : encode_sixel(g, &area, bytes);
-    } else if (is_kitty) {
-        a->length += kitty_erase(index + 1, a->bytes + a->length);
+            if (from_x == before_x)
+                *number = number[-1];
+            else
+                *number = (uint8_t)dither_color(
+                    &g->dither, (struct rgb){p[0], p[1], p[2]},
+                    area->x * width / area->width + from_x,
+                    area->y * height / area->height + from_y, g->shape.palette);
+            before_x = from_x;
+        }
+        before_y = from_y;
     }
-    for (int y = area.y; y < area.y + area.height; y++)
-        memcpy(pixel_of(&g->shown, area.x, y), pixel_of(&g->wanted, area.x, y),
-               3 * (size_t)area.width);
-    g->tiles[index] = *wanted;
+}
+
+/* ---- sending ---- */
+
+/* Returns the width in terminal's pixels of a square pixel for which a number
+ * of these fits into the bytes. There is one pixel a cell at least, so that
+ * something can be recognised. Pixels of sixels divide a band of them, or
+ * consist of bands: others would take more bytes. */
+static double block_of(const struct pixel_graphics *g, double pixels,
+                       double size_bytes)
+{
+    double cell = (double)g->shape.cell_width_px * g->shape.cell_height_px;
+    double most = fmax(size_bytes / g->pixel_bytes, pixels / cell);
+    double block = fmax(sqrt(pixels / most), 1);
+
+    if (g->shape.kind == PIXEL_GRAPHICS_SIXEL)
+        block = block > 3 ? 6 * ceil(block / 6) : ceil(block);
+    return block;
+}
+
+static size_t encode(struct pixel_graphics *g,
+                     struct pixel_graphics_image *image,
+                     const struct area *screen, int width, int height,
+                     char *bytes)
+{
+    int before = image->id;
+    struct kitty_image kitty = {.id = g->last_id + 1,
+                                .cols = image->rect.cols,
+                                .rows = image->rect.rows,
+                                .width = width,
+                                .height = height,
+                                .rgb = g->pixels,
+                                .stride_bytes = 3 * (size_t)width};
+    struct sixel_image sixel = {screen->width, screen->height, g->shape.palette,
+                                g->numbers};
+    size_t length;
+
+    if (g->shape.kind == PIXEL_GRAPHICS_SIXEL) {
+        fill_numbers(g, screen, width, height);
+        return sixel_encode(&sixel, bytes);
+    }
+    image->id = ++g->last_id;
+    length = kitty_encode(&kitty, bytes);
+    if (before > 0)
+        length += kitty_erase(before, bytes + length);
+    return length;
+}
+
+/* Sends an image with pixels of this width. Returns false when memory is out.
+ */
+static bool put_image(struct pixel_graphics *g, struct ansi_diff *a,
+                      struct pixel_graphics_image *image,
+                      const struct frame *frame, double block,
+                      const struct ansi_diff_draw *how)
+{
+    struct area from = area_in(g, &image->rect, frame->width, frame->height);
+    struct area screen = area_in(g, &image->rect, g->width_px, g->height_px);
+    int width = at_most((int)ceil(screen.width / block), from.width);
+    int height = at_most((int)ceil(screen.height / block), from.height);
+    size_t before = a->length;
+
+    if (!ansi_diff_reserve(a,
+                           JUMP_BYTES + (g->shape.kind == PIXEL_GRAPHICS_KITTY
+                                             ? kitty_bytes_max(width, height)
+                                             : sixel_bytes_max(screen.width,
+                                                               screen.height))))
+        return false;
+    reduce(frame, &from, width, height, g->pixels);
+    ansi_diff_jump(a, how->row + image->rect.row, how->col + image->rect.col);
+    a->length += encode(g, image, &screen, width, height, a->bytes + a->length);
+    g->pixel_bytes +=
+        .2 * ((double)(a->length - before) / (width * height) - g->pixel_bytes);
+    image->is_fine = width == from.width && height == from.height;
+    if (image->is_fine)
+        keep_shown(g, &from, frame);
     return true;
 }
 
-/* Repeats pixels to the size of `to`; repeated rows are copied. */
-static void enlarge(const struct frame *from, struct frame *to)
+/* Sends all images. Returns true if all are fine. */
+static bool put_all(struct pixel_graphics *g, struct ansi_diff *a,
+                    const struct frame *frame, size_t budget_bytes,
+                    const struct ansi_diff_draw *how)
 {
-    size_t row_bytes = 3 * (size_t)to->width;
-    int before = -1;
+    double block =
+        block_of(g, (double)g->width_px * g->height_px, (double)budget_bytes);
+    bool are_fine = true;
 
-    for (int y = 0; y < to->height; y++) {
-        int from_y = (int)((int64_t)y * from->height / to->height);
-        uint8_t *out = pixel_of(to, 0, y);
-
-        if (from_y == before) {
-            memcpy(out, out - row_bytes, row_bytes);
-            continue;
-        }
-        before = from_y;
-        for (int x = 0; x < to->width; x++)
-            memcpy(out + 3 * x,
-                   pixel_of(from, (int)((int64_t)x * from->width / to->width),
-                            from_y),
-                   3);
+    for (int i = 0; i < g->image_count; i++) {
+        if (!put_image(g, a, &g->images[i], frame, block, how))
+            return false;
+        are_fine = are_fine && g->images[i].is_fine;
     }
+    for (int i = 0; i < g->old_count; i++) {
+        if (!ansi_diff_reserve(a, kitty_bytes_max(0, 0)))
+            return false;
+        a->length += kitty_erase(g->old_images[i], a->bytes + a->length);
+    }
+    g->old_count = 0;
+    g->next = 0;
+    g->is_stale = false;
+    return are_fine;
 }
 
-bool pixel_graphics_picture(struct pixel_graphics *g, struct ansi_diff *a,
-                            const struct frame *frame,
-                            const struct ansi_diff_draw *how)
+/* Sends images that differ, as fine as the frame or as the line allows. */
+static bool put_changes(struct pixel_graphics *g, struct ansi_diff *a,
+                        const struct frame *frame,
+                        const struct ansi_diff_draw *how)
 {
-    const char *eraser = pixel_graphics_eraser(g->shape.kind);
-    int count = g->tiles_across * g->shape.rows;
-    size_t limit = how->budget_bytes > SIZE_MAX - a->length
-                       ? SIZE_MAX
-                       : a->length + how->budget_bytes;
+    size_t limit = a->length + how->budget_bytes;
 
-    enlarge(frame, &g->wanted);
-    if (!g->has_begun && eraser)
-        ansi_diff_text(a, eraser);
-    g->has_begun = true;
-    for (int i = 0; i < count; i++) {
-        int index = (g->next + i) % count;
-        struct pixel_graphics_tile wanted = wanted_tile(g, index, how);
+    for (int i = 0; i < g->image_count; i++) {
+        int index = (g->next + i) % g->image_count;
+        struct pixel_graphics_image *image = &g->images[index];
+        double pixels = (double)image->rect.cols * g->shape.cell_width_px *
+                        image->rect.rows * g->shape.cell_height_px;
+        double block =
+            block_of(g, pixels, REST_SHARE * (double)how->budget_bytes);
 
-        if (may_stay(g, index, &wanted, how->step))
+        if (may_stay(g, image, frame, how->step))
             continue;
-        if (a->length >= limit || !put_tile(g, a, index, &wanted, how)) {
+        if (a->length >= limit || !put_image(g, a, image, frame, block, how)) {
             g->next = index;
             return false;
+        }
+        if (!image->is_fine) {
+            struct area area =
+                area_in(g, &image->rect, frame->width, frame->height);
+
+            keep_shown(g, &area, frame);
+            image->is_fine = true;
         }
     }
     g->next = 0;
     return true;
+}
+
+bool pixel_graphics_picture(struct pixel_graphics *g, struct ansi_diff *a,
+                            const struct frame *frame,
+                            enum pixel_graphics_pace pace,
+                            const struct ansi_diff_draw *how)
+{
+    size_t share = pace == PIXEL_GRAPHICS_MOVES ? 1 : REST_SHARE;
+    bool needs_all = place_images(g, how);
+
+    if (pace == PIXEL_GRAPHICS_RESTS && !needs_all)
+        return put_changes(g, a, frame, how);
+    return put_all(g, a, frame, share * how->budget_bytes, how) ||
+           pace != PIXEL_GRAPHICS_RESTS;
 }

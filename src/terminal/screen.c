@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "picture/frame.h"
 #include "terminal/gauge.h"
+#include "terminal/kitty.h"
 
 /* Longest wait for answers in screen_drain(). */
 #define DRAIN_NS UINT64_C(500000000)
@@ -36,14 +37,13 @@ void screen_init(struct screen *screen, const struct term_caps_choice *choice)
     term_caps_init(&screen->display, choice);
 }
 
-/* Removes the picture's pixels where characters do not overwrite them: kitty's,
- * but not sixels. */
-static void erase_pixels(struct screen *screen)
+/* Removes images that characters do not overwrite: kitty's, but not sixels. */
+static void erase_images(struct screen *screen)
 {
-    const char *eraser = pixel_graphics_eraser(screen->graphics.shape.kind);
-
-    if (eraser)
-        tty_write(eraser, strlen(eraser));
+    if (screen->has_old_images ||
+        screen->graphics.shape.kind == PIXEL_GRAPHICS_KITTY)
+        tty_write(KITTY_ERASE_ALL, sizeof KITTY_ERASE_ALL - 1);
+    screen->has_old_images = false;
 }
 
 static void free_sized(struct screen *screen)
@@ -113,8 +113,10 @@ static int at_most(int a, int b)
 
 /* Frames have no more pixels than the picture. Returns false if the terminal
  * shows no pixels, or without memory: cells are shown then. */
-static bool init_pixels(struct screen *screen, const struct tty_size *size,
-                        int width_px, int height_px, struct error *err)
+static bool init_pixels(struct screen *screen,
+                        const struct pixel_graphics *before,
+                        const struct tty_size *size, int width_px,
+                        int height_px, struct error *err)
 {
     const struct term_caps *d = &screen->display;
     bool is_poor = d->sixel_colors > 0 && d->sixel_colors < SIXEL_COLORS_MIN;
@@ -129,10 +131,10 @@ static bool init_pixels(struct screen *screen, const struct tty_size *size,
         !term_caps_cell_size(d, size, &shape.cell_width_px,
                              &shape.cell_height_px))
         return false;
-    if (!pixel_graphics_init(&screen->graphics, &shape, err))
+    if (!pixel_graphics_init(&screen->graphics, &shape, before, err))
         return false;
-    screen->frame_width = at_most(screen->graphics.shown.width, width_px);
-    screen->frame_height = at_most(screen->graphics.shown.height, height_px);
+    screen->frame_width = at_most(screen->graphics.width_px, width_px);
+    screen->frame_height = at_most(screen->graphics.height_px, height_px);
     return true;
 }
 
@@ -148,9 +150,10 @@ static bool init_cells(struct screen *screen, struct error *err)
 bool screen_layout(struct screen *screen, int width_px, int height_px,
                    struct error *err)
 {
+    struct pixel_graphics before = screen->graphics;
     struct tty_size size;
+    bool ok;
 
-    erase_pixels(screen);
     free_sized(screen);
     tty_relayout();
     size = term_size();
@@ -159,7 +162,10 @@ bool screen_layout(struct screen *screen, int width_px, int height_px,
     windows_use_theme(screen->display.theme, screen->display.palette);
     screen->must_update = true;
     screen->is_too_small = is_too_small(&size);
+    if (before.shape.kind == PIXEL_GRAPHICS_KITTY)
+        screen->has_old_images = true;
     if (screen->is_too_small) {
+        erase_images(screen);
         say_too_small(&size);
         return true;
     }
@@ -169,10 +175,13 @@ bool screen_layout(struct screen *screen, int width_px, int height_px,
         screen->cursor_col < screen->fit.cols ? screen->cursor_col : 0;
     screen->cursor_row =
         screen->cursor_row < screen->fit.rows ? screen->cursor_row : 0;
-    return ansi_diff_init(&screen->ansi, screen->fit.cols, screen->fit.rows,
-                          err) &&
-           (init_pixels(screen, &size, width_px, height_px, err) ||
-            init_cells(screen, err));
+    ok = ansi_diff_init(&screen->ansi, screen->fit.cols, screen->fit.rows,
+                        err) &&
+         (init_pixels(screen, &before, &size, width_px, height_px, err) ||
+          init_cells(screen, err));
+    if (screen->graphics.shape.kind == PIXEL_GRAPHICS_KITTY)
+        screen->has_old_images = false; /* its first picture replaces them */
+    return ok;
 }
 
 bool screen_answer(struct screen *screen, const struct event *event)
@@ -207,7 +216,7 @@ const char *screen_glyphs_name(const struct screen *screen)
 static void give_to_picture(struct screen *screen, struct ansi_diff_rect rect)
 {
     ansi_diff_invalidate(&screen->ansi, rect);
-    pixel_graphics_invalidate(&screen->graphics, rect);
+    pixel_graphics_invalidate(&screen->graphics);
 }
 
 /* The last row of the screen, in cells of the picture. */
@@ -301,7 +310,7 @@ static void mark_pixels(const struct screen *screen, struct frame *f)
 /* Appends changes of the picture to a frame with some text. Returns false if
  * the budget was too small for all of them; half of it is the picture's at
  * least. */
-static bool add_picture(struct screen *screen, struct frame *frame, int step,
+static bool add_picture(struct screen *screen, const struct screen_frame *frame,
                         size_t text_bytes)
 {
     size_t budget_bytes = screen->pace.budget_bytes;
@@ -312,7 +321,7 @@ static bool add_picture(struct screen *screen, struct frame *frame, int step,
                                       budget_bytes > 2 * text_bytes
                                           ? budget_bytes - text_bytes
                                           : budget_bytes / 2,
-                                  .step = step,
+                                  .step = frame->step,
                                   .covered = covered,
                                   .covered_count = 1};
 
@@ -323,13 +332,13 @@ static bool add_picture(struct screen *screen, struct frame *frame, int step,
             (struct ansi_diff_rect){0, 0, screen->fit.cols, screen->fit.rows};
     if (screen->graphics.shape.kind != PIXEL_GRAPHICS_NONE) {
         if (screen->has_cursor)
-            mark_pixels(screen, frame);
+            mark_pixels(screen, frame->pixels);
         if (draw.budget_bytes > PIXEL_BYTES_MAX)
             draw.budget_bytes = PIXEL_BYTES_MAX;
-        return pixel_graphics_picture(&screen->graphics, &screen->ansi, frame,
-                                      &draw);
+        return pixel_graphics_picture(&screen->graphics, &screen->ansi,
+                                      frame->pixels, frame->pace, &draw);
     }
-    cells_from_frame(&screen->cells, frame, screen->display.palette,
+    cells_from_frame(&screen->cells, frame->pixels, screen->display.palette,
                      screen->display.glyphs);
     if (screen->has_cursor)
         cells_mark(&screen->cells, screen->cursor_col, screen->cursor_row);
@@ -349,8 +358,8 @@ void screen_draw_text(struct screen *screen)
 }
 
 /* One write() a frame. */
-enum screen_result screen_draw(struct screen *screen, struct frame *frame,
-                               int step)
+enum screen_result screen_draw(struct screen *screen,
+                               const struct screen_frame *frame)
 {
     struct ansi_diff *a = &screen->ansi;
     bool has_sync = tty_has_sync();
@@ -366,8 +375,12 @@ enum screen_result screen_draw(struct screen *screen, struct frame *frame,
     if (has_sync && text_bytes == 0)
         ansi_diff_text(a, TTY_SYNC_BEGIN);
     before = a->length;
-    if (frame)
-        is_complete = add_picture(screen, frame, step, text_bytes);
+    if (frame->pixels) {
+        is_complete = add_picture(screen, frame, text_bytes);
+        if (screen->has_old_images)
+            ansi_diff_text(a, KITTY_ERASE_ALL);
+        screen->has_old_images = false;
+    }
     if (a->length == before && text_bytes == 0)
         return is_complete ? SCREEN_DONE : SCREEN_MORE;
     asks = a->length > before && frame_pacing_wants_request(&screen->pace);
@@ -403,7 +416,7 @@ void screen_drain(struct screen *screen, struct tty_input *input)
     uint64_t until_ns = clock_ns() + DRAIN_NS;
     uint64_t now_ns;
 
-    erase_pixels(screen);
+    erase_images(screen);
     while (awaits_answers(screen) && (now_ns = clock_ns()) < until_ns) {
         struct pollfd in = {.fd = STDIN_FILENO, .events = POLLIN};
         unsigned char bytes[512];

@@ -55,6 +55,8 @@ struct screen {
     int frame_width, frame_height; /* pixels of the frames it wants */
     struct cells cells;
     struct pixel_graphics graphics; /* used instead of cells unless NONE */
+    int image_layer;                /* of its images in the layout before */
+    bool has_old_images;            /* kitty shows images of a layout before */
     struct ansi_diff ansi;
     struct status_row status;
     bool has_status;
@@ -115,12 +117,17 @@ enum screen_result {
  * made. Call it only if frame_pacing_may_send(); screen_draw() must follow. */
 void screen_draw_text(struct screen *screen);
 
-/* Writes the frame, if it is not NULL, and ends what screen_draw_text() began.
- * The frame has frame_width x frame_height pixels; a cursor is drawn into it
- * where pixels are shown. Cells whose colours changed by no more than `step` of
- * 255 may stay as they are. */
-enum screen_result screen_draw(struct screen *screen, struct frame *frame,
-                               int step);
+struct screen_frame {
+    struct frame *pixels; /* NULL: no picture. A cursor is drawn into it where
+                             pixels are shown */
+    int step; /* cells may stay if their colours changed by no more of 255 */
+    enum pixel_graphics_pace pace;
+};
+
+/* Writes a frame, and ends what screen_draw_text() began. It has frame_width x
+ * frame_height pixels, or fewer where pixels are shown. */
+enum screen_result screen_draw(struct screen *screen,
+                               const struct screen_frame *frame);
 
 /* Size, colours and glyphs of the picture, for saving it as text. */
 struct ansi_text_style screen_style(const struct screen *screen);

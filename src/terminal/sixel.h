@@ -18,7 +18,7 @@
 #include "terminal/dither.h"
 
 /* Widest image in pixels. */
-#define SIXEL_WIDTH_MAX 256
+#define SIXEL_WIDTH_MAX 512
 
 /* Image of numbers of PALETTE_256 or PALETTE_16, row 0 at the top. */
 struct sixel_image {

@@ -14,7 +14,7 @@
 
 #include "tests/unit/check.h"
 
-#define PIXELS_MAX (256 * 256)
+#define PIXELS_MAX (512 * 256)
 
 struct sixels {
     int width, height;
@@ -99,7 +99,7 @@ static inline const char *sixels_read(const char *p, struct sixels *s)
 }
 
 struct kitty_pixels {
-    int width, height, id;
+    int width, height, cols, rows, id;
     uint8_t rgb[3 * PIXELS_MAX];
 };
 
@@ -122,6 +122,8 @@ static inline const char *kitty_read(const char *p, struct kitty_pixels *k)
 
     p = read_int(expect_text(p, "\033_Ga=T,f=24,s="), &k->width);
     p = read_int(expect_text(p, ",v="), &k->height);
+    p = read_int(expect_text(p, ",c="), &k->cols);
+    p = read_int(expect_text(p, ",r="), &k->rows);
     p = read_int(expect_text(p, ",i="), &k->id);
     p = read_int(expect_text(p, ",p=1,q=2,C=1,m="), &has_more);
     for (;;) {

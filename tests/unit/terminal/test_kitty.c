@@ -18,6 +18,8 @@ static void encoded_pixels_are_decoded(void **state)
         int x = (int)(40 * check_random(&seed));
         int y = (int)(20 * check_random(&seed));
         struct kitty_image image = {.id = 1 + round,
+                                    .cols = 3,
+                                    .rows = 2,
                                     .width =
                                         1 + (int)(256 * check_random(&seed)),
                                     .height =
@@ -32,6 +34,7 @@ static void encoded_pixels_are_decoded(void **state)
         bytes[length] = '\0';
         assert_ptr_equal(kitty_read(bytes, &seen), bytes + length);
         free(bytes);
+        assert_true(seen.cols == 3 && seen.rows == 2);
         assert_true(seen.id == image.id && seen.width == image.width &&
                     seen.height == image.height);
         for (int row = 0; row < image.height; row++)

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 /*
  * test_pixel_graphics.c - the bytes go to a small terminal that shows images at
- * its cursor; it must show the picture
+ * its cursor; it must show the picture, and never a hole in it
  */
+#include <math.h>
+
 #include "tests/unit/pixels.h"
 
 #include "terminal/kitty.h"
 #include "terminal/pixel_graphics.h"
 
-#define COLS   40 /* not a multiple of a tile's */
-#define ROWS   5
+#define COLS   90 /* two images, and not a multiple of one */
+#define ROWS   11
 #define CELL_W 7
 #define CELL_H 10
 #define WIDTH  (COLS * CELL_W)
@@ -18,40 +20,74 @@
 /* Pixels of a window without text. */
 #define BLANK (-1)
 
+#define IDS 4096
+
 struct screen {
     int pixel[HEIGHT][WIDTH]; /* 0xRRGGBB, a colour number, or BLANK */
+    int owner[HEIGHT][WIDTH]; /* kitty's image there */
     int col, row;
-    int image_col[256], image_row[256],
-        image_cols[256]; /* images of kitty by id */
-    int images;
+    bool has_image[IDS]; /* kitty's */
+    int images, removals;
+    bool must_be_whole; /* a hole is a failure, at any time */
+    struct ansi_diff_rect window;
 };
 
-static void put_pixels(struct screen *s, int width, int height,
-                       const int *pixels)
+static bool is_covered(const struct screen *s, int x, int y)
 {
-    for (int y = 0; y < height; y++) {
-        for (int x = 0; x < width; x++) {
-            int to_x = s->col * CELL_W + x, to_y = s->row * CELL_H + y;
+    const struct ansi_diff_rect *w = &s->window;
+    int col = x / CELL_W, row = y / CELL_H;
 
-            assert_true(to_x < WIDTH && to_y < HEIGHT);
-            s->pixel[to_y][to_x] = pixels[y * width + x];
-        }
+    return col >= w->col && col < w->col + w->cols && row >= w->row &&
+           row < w->row + w->rows;
+}
+
+static void check_whole(const struct screen *s)
+{
+    for (int y = 0; s->must_be_whole && y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++)
+            assert_true(is_covered(s, x, y) || s->pixel[y][x] != BLANK);
     }
 }
 
-static void blank(struct screen *s, int col, int row, int cols)
+/* Shows an image that is scaled to a number of the terminal's pixels. */
+static void put_pixels(struct screen *s, int width, int height,
+                       const int *pixels, int to_width, int to_height, int id)
 {
-    for (int y = row * CELL_H; y < (row + 1) * CELL_H; y++) {
+    for (int y = 0; y < to_height; y++) {
+        for (int x = 0; x < to_width; x++) {
+            int to_x = s->col * CELL_W + x, to_y = s->row * CELL_H + y;
+
+            assert_true(to_x < WIDTH && to_y < HEIGHT);
+            s->pixel[to_y][to_x] =
+                pixels[y * height / to_height * width + x * width / to_width];
+            s->owner[to_y][to_x] = id;
+        }
+    }
+    s->images++;
+}
+
+static void blank(struct screen *s, int col, int row, int cols, int rows)
+{
+    for (int y = row * CELL_H; y < (row + rows) * CELL_H; y++) {
         for (int x = col * CELL_W; x < (col + cols) * CELL_W; x++)
             s->pixel[y][x] = BLANK;
     }
 }
 
+/* An image that others have replaced everywhere leaves no hole. */
 static void remove_image(struct screen *s, int id)
 {
-    assert_in_range(id, 1, 255);
-    blank(s, s->image_col[id], s->image_row[id], s->image_cols[id]);
-    s->image_cols[id] = 0;
+    assert_in_range(id, 1, IDS - 1);
+    assert_true(s->has_image[id]);
+    s->has_image[id] = false;
+    s->removals++;
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            if (s->owner[y][x] == id)
+                s->pixel[y][x] = BLANK;
+        }
+    }
+    check_whole(s);
 }
 
 static const char *take_kitty(struct screen *s, const char *p)
@@ -60,25 +96,21 @@ static const char *take_kitty(struct screen *s, const char *p)
     static int pixels[PIXELS_MAX];
     int id;
 
-    if (memcmp(p, KITTY_ERASE_ALL, sizeof KITTY_ERASE_ALL - 1) == 0) {
-        for (id = 1; id < 256; id++)
-            remove_image(s, id);
-        return p + sizeof KITTY_ERASE_ALL - 1;
-    }
     if (memcmp(p, "\033_Ga=d", 6) == 0) {
         p = read_int(expect_text(p, "\033_Ga=d,d=I,i="), &id);
         remove_image(s, id);
         return expect_text(p, ",q=2\033\\");
     }
     p = kitty_read(p, &image);
-    remove_image(s, image.id);
-    s->image_col[image.id] = s->col;
-    s->image_row[image.id] = s->row;
-    s->image_cols[image.id] = image.width / CELL_W;
+    /* the terminal would remove an image of the same number at once */
+    assert_in_range(image.id, 1, IDS - 1);
+    assert_false(s->has_image[image.id]);
+    s->has_image[image.id] = true;
     for (int i = 0; i < image.width * image.height; i++)
         pixels[i] = image.rgb[3 * i] << 16 | image.rgb[3 * i + 1] << 8 |
                     image.rgb[3 * i + 2];
-    put_pixels(s, image.width, image.height, pixels);
+    put_pixels(s, image.width, image.height, pixels, image.cols * CELL_W,
+               image.rows * CELL_H, image.id);
     return p;
 }
 
@@ -96,15 +128,14 @@ static void screen_write(struct screen *s, struct ansi_diff *a)
             p = expect_text(read_int(expect_text(p, ";"), &s->col), "H");
             s->row--;
             s->col--;
-            continue;
-        }
-        s->images++;
-        if (p[1] == '_') {
+        } else if (p[1] == '_') {
             p = take_kitty(s, p);
         } else {
             p = sixels_read(p, &image);
-            put_pixels(s, image.width, image.height, image.number);
+            put_pixels(s, image.width, image.height, image.number, image.width,
+                       image.height, 0);
         }
+        check_whole(s);
     }
 }
 
@@ -116,213 +147,317 @@ struct fixture {
     struct screen screen;
 };
 
-static void fixture_init(struct fixture *st, enum pixel_graphics_kind kind,
-                         uint64_t *seed)
+static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
+                                                 PIXEL_GRAPHICS_KITTY};
+
+static struct fixture st;
+
+static void begin_layout(enum pixel_graphics_kind kind)
 {
     struct pixel_graphics_shape shape = {kind,   COLS,   ROWS,
                                          CELL_W, CELL_H, PALETTE_256};
+    struct pixel_graphics before = st.g;
     struct error err;
 
-    memset(st, 0, sizeof *st);
-    assert_true(pixel_graphics_init(&st->g, &shape, &err));
-    assert_true(ansi_diff_init(&st->a, COLS, ROWS, &err));
-    assert_true(frame_init(&st->frame, WIDTH, HEIGHT, &err));
-    assert_true(dither_init(&st->dither, &err));
-    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
-        st->frame.rgb[i] = (uint8_t)(256 * check_random(seed));
-    for (int row = 0; row < ROWS; row++)
-        blank(&st->screen, 0, row, COLS);
+    pixel_graphics_free(&st.g);
+    assert_true(pixel_graphics_init(&st.g, &shape, &before, &err));
 }
 
-static void fixture_free(struct fixture *st)
+static void fixture_init(enum pixel_graphics_kind kind, uint64_t *seed)
 {
-    pixel_graphics_free(&st->g);
-    ansi_diff_free(&st->a);
-    frame_free(&st->frame);
-    dither_free(&st->dither);
+    struct error err;
+
+    memset(&st, 0, sizeof st);
+    begin_layout(kind);
+    assert_true(ansi_diff_init(&st.a, COLS, ROWS, &err));
+    assert_true(frame_init(&st.frame, WIDTH, HEIGHT, &err));
+    assert_true(dither_init(&st.dither, &err));
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
+        st.frame.rgb[i] = (uint8_t)(256 * check_random(seed));
+    blank(&st.screen, 0, 0, COLS, ROWS);
+}
+
+static void fixture_free(void)
+{
+    pixel_graphics_free(&st.g);
+    ansi_diff_free(&st.a);
+    frame_free(&st.frame);
+    dither_free(&st.dither);
 }
 
 /* Draws a frame and returns the number of its images. */
-static int draw(struct fixture *st, const struct ansi_diff_draw *how,
+static int draw(const struct ansi_diff_draw *how, enum pixel_graphics_pace pace,
                 bool *is_done)
 {
-    st->screen.images = 0;
-    ansi_diff_begin(&st->a);
-    *is_done = pixel_graphics_picture(&st->g, &st->a, &st->frame, how);
-    screen_write(&st->screen, &st->a);
-    return st->screen.images;
+    st.screen.images = 0;
+    st.screen.removals = 0;
+    ansi_diff_begin(&st.a);
+    *is_done = pixel_graphics_picture(&st.g, &st.a, &st.frame, pace, how);
+    screen_write(&st.screen, &st.a);
+    return st.screen.images;
 }
 
-static int wanted(struct fixture *st, int x, int y)
+/* Draws frames until the picture is complete. Returns their number. */
+static int draw_all(const struct ansi_diff_draw *how)
 {
-    const uint8_t *p = st->frame.rgb + 3 * (y * WIDTH + x);
+    bool is_done = false;
+    int frames = 0;
+
+    for (; !is_done && frames < 100; frames++)
+        draw(how, PIXEL_GRAPHICS_RESTS, &is_done);
+    assert_true(is_done);
+    return frames;
+}
+
+static int wanted(int x, int y)
+{
+    const uint8_t *p = st.frame.rgb + 3 * (y * WIDTH + x);
     struct rgb c = {p[0], p[1], p[2]};
 
-    if (st->g.shape.kind == PIXEL_GRAPHICS_SIXEL)
-        return (int)dither_color(&st->dither, c, x, y, PALETTE_256);
+    if (st.g.shape.kind == PIXEL_GRAPHICS_SIXEL)
+        return (int)dither_color(&st.dither, c, x, y, PALETTE_256);
     return c.r << 16 | c.g << 8 | c.b;
 }
 
-/* Checks that the terminal shows the picture, and BLANK in this rectangle of
- * cells. */
-static void check_shown(struct fixture *st, struct ansi_diff_rect hole)
+/* Checks that the terminal shows the picture, and BLANK in the window. */
+static void check_shown(void)
 {
     for (int y = 0; y < HEIGHT; y++) {
-        for (int x = 0; x < WIDTH; x++) {
-            int col = x / CELL_W, row = y / CELL_H;
-            bool inside = col >= hole.col && col < hole.col + hole.cols &&
-                          row >= hole.row && row < hole.row + hole.rows;
-
-            assert_int_equal(st->screen.pixel[y][x],
-                             inside ? BLANK : wanted(st, x, y));
-        }
+        for (int x = 0; x < WIDTH; x++)
+            assert_int_equal(st.screen.pixel[y][x], is_covered(&st.screen, x, y)
+                                                        ? BLANK
+                                                        : wanted(x, y));
     }
 }
 
-static void set_pixel(struct fixture *st, int x, int y, int value)
+static void set_pixel(int x, int y, int value)
 {
-    memset(st->frame.rgb + 3 * (y * WIDTH + x), value, 3);
+    memset(st.frame.rgb + 3 * (y * WIDTH + x), value, 3);
 }
 
-/* The picture is exact, and a change sends only the tile that has changed. */
+/* The picture at rest is exact, and a change sends only the image that has
+ * changed. */
 static void terminal_shows_the_picture(void **state)
 {
-    static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
-                                                     PIXEL_GRAPHICS_KITTY};
-    static struct fixture st;
-    struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX};
+    struct ansi_diff_draw how = {.budget_bytes = 1 << 20};
     uint64_t seed = 1;
     bool is_done;
 
     (void)state;
     for (int i = 0; i < 2; i++) {
-        fixture_init(&st, kinds[i], &seed);
-        draw(&st, &how, &is_done);
-        assert_true(is_done);
-        check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
-        assert_int_equal(draw(&st, &how, &is_done), 0);
-        set_pixel(&st, 200, 33, 255);
-        assert_int_equal(draw(&st, &how, &is_done), 1);
-        check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
-        set_pixel(&st, 200, 33, 253); /* a difference of two may stay */
+        fixture_init(kinds[i], &seed);
+        draw_all(&how);
+        check_shown();
+        assert_int_equal(draw(&how, PIXEL_GRAPHICS_RESTS, &is_done), 0);
+        set_pixel(200, 33, 255);
+        assert_int_equal(draw(&how, PIXEL_GRAPHICS_RESTS, &is_done), 1);
+        check_shown();
+        set_pixel(200, 33, 253); /* a difference of two may stay */
         how.step = 2;
-        assert_int_equal(draw(&st, &how, &is_done), 0);
+        assert_int_equal(draw(&how, PIXEL_GRAPHICS_RESTS, &is_done), 0);
         how.step = 1;
-        assert_int_equal(draw(&st, &how, &is_done), 1);
+        assert_int_equal(draw(&how, PIXEL_GRAPHICS_RESTS, &is_done), 1);
         how.step = 0;
-        fixture_free(&st);
+        fixture_free();
     }
 }
 
-/* A frame exceeds the budget by at most one tile, and a picture that never
- * stops changing is drawn everywhere. */
-static void budget_is_kept(void **state)
+/* A picture that moves is new everywhere in each frame, within the budget of
+ * bytes, and as fine as that allows. */
+static void moving_frames_are_whole(void **state)
 {
-    static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
-                                                     PIXEL_GRAPHICS_KITTY};
-    static struct fixture st;
-    struct ansi_diff_draw how = {.budget_bytes = 3000};
+    static int before[HEIGHT][WIDTH];
+    struct ansi_diff_draw how = {.budget_bytes = 40000};
     uint64_t seed = 2;
+    bool is_done;
 
     (void)state;
     for (int i = 0; i < 2; i++) {
-        bool is_done = false;
-        int frames = 0;
-
-        fixture_init(&st, kinds[i], &seed);
-        for (; !is_done && frames < 100; frames++) {
-            int images = draw(&st, &how, &is_done);
-
-            assert_true(images >= 1 || is_done);
-            check_at_most((double)st.a.length, 3000 + 16 * 7 * 10 * 8);
+        fixture_init(kinds[i], &seed);
+        for (int k = 0; k < 20; k++) {
+            for (int y = 0; y < HEIGHT; y++) {
+                for (int x = 0; x < WIDTH; x++)
+                    set_pixel(x, y, (x / 4 + y + 97 * k) & 255);
+            }
+            memcpy(before, st.screen.pixel, sizeof before);
+            blank(&st.screen, 0, 0, COLS, ROWS);
+            draw(&how, PIXEL_GRAPHICS_MOVES, &is_done);
+            assert_true(is_done);
+            st.screen.must_be_whole = true;
+            check_whole(&st.screen);
+            st.screen.must_be_whole = false;
+            if (k > 10) {
+                check_at_most((double)st.a.length, 1.5 * 40000);
+                assert_true(st.a.length > 40000 / 6);
+            }
         }
-        assert_in_range(frames, 3, 20);
-        check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
-        for (int row = 0; row < ROWS; row++)
-            blank(&st.screen, 0, row, COLS);
-        for (int k = 0; k < 2 * frames; k++) {
+        fixture_free();
+    }
+}
+
+/* Blocks of a moving picture have the mean colour of what they replace. */
+static void coarse_pixels_are_means(void **state)
+{
+    struct ansi_diff_draw how = {.budget_bytes = 30000};
+    uint64_t seed = 3;
+    bool is_done;
+
+    (void)state;
+    fixture_init(PIXEL_GRAPHICS_KITTY, &seed);
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++)
+            set_pixel(x, y, 255 * x / WIDTH);
+    }
+    draw(&how, PIXEL_GRAPHICS_MOVES, &is_done);
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++)
+            check_at_most(fabs((st.screen.pixel[y][x] & 255) -
+                               255.0 * x / WIDTH),
+                          255.0 * 7 / WIDTH + 1); /* at most a cell wide */
+    }
+    fixture_free();
+}
+
+/* From the first picture on nothing is removed before its successor is there:
+ * while it moves, when it comes to rest, when a window opens and closes, and
+ * when the layout changes. At the end no old image is left. */
+static void there_are_no_holes(void **state)
+{
+    struct ansi_diff_rect window = {10, 2, 35, 4};
+    struct ansi_diff_draw how = {.budget_bytes = 20000, .covered = &window};
+    uint64_t seed = 4;
+    int left = 0;
+    bool is_done;
+
+    (void)state;
+    fixture_init(PIXEL_GRAPHICS_KITTY, &seed);
+    draw(&how, PIXEL_GRAPHICS_MOVES, &is_done);
+    st.screen.must_be_whole = true;
+    for (int k = 0; k < 60; k++) {
+        for (int x = 0; x < WIDTH; x++)
+            set_pixel(x, (k * 7) % HEIGHT, k);
+        how.covered_count = k / 10 % 2;
+        if (how.covered_count)
+            st.screen.window = window;
+        if (k % 15 == 14)
+            begin_layout(PIXEL_GRAPHICS_KITTY);
+        draw(&how, (enum pixel_graphics_pace)(k % 5 / 2), &is_done);
+        if (how.covered_count == 0) /* where the window was is picture now */
+            st.screen.window = (struct ansi_diff_rect){0, 0, 0, 0};
+        check_whole(&st.screen);
+    }
+    draw_all(&how);
+    for (int id = 1; id < IDS; id++)
+        left += st.screen.has_image[id];
+    assert_int_equal(left, st.g.image_count);
+    fixture_free();
+}
+
+/* A frame at rest exceeds the budget by at most four frames' worth, and a
+ * picture that never stops changing is drawn everywhere. */
+static void budget_is_kept(void **state)
+{
+    struct ansi_diff_draw how = {.budget_bytes = 6000};
+    uint64_t seed = 5;
+    bool is_done;
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        fixture_init(kinds[i], &seed);
+        draw(&how, PIXEL_GRAPHICS_MOVES, &is_done);
+        for (int k = 0; k < 40; k++) {
             for (int x = 0; x < WIDTH; x++)
-                set_pixel(&st, x, (k * 7) % HEIGHT, k);
-            pixel_graphics_invalidate(&st.g, (struct ansi_diff_rect){0, 0, COLS,
-                                                                     ROWS});
-            draw(&st, &how, &is_done);
+                set_pixel(x, (k * 7) % HEIGHT, k);
+            draw(&how, PIXEL_GRAPHICS_RESTS, &is_done);
+            if (k > 10)
+                check_at_most((double)st.a.length, 6 * 6000);
         }
-        for (int y = 0; y < HEIGHT; y++)
-            for (int x = 0; x < WIDTH; x++)
-                assert_int_not_equal(st.screen.pixel[y][x], BLANK);
-        fixture_free(&st);
+        fixture_free();
     }
 }
 
 /* Images end at a window's borders, and return when it closes. */
 static void windows_stay_free(void **state)
 {
-    static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
-                                                     PIXEL_GRAPHICS_KITTY};
-    static struct fixture st;
     struct ansi_diff_rect window = {10, 1, 25, 3};
-    uint64_t seed = 3;
+    uint64_t seed = 6;
     bool is_done;
 
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX,
+        struct ansi_diff_draw how = {.budget_bytes = 1 << 20,
                                      .covered = &window};
 
-        fixture_init(&st, kinds[i], &seed);
-        draw(&st, &how, &is_done);
-        how.covered_count = 1; /* curses overwrites sixels */
-        if (kinds[i] == PIXEL_GRAPHICS_SIXEL) {
-            for (int row = 1; row < 4; row++)
-                blank(&st.screen, 10, row, 25);
-        }
-        pixel_graphics_invalidate(&st.g,
-                                  (struct ansi_diff_rect){0, 1, COLS, 3});
-        draw(&st, &how, &is_done);
-        check_shown(&st, window);
-        assert_int_equal(draw(&st, &how, &is_done), 0);
+        fixture_init(kinds[i], &seed);
+        draw_all(&how);
+        how.covered_count = 1;
+        st.screen.window = window;
+        if (kinds[i] == PIXEL_GRAPHICS_SIXEL) /* curses overwrites sixels */
+            blank(&st.screen, 10, 1, 25, 3);
+        draw_all(&how);
+        check_shown();
+        assert_int_equal(draw(&how, PIXEL_GRAPHICS_RESTS, &is_done), 0);
         how.covered_count = 0;
-        draw(&st, &how, &is_done);
-        check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
-        fixture_free(&st);
+        st.screen.window = (struct ansi_diff_rect){0, 0, 0, 0};
+        draw_all(&how);
+        check_shown();
+        blank(&st.screen, 0, ROWS - 1, COLS, 1); /* a message was there */
+        pixel_graphics_invalidate(&st.g);
+        draw_all(&how);
+        check_shown();
+        fixture_free();
     }
 }
 
-/* Each pixel of a frame with fewer pixels than the terminal becomes a
- * rectangle. */
+/* Frames with fewer pixels than the terminal are enlarged by the terminal, or
+ * by repeated sixels. */
 static void small_frames_are_enlarged(void **state)
 {
-    static struct fixture st;
-    struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX};
+    struct ansi_diff_draw how = {.budget_bytes = 1 << 20};
     struct frame small;
     struct error err;
-    uint64_t seed = 4;
-    bool is_done;
+    uint64_t seed = 7;
 
     (void)state;
-    fixture_init(&st, PIXEL_GRAPHICS_KITTY, &seed);
-    assert_true(frame_init(&small, WIDTH / 4, HEIGHT / 5, &err));
-    for (int y = 0; y < HEIGHT; y++) {
-        for (int x = 0; x < WIDTH; x++) {
-            uint8_t *from = st.frame.rgb + 3 * (y / 5 * 5 * WIDTH + x / 4 * 4);
+    for (int i = 0; i < 2; i++) {
+        bool is_done = false;
 
-            memcpy(st.frame.rgb + 3 * (y * WIDTH + x), from, 3);
-            memcpy(small.rgb + 3 * (y / 5 * (WIDTH / 4) + x / 4), from, 3);
+        fixture_init(kinds[i], &seed);
+        assert_true(frame_init(&small, WIDTH / 7, HEIGHT / 5, &err));
+        for (int k = 0; k < 3 * small.width * small.height; k++)
+            small.rgb[k] = (uint8_t)(64 * (int)(4 * check_random(&seed)));
+        for (int k = 0; k < 10 && !is_done; k++) {
+            ansi_diff_begin(&st.a);
+            is_done = pixel_graphics_picture(&st.g, &st.a, &small,
+                                             PIXEL_GRAPHICS_RESTS, &how);
+            screen_write(&st.screen, &st.a);
         }
+        assert_true(is_done);
+        for (int y = 0; y < HEIGHT; y++) {
+            for (int x = 0; x < WIDTH; x++) {
+                const uint8_t *p =
+                    small.rgb + 3 * (y / 5 * small.width + x / 7);
+                struct rgb c = {p[0], p[1], p[2]};
+                int color = kinds[i] == PIXEL_GRAPHICS_SIXEL
+                                ? (int)dither_color(&st.dither, c, x / 7, y / 5,
+                                                    PALETTE_256)
+                                : c.r << 16 | c.g << 8 | c.b;
+
+                assert_int_equal(st.screen.pixel[y][x], color);
+            }
+        }
+        frame_free(&small);
+        fixture_free();
     }
-    ansi_diff_begin(&st.a);
-    assert_true(pixel_graphics_picture(&st.g, &st.a, &small, &how));
-    screen_write(&st.screen, &st.a);
-    check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
-    assert_int_equal(draw(&st, &how, &is_done), 0);
-    frame_free(&small);
-    fixture_free(&st);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(terminal_shows_the_picture),
+        cmocka_unit_test(moving_frames_are_whole),
+        cmocka_unit_test(coarse_pixels_are_means),
+        cmocka_unit_test(there_are_no_holes),
         cmocka_unit_test(budget_is_kept),
         cmocka_unit_test(windows_stay_free),
         cmocka_unit_test(small_frames_are_enlarged),
