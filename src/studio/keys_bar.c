@@ -4,8 +4,20 @@
 #include <stdio.h>
 
 #include "studio/key_hints.h"
+#include "studio/progress_text.h"
 
 #define HINTS_MAX 10
+
+/* Columns of a bar beside the picture, at least: for a key and what it does. */
+#define BESIDE_MIN 24
+
+/* Rows of keys in a bar beside the picture, at most and beside the progress. */
+#define KEY_ROWS     HINTS_MAX
+#define KEY_ROWS_MIN 6
+
+/* Rows of the progress, at least, and of the usual one. */
+#define ROOM_ROWS_MIN 4
+#define ROOM_ROWS     (PROGRESS_TEXT_ROWS - 1 - PROGRESS_TEXT_RANKS)
 
 /* Actions with what they do. Where an action has no key of its own, the text
  * has it. */
@@ -64,25 +76,63 @@ static const struct hint hints[KEYS_STATES][HINTS_MAX] = {
                       {ACTION_KEEP_RENDER, NULL, "keep"}},
 };
 
+void keys_bar_lay_out(struct keys_bar *bar, struct screen *screen)
+{
+    struct tty_size size = term_size();
+    struct cells_rect *fit = &screen->fit;
+    int cols = size.cols - screen->panel_cols, rows = size.rows - 1;
+
+    *bar = (struct keys_bar){.state = KEYS_NONE};
+    if (screen->is_too_small || !screen->has_status_row || cols <= 0)
+        return;
+    if (cols - fit->cols >= BESIDE_MIN) {
+        fit->col = 0;
+        bar->area = (struct window_rect){fit->cols, 0, cols - fit->cols, rows};
+        bar->key_rows = rows - ROOM_ROWS;
+        bar->key_rows = bar->key_rows < KEY_ROWS_MIN ? KEY_ROWS_MIN
+                        : bar->key_rows > KEY_ROWS   ? KEY_ROWS
+                                                     : bar->key_rows;
+    } else if (rows > fit->rows) {
+        fit->row = 0;
+        bar->area = (struct window_rect){0, fit->rows, cols, rows - fit->rows};
+        bar->key_rows = 1;
+    }
+}
+
+const struct window_rect *keys_bar_room(const struct keys_bar *bar,
+                                        struct window_rect *room)
+{
+    *room = bar->area;
+    room->rows -= bar->key_rows;
+    return room->rows >= ROOM_ROWS_MIN && room->cols > PROGRESS_TEXT_COLS
+               ? room
+               : NULL;
+}
+
 void keys_bar_draw(struct keys_bar *bar, const struct render_control *control,
                    struct screen *screen, enum keys_state state)
 {
     struct keymap_name names[HINTS_MAX];
     struct key_hint list[HINTS_MAX + 1] = {{NULL, NULL}};
-    int cols = term_size().cols - screen->panel_cols;
-    bool has_row = !screen->is_too_small && screen->has_status_row &&
-                   screen->fit.row + screen->fit.rows < term_size().rows - 1;
+    const struct key_hint *left = list;
 
-    if (!has_row || cols <= 0 || (bar->state == state && bar->cols == cols))
+    if (bar->area.cols == 0 || bar->state == state)
         return;
-    *bar = (struct keys_bar){state, cols};
+    bar->state = state;
     for (int i = 0; i < HINTS_MAX && hints[state][i].does; i++) {
         const struct hint *h = &hints[state][i];
 
         names[i] = render_control_key(control, h->action);
         list[i] = (struct key_hint){h->keys ? h->keys : names[i].text, h->does};
     }
-    windows_text(WINDOW_STATUS, -1, 0, cols, ROLE_FAINT, "");
-    key_hints_draw(WINDOW_STATUS, -1, 1, cols - 1, list);
+    for (int row = -bar->key_rows; row < 0; row++) {
+        struct key_hint one[2] = {*left, {NULL, NULL}};
+
+        windows_text(WINDOW_STATUS, row, bar->area.col, bar->area.cols,
+                     ROLE_FAINT, "");
+        key_hints_draw(WINDOW_STATUS, row, bar->area.col + 1,
+                       bar->area.cols - 1, bar->key_rows > 1 ? one : list);
+        left += left->does != NULL;
+    }
     screen->must_update = true;
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * keys_bar.h - the row above the status line that says what keys do now, and
- * how a state is left
+ * keys_bar.h - the bar that the picture leaves free: what keys do now, and how
+ * a state is left
  *
- * It is drawn where the picture leaves a row free.
+ * A picture of another shape than the window is moved to the left or the top,
+ * so that there is one bar, at the right or at the bottom. Keys are at its
+ * foot, in one row or one below the other. The rest of it is for the progress.
  *
  * Units:     terminal cells
  * Threads:   main only
@@ -30,11 +32,19 @@ enum keys_state {
 };
 
 struct keys_bar {
-    enum keys_state state; /* that is drawn; KEYS_NONE: has to be drawn */
-    int cols;
+    enum keys_state state;   /* that is drawn; KEYS_NONE: has to be drawn */
+    struct window_rect area; /* of the bar; no columns: there is none */
+    int key_rows;            /* at its foot */
 };
 
-/* Draws the bar for a state, if it is another one than before. */
+/* Moves the picture of a new layout, and finds the bar beside or below it. */
+void keys_bar_lay_out(struct keys_bar *bar, struct screen *screen);
+
+/* Returns the part above the keys if it has room for the progress, or NULL. */
+const struct window_rect *keys_bar_room(const struct keys_bar *bar,
+                                        struct window_rect *room);
+
+/* Draws the keys of a state, if it is another one than before. */
 void keys_bar_draw(struct keys_bar *bar, const struct render_control *control,
                    struct screen *screen, enum keys_state state);
 

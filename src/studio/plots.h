@@ -16,7 +16,7 @@
 #include "render/error_history.h"
 #include "render/render_rates.h"
 
-#define PLOT_COLS       36
+#define PLOT_COLS       30
 #define PLOT_BYTES      (3 * PLOT_COLS + 1)
 #define PLOT_SPEED_ROWS 3
 #define PLOT_ERROR_ROWS 4

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "studio/progress_panel.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/clock.h"
@@ -11,6 +12,9 @@
 
 /* Time between two updates, long enough to read the numbers. */
 #define UPDATE_NS UINT64_C(500000000)
+
+/* The same on a slow line, which the picture needs. */
+#define SLOW_NS UINT64_C(2000000000)
 
 static const struct backend *backend_of(const struct render_control *control)
 {
@@ -32,7 +36,7 @@ uint64_t progress_panel_next_ns(const struct progress_panel *panel,
     bool changes =
         control->progress.state == RENDER_RUNNING || panel->due_ns == 0;
 
-    return panel->is_on && changes ? panel->due_ns : UINT64_MAX;
+    return changes ? panel->due_ns : UINT64_MAX;
 }
 
 /* Measures the load of each thread since the last update. Loads are 0 if the
@@ -51,8 +55,10 @@ static void measure_loads(struct progress_panel *panel,
     panel->load_ns = now_ns;
 }
 
-/* Draws the gauge into its blank line. */
-static void draw_gauge(const struct render_progress *p, struct screen *screen)
+/* Draws the gauge into its blank line, at a cell of a part of the screen. */
+static void draw_gauge(const struct render_progress *p,
+                       const struct screen *screen, enum window_part part_of,
+                       int row, int col)
 {
     const struct term_caps *d = &screen->display;
     struct cell cells[PROGRESS_TEXT_COLS];
@@ -61,13 +67,42 @@ static void draw_gauge(const struct render_progress *p, struct screen *screen)
     status_line_part(p, &part);
     gauge_cells(cells, PROGRESS_TEXT_COLS, part,
                 theme_style(d->theme, d->palette, ROLE_GAUGE), d->has_unicode);
-    windows_paint(WINDOW_OVER, 1 + PROGRESS_TEXT_GAUGE, 2, cells,
+    windows_paint(part_of, row + PROGRESS_TEXT_GAUGE, col, cells,
                   PROGRESS_TEXT_COLS);
+}
+
+static void draw_window(const struct render_progress *p, struct screen *screen,
+                        const char *const *lines, int count)
+{
+    if (screen->window.cols == 0)
+        screen_open_window(screen, WINDOW_TOP_RIGHT, " progress ", lines,
+                           count);
+    else
+        screen_set_window(screen, lines, count);
+    draw_gauge(p, screen, WINDOW_OVER, 1, 2);
+}
+
+static void draw_in_bar(const struct render_progress *p, struct screen *screen,
+                        const struct window_rect *bar, const char *const *lines,
+                        int count)
+{
+    int first = bar->row - (term_size().rows - 1); /* the status line is 0 */
+
+    for (int i = 0; i < bar->rows; i++) {
+        char text[PROGRESS_TEXT_BYTES + 1];
+
+        snprintf(text, sizeof text, " %s", i < count ? lines[i] : "");
+        windows_text(WINDOW_STATUS, first + i, bar->col, bar->cols, ROLE_TEXT,
+                     text);
+    }
+    draw_gauge(p, screen, WINDOW_STATUS, first, bar->col + 1);
+    screen->must_update = true;
 }
 
 void progress_panel_draw(struct progress_panel *panel,
                          const struct render_control *control,
-                         struct screen *screen, uint64_t now_ns)
+                         struct screen *screen, const struct window_rect *bar,
+                         uint64_t now_ns)
 {
     const struct backend *b = backend_of(control);
     double *loads = xcalloc((size_t)b->thread_count, sizeof *loads);
@@ -94,13 +129,12 @@ void progress_panel_draw(struct progress_panel *panel,
     free(ranks);
     for (int i = 0; i < row_count; i++)
         lines[i] = texts[i];
-    if (screen->window.cols == 0)
-        screen_open_window(screen, WINDOW_TOP_RIGHT, " progress ", lines,
-                           row_count);
+    if (bar)
+        draw_in_bar(&control->progress, screen, bar, lines, row_count);
     else
-        screen_set_window(screen, lines, row_count);
-    draw_gauge(&control->progress, screen);
-    panel->due_ns = now_ns + UPDATE_NS;
+        draw_window(&control->progress, screen, lines, row_count);
+    panel->due_ns =
+        now_ns + (frame_pacing_is_slow(&screen->pace) ? SLOW_NS : UPDATE_NS);
 }
 
 void progress_panel_free(struct progress_panel *panel)

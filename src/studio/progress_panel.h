@@ -17,7 +17,8 @@
 #include "studio/render_control.h"
 
 struct progress_panel {
-    bool is_on;
+    bool is_on;      /* over the picture */
+    bool leaves_bar; /* the person has removed it from the bar */
     uint64_t due_ns; /* time of the next update; 0 means at once */
     struct thread_load load;
     uint64_t load_ns; /* time when the measurement of the load began */
@@ -28,14 +29,17 @@ struct progress_panel {
 void progress_panel_switch(struct progress_panel *panel,
                            const struct render_control *control);
 
-/* Returns the time of the next update, or UINT64_MAX if nothing will change. */
+/* Returns the time of the next update of a panel that is shown, or UINT64_MAX
+ * if nothing will change. */
 uint64_t progress_panel_next_ns(const struct progress_panel *panel,
                                 const struct render_control *control);
 
-/* Opens the panel or updates its text. */
+/* Updates the text: in a bar beside or below the picture, as many lines as it
+ * has, or in a window over the picture (NULL), which is opened first. */
 void progress_panel_draw(struct progress_panel *panel,
                          const struct render_control *control,
-                         struct screen *screen, uint64_t now_ns);
+                         struct screen *screen, const struct window_rect *bar,
+                         uint64_t now_ns);
 
 void progress_panel_free(struct progress_panel *panel);
 

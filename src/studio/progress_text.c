@@ -70,12 +70,14 @@ static void format_done(char *line, const struct render_progress *p)
 static void format_noise(char *line, const struct render_progress *p)
 {
     struct film_error e = p->film_error;
-    bool is_doubtful = e.is_known && !e.is_resolved;
+    const char *left = e.is_known && !e.is_resolved ? "unresolved" : "noise";
     char interval[ERROR_TEXT_BYTES];
 
     e.is_resolved = true;
     error_text_interval(interval, &e);
-    put_sides(line, is_doubtful ? "unresolved" : "noise", interval);
+    if (strlen(left) + 1 + strlen(interval) > PROGRESS_TEXT_COLS)
+        interval[strcspn(interval, "(") - 1] = '\0';
+    put_sides(line, left, interval);
 }
 
 static void format_rate(char *line, const char *name, uint64_t count,
@@ -87,7 +89,7 @@ static void format_rate(char *line, const char *name, uint64_t count,
 
     progress_text_number(number, sizeof number, (double)count);
     progress_text_number(a_second, sizeof a_second, rate);
-    snprintf(left, sizeof left, "%-10s%10s", name, number);
+    snprintf(left, sizeof left, "%-8s%9s", name, number);
     snprintf(right, sizeof right, "%s/s", a_second);
     put_sides(line, left, right);
 }
@@ -98,7 +100,7 @@ static void format_time(char *line, const struct render_progress *p)
     char left[48], right[48] = "";
 
     status_line_duration(elapsed, sizeof elapsed, p->render_ns);
-    snprintf(left, sizeof left, "%-10s%10s", "elapsed", elapsed);
+    snprintf(left, sizeof left, "%-8s%9s", "elapsed", elapsed);
     if (p->state == RENDER_RUNNING &&
         status_line_left(left_time, sizeof left_time, p))
         snprintf(right, sizeof right, "left %s", left_time);
@@ -126,7 +128,7 @@ static void format_plot_title(char *line, const struct speeds *s)
                              ? speeds_at(s, s->count > 1 ? s->count - 2 : 0)
                              : 0);
     progress_text_number(top, sizeof top, top_speed(s));
-    snprintf(right, sizeof right, "now %s, most %s", now, top);
+    snprintf(right, sizeof right, "%s, most %s", now, top);
     put_sides(line, "samples/s", right);
 }
 
@@ -193,7 +195,7 @@ static int format_errors(char lines[][PROGRESS_TEXT_BYTES],
         status_line_duration(left, sizeof left, ns < 1e18 ? (uint64_t)ns : 0);
         snprintf(right, sizeof right, "%g %% in %s", 100 * target, left);
     }
-    put_sides(lines[0], "error over time", right);
+    put_sides(lines[0], "error", right);
     plot_errors(lines + 1, f->errors, target,
                 ns > 0 ? (ns + (double)p->render_ns) * 1e-9 : 0,
                 f->has_unicode);
@@ -254,7 +256,7 @@ static void format_rank(char *line, const struct rank_progress *p, int rank)
     progress_text_number(samples, sizeof samples, (double)p->samples);
     progress_text_number(rate, sizeof rate, rank_rate(p));
     status_line_duration(silent, sizeof silent, p->silent_ns);
-    snprintf(left, sizeof left, "rank %-5d%10s", rank, samples);
+    snprintf(left, sizeof left, "rank %-5d%8s", rank, samples);
     snprintf(right, sizeof right, rank_is_late(p) ? "late %s" : "%s/s",
              rank_is_late(p) ? silent : rate);
     put_sides(line, left, right);

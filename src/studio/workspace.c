@@ -96,7 +96,6 @@ void workspace_layout(struct workspace *workspace)
     struct error err;
 
     workspace->help.is_open = false;
-    workspace->keys_bar = (struct keys_bar){KEYS_NONE, 0};
     workspace->width_px = film->width;
     workspace->height_px = film->height;
     workspace_refresh(workspace);
@@ -106,6 +105,7 @@ void workspace_layout(struct workspace *workspace)
         workspace->screen.is_too_small = true; /* so nothing is drawn */
         render_control_say_error(workspace->control, err.text);
     }
+    keys_bar_lay_out(&workspace->keys_bar, &workspace->screen);
     panel_draw(&workspace->panel);
     screen_draft_fit(workspace->control, &workspace->screen);
     inspector_open_table(&workspace->inspector); /* the layout closed it */
@@ -145,14 +145,28 @@ void workspace_ask(struct workspace *workspace, const char *prompt)
 
 /* ---- windows ---- */
 
+/* The bar has the progress from the start, the window on request. */
 static bool shows_progress(const struct workspace *workspace)
 {
-    return workspace->progress_panel.is_on && !workspace->help.is_open &&
-           !workspace->screen.is_too_small;
+    const struct progress_panel *panel = &workspace->progress_panel;
+    struct window_rect room;
+
+    if (workspace->help.is_open || workspace->screen.is_too_small)
+        return false;
+    return keys_bar_room(&workspace->keys_bar, &room) ? !panel->leaves_bar
+                                                      : panel->is_on;
 }
 
 void workspace_switch_progress(struct workspace *workspace)
 {
+    struct window_rect room;
+
+    if (keys_bar_room(&workspace->keys_bar, &room)) {
+        workspace->progress_panel.leaves_bar =
+            !workspace->progress_panel.leaves_bar;
+        workspace_layout(workspace);
+        return;
+    }
     inspector_stop_drawing(
         &workspace->inspector); /* there is one window at a time */
     progress_panel_switch(&workspace->progress_panel, workspace->control);
@@ -194,8 +208,10 @@ static void close_help(struct workspace *workspace)
 
 void workspace_next_drawing(struct workspace *workspace)
 {
-    if (workspace->progress_panel.is_on) /* there is one window at a time */
-        workspace_switch_progress(workspace);
+    if (workspace->progress_panel.is_on) { /* there is one window at a time */
+        workspace->progress_panel.is_on = false;
+        screen_close_window(&workspace->screen);
+    }
     inspector_next_drawing(&workspace->inspector);
 }
 
@@ -501,6 +517,7 @@ bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
     bool shows = !render_control_awaits_picture(workspace->control) &&
                  !workspace->is_settled && now_ns >= workspace->frame_ns;
     uint64_t begin_ns = used_ns();
+    struct window_rect room;
     enum screen_result result;
 
     show_messages(workspace, now_ns);
@@ -510,7 +527,8 @@ bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
         now_ns >= progress_panel_next_ns(&workspace->progress_panel,
                                          workspace->control))
         progress_panel_draw(&workspace->progress_panel, workspace->control,
-                            screen, now_ns);
+                            screen, keys_bar_room(&workspace->keys_bar, &room),
+                            now_ns);
     if ((!shows && !screen->must_update) ||
         !frame_pacing_may_send(&screen->pace))
         return true;

@@ -29,6 +29,7 @@ colors_are() # as many different ones, and these
 two_walls
 start --cell-aspect 2 walls.obj
 wait_for "LIVE .* spp"
+keys g # no progress below the picture, which has colours, too
 # a preview has its own exposure
 keys n
 wait_for "PREVIEW"

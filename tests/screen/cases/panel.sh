@@ -162,7 +162,7 @@ wait_until_gone "│"
 # a click on the picture selects what is there
 keys Tab
 wait_for "Sky and picture"
-raw_keys "$(printf '\033[<0;22;12M\033[<0;22;12m')"
+raw_keys "$(printf '\033[<0;22;8M\033[<0;22;8m')"
 wait_for "│>    l\.2 "
 keys q
 expect_end 0

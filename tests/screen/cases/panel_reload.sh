@@ -40,10 +40,16 @@ keys C-s
 wait_for "wrote 1 material to lamp.mtl"
 wait_until_gone "wrote 1 material" # a load would say so in its place
 reject "changed\|loaded"
-# one at a time
+# the progress is below the picture, and over it where there is no room
+wait_for "spp  *no limit"
+keys g
+wait_until_gone "no limit"
+keys g
+wait_for "spp  *no limit"
+keys Escape Escape
+wait_until_gone "Materials"
 keys g
 wait_for "┌─ progress ─"
-reject "Materials"
 keys Tab
 wait_for "Materials"
 reject "progress"

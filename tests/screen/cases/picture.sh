@@ -4,12 +4,17 @@ flat_scene
 start --cell-aspect 2 flat.obj
 wait_for "LIVE .* spp"
 wait_for_rows 15 "48;2;188;124;0"
+# the bar of five rows is below the picture, and has the progress and the keys
+wait_for "spp  *no limit"
+wait_for "wasdqe move"
+keys g # without the progress
+wait_until_gone "no limit"
+wait_for_rows 15 "48;2;188;124;0"
 screen_colors >colors
-# the picture begins behind two empty rows: (20 - 15) / 2
-[ "$(grep -n '48;2;188;124;0m' colors | head -n 1 | cut -d: -f1)" = 3 ] ||
-    die "not centred"
+[ "$(grep -n '48;2;188;124;0m' colors | head -n 1 | cut -d: -f1)" = 1 ] ||
+    die "not at the top"
 # each row is 60 blanks in one colour, and nothing else above the last two rows
-[ "$(sed -n 3,17p colors | sed 's/.\[[0-9;]*m//g' | grep -c '^ \{60\}$')" = 15 ] ||
+[ "$(sed -n 1,15p colors | sed 's/.\[[0-9;]*m//g' | grep -c '^ \{60\}$')" = 15 ] ||
     die "not 60 blanks a row: $(cat colors)"
 [ "$(head -n -2 colors | grep -o '48;2;[0-9;]*m' | sort -u | wc -l)" = 1 ] ||
     die "more than one colour"
@@ -19,5 +24,21 @@ wait_until_gone "LIVE"
 wait_for_rows 15 "48;2;188;124;0"
 keys i
 wait_for "LIVE"
+keys q
+expect_end 0
+# in a wide window it is beside the picture, at the right
+fresh
+size=90x21
+start --cell-aspect 2 flat.obj # 80x20 cells: no room beside it
+wait_for "LIVE .* spp"
+wait_for_rows 20 "48;2;188;124;0"
+mux resize-window -x 112 -y 21
+wait_for "  [0-9]* spp  *no limit"
+wait_for "  samples  *[0-9.]* [kM] .*/s"
+wait_for "  wasdqe move$"
+wait_for "  arrows look$"
+screen_colors | head -n 20 >colors
+[ "$(grep -c '48;2;188;124;0m \{80\}.\[38' colors)" = 20 ] ||
+    die "not 80 blanks at the left: $(cat colors)"
 keys q
 expect_end 0

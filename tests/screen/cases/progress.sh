@@ -9,7 +9,7 @@ keys g
 wait_for "┌─ progress ─"
 wait_for "spp  *no limit"
 wait_for "2 threads  *busy [0-9]* %"
-wait_for "samples/s  *now .* most "
+wait_for "samples/s .*, most "
 keys Space Enter
 wait_for "40 of 40 spp  *100.0 %"
 wait_for "██████████"
@@ -58,7 +58,7 @@ start_line "LC_ALL=C TERM=tmux-256color glim -t 1 --stats - lamp.obj"
 wait_for "LIVE .* spp"
 keys g
 wait_for "progress"
-wait_for "samples/s  *now"
+wait_for "samples/s .*, most "
 wait_for " [#|:.][#|:.]* "
 wait_for "1 thread  *busy"
 keys q
