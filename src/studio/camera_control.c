@@ -79,14 +79,18 @@ static struct surfaces surfaces_of(const struct camera_control *camera)
                : (struct surfaces){0};
 }
 
-/* Adapts speed and walls to the place of the camera. */
-static void update_input(struct camera_control *camera)
+static void set_walls(struct camera_control *camera)
+{
+    camera->input.walls =
+        camera->passes_walls ? (struct surfaces){0} : surfaces_of(camera);
+}
+
+/* Adapts the speed to the place of the camera. */
+static void adapt_speed(struct camera_control *camera)
 {
     struct surfaces surfaces = surfaces_of(camera);
     struct clearance c;
 
-    camera->input.walls =
-        camera->passes_walls ? (struct surfaces){0} : surfaces;
     if (surfaces.scene == NULL)
         return;
     c = surfaces_clearance(&surfaces, pose_of(camera)->eye);
@@ -175,11 +179,12 @@ static void steer_held(struct camera_control *camera, uint64_t now_ns)
     uint64_t next_ns;
     bool has_moved = false;
 
+    set_walls(camera);
     /* the speed of each step depends on the place where it begins, even if the
      * event loop is late */
     while ((next_ns = held_keys_next_ns(&camera->input.motion)) <= now_ns &&
            next_ns != UINT64_MAX) {
-        update_input(camera);
+        adapt_speed(camera);
         has_moved |= camera_input_step(&camera->input, &pose, next_ns);
         edit_pose(edit_of(camera), &pose);
     }
@@ -232,7 +237,7 @@ static void jump(struct camera_control *camera, const struct pose *pose)
 void camera_control_change_speed(struct camera_control *camera, int steps)
 {
     camera_input_change_speed(&camera->input, steps);
-    update_input(camera);
+    adapt_speed(camera);
     render_control_say(camera->control,
                        "speed factor %.3g: %.3g units a second here",
                        camera->input.speed, camera_input_speed(&camera->input));
@@ -423,8 +428,7 @@ static bool steer_by(struct camera_control *camera, const struct event *event)
     struct rect r = pick_cursor_shown_rect(&camera->cursor);
     struct pose pose = *pose_of(camera);
 
-    if (event->mouse == MOUSE_DRAG)
-        update_input(camera);
+    set_walls(camera);
     if (!camera_input_mouse(&camera->input, &pose, event, &camera->screen->fit,
                             r.width, r.height))
         return false;
