@@ -64,8 +64,9 @@ DRACO := $(shell printf '%s\n' \
 	'$(HASH)if !__has_include(<draco/compression/decode.h>)' '$(HASH)error' \
 	'$(HASH)endif' '$(HASH)include <memory>' | \
 	$(CXX) -E -x c++ - >/dev/null 2>&1 && echo 1)
+# The check of vptr needs the sanitizer's C++ runtime, which a C program lacks.
 ALL_CXXFLAGS = -std=c++17 $(filter-out -std=c11 -Wstrict-prototypes \
-	-Wmissing-prototypes,$(ALL_CFLAGS))
+	-Wmissing-prototypes,$(ALL_CFLAGS)) $(if $(SAN),-fno-sanitize=vptr)
 LIB_LIBS = -ljansson -lmeshoptimizer $(if $(WEBP),-lwebp) -lz -lm -ldl
 LIBS = -lncursesw -ltinfo $(if $(DRACO),-ldraco -lstdc++) $(LIB_LIBS)
 FLAGS = $(CC) $(if $(DRACO),$(CXX)) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
