@@ -351,10 +351,6 @@ static bool set_word(struct options *o, const struct option_given *g,
     static const char *const backends[] = {"cpu", "opencl", "auto", NULL};
     static const char *const colors[] = {"auto", "mono",  "16", "256",
                                          "24",   "24bit", NULL};
-    static const char *const glyphs[] = {"auto",    "half",     "upper",
-                                         "lower",   "quadrant", "sextant",
-                                         "braille", "space",    "ascii",
-                                         "sixel",   "kitty",    NULL};
     static const char *const themes[] = {"auto", "dark", "light", "plain",
                                          NULL};
     const char *tones[TONES + 1] = {NULL}; /* ends with NULL */
@@ -394,9 +390,10 @@ static bool set_word(struct options *o, const struct option_given *g,
         o->show = (enum show_kind)index;
         return true;
     default:
-        if (!choice(g, glyphs, &index, err))
+        if (!choice(g, term_caps_glyph_names, &index, err))
             return false;
         o->display.glyph = (enum glyph_mode)index;
+        o->display.has_glyph = true;
         return true;
     }
 }

@@ -148,7 +148,12 @@ static void take_event(struct studio *studio, const struct event *event)
             !workspace->screen.is_too_small)
             take_mouse(studio, event);
     } else {
-        if (screen_answer(&workspace->screen, event))
+        bool is_other = screen_answer(&workspace->screen, event);
+
+        if (event->kind == EVENT_ATTRIBUTES &&
+            workspace_recall_glyphs(workspace))
+            is_other = true;
+        if (is_other)
             workspace_layout(workspace);
         if (workspace->screen.display.palette != palette ||
             workspace->screen.display.theme != theme)

@@ -37,6 +37,12 @@ static bool would_lose_render(struct studio *studio)
            render_control_has_unsaved(&studio->control);
 }
 
+static void cancel(struct studio *studio)
+{
+    if (!workspace_take_back_glyphs(&studio->workspace))
+        render_control_clear_message(&studio->control);
+}
+
 static void change_mode(struct studio *studio)
 {
     if (would_lose_render(studio))
@@ -122,7 +128,7 @@ static const struct command commands[ACTIONS] = {
     [ACTION_FASTER] = {.camera_by = camera_control_change_speed, .by = 1},
     [ACTION_SLOWER] = {.camera_by = camera_control_change_speed, .by = -1},
     [ACTION_CURSOR] = {.cursor = pick_cursor_show},
-    [ACTION_CANCEL] = {.control = render_control_clear_message},
+    [ACTION_CANCEL] = {.studio = cancel},
     [ACTION_ORBIT] = {.camera = camera_control_switch_orbit},
     [ACTION_WALLS] = {.camera = camera_control_switch_walls},
     [ACTION_FRAME] = {.camera = camera_control_frame_object},

@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "filter/screen_filter.h"
+#include "session/glyph_memory.h"
 #include "studio/panel_draw.h"
 #include "studio/screen_draft.h"
 #include "studio/status_line.h"
@@ -223,12 +224,57 @@ void workspace_next_colors(struct workspace *workspace)
     workspace_layout(workspace);
 }
 
+/* Returns true while the message is shown that the last change of the glyphs
+ * can be taken back. */
+static bool may_take_back(const struct workspace *workspace)
+{
+    uint64_t until_ns = workspace->control->message.until_ns;
+
+    return until_ns != 0 && until_ns == workspace->glyphs_until_ns;
+}
+
+/* Lays out for the present glyphs and remembers them. */
+static void use_glyphs(struct workspace *workspace)
+{
+    const struct term_caps *display = &workspace->screen.display;
+
+    glyph_memory_write(display->name, display->glyph_mode);
+    workspace_layout(workspace);
+}
+
 void workspace_next_glyphs(struct workspace *workspace)
 {
-    term_caps_next_glyphs(&workspace->screen.display);
-    workspace_layout(workspace);
-    render_control_say(workspace->control, "%s",
+    struct term_caps *display = &workspace->screen.display;
+    struct render_control *control = workspace->control;
+
+    if (!may_take_back(workspace))
+        workspace->glyphs_before = display->glyph_mode;
+    term_caps_next_glyphs(display);
+    use_glyphs(workspace);
+    render_control_say(control, "%s from now on; %s goes back",
+                       screen_glyphs_name(&workspace->screen),
+                       render_control_key(control, ACTION_CANCEL).text);
+    workspace->glyphs_until_ns = control->message.until_ns;
+}
+
+bool workspace_take_back_glyphs(struct workspace *workspace)
+{
+    if (!may_take_back(workspace))
+        return false;
+    term_caps_use_glyphs(&workspace->screen.display, workspace->glyphs_before);
+    use_glyphs(workspace);
+    render_control_say(workspace->control, "%s again",
                        screen_glyphs_name(&workspace->screen));
+    return true;
+}
+
+bool workspace_recall_glyphs(struct workspace *workspace)
+{
+    struct term_caps *display = &workspace->screen.display;
+    enum glyph_mode mode = glyph_memory_read(display->name);
+
+    return !workspace->control->session->options->display.has_glyph &&
+           mode != display->glyph_mode && term_caps_use_glyphs(display, mode);
 }
 
 void workspace_switch_status(struct workspace *workspace)

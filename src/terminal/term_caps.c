@@ -2,10 +2,16 @@
 #include "terminal/term_caps.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "terminal/tty.h"
+
+const char *const term_caps_glyph_names[] = {"auto",    "half",     "upper",
+                                             "lower",   "quadrant", "sextant",
+                                             "braille", "space",    "ascii",
+                                             "sixel",   "kitty",    NULL};
 
 /* Plausible sizes and aspect ratios of cells; answers beyond them are
  * ignored. */
@@ -91,6 +97,21 @@ static void choose_theme(struct term_caps *d, enum theme_mode mode)
                                               : THEME_DARK;
 }
 
+/* Names the terminal by the environment, until it says its name. */
+static void choose_name(struct term_caps *d)
+{
+    const char *program = getenv("TERM_PROGRAM");
+    const char *version = getenv("TERM_PROGRAM_VERSION");
+    const char *term = getenv("TERM");
+    char text[2 * TTY_NAME_BYTES];
+
+    if (program && program[0] != '\0')
+        snprintf(text, sizeof text, "%s(%s)", program, version ? version : "");
+    else
+        snprintf(text, sizeof text, "%s", term ? term : "");
+    tty_name(d->name, text, strlen(text));
+}
+
 void term_caps_init(struct term_caps *d, const struct term_caps_choice *choice)
 {
     bool may_learn;
@@ -102,6 +123,7 @@ void term_caps_init(struct term_caps *d, const struct term_caps_choice *choice)
     choose_palette(d, choice->color);
     choose_theme(d, choice->theme);
     choose_glyphs(d, choice->glyph);
+    choose_name(d);
 }
 
 static bool is_cell_size(int width_px, int height_px)
@@ -219,6 +241,7 @@ bool term_caps_answer(struct term_caps *d, const struct event *event)
     case EVENT_CURSOR: return take_cursor(d, event);
     case EVENT_SIXEL_COLORS: d->sixel_colors = event->x; break;
     case EVENT_KITTY: d->has_kitty = true; break;
+    case EVENT_NAME: memcpy(d->name, event->name, sizeof d->name); break;
     case EVENT_ATTRIBUTES: d->has_sixel = event->x == 1; break;
     case EVENT_READY:
     case EVENT_KEY:
@@ -246,6 +269,11 @@ static bool has_mode(const struct term_caps *d, enum glyph_mode mode)
     }
 }
 
+static bool is_pixels(enum glyph_mode mode)
+{
+    return mode == GLYPH_SIXEL || mode == GLYPH_KITTY;
+}
+
 void term_caps_next_glyphs(struct term_caps *d)
 {
     static const enum glyph_mode modes[] = {GLYPH_HALF,    GLYPH_QUADRANT,
@@ -266,4 +294,14 @@ void term_caps_next_glyphs(struct term_caps *d)
         i = (i + 1) % count;
     while (!has_mode(d, modes[i]));
     choose_glyphs(d, modes[i]);
+    if (!is_pixels(modes[i]) && d->glyphs == glyphs_of(d, GLYPH_AUTO))
+        d->glyph_mode = GLYPH_AUTO;
+}
+
+bool term_caps_use_glyphs(struct term_caps *d, enum glyph_mode mode)
+{
+    if (mode != GLYPH_AUTO && !has_mode(d, mode))
+        return false;
+    choose_glyphs(d, mode);
+    return true;
 }

@@ -49,8 +49,12 @@ struct term_caps_choice {
     enum theme_mode theme;
     enum color_mode color;
     enum glyph_mode glyph;
+    bool has_glyph;     /* `glyph` was given, if only as GLYPH_AUTO */
     double cell_aspect; /* height over width; 0: ask the terminal */
 };
+
+/* Names of the modes as options have them, ending with NULL. */
+extern const char *const term_caps_glyph_names[];
 
 struct term_caps {
     enum palette palette;
@@ -66,6 +70,7 @@ struct term_caps {
     int cell_width_px, cell_height_px; /* 0 if not reported */
     double cell_aspect;                /* 0 if unknown */
     bool aspect_is_final;
+    char name[TTY_NAME_BYTES]; /* of the terminal, with its version if known */
 };
 
 /* Initializes from the environment, after tty_open(). */
@@ -87,8 +92,12 @@ bool term_caps_answer(struct term_caps *d, const struct event *event);
 /* Selects the next palette, from most colours to least and around. */
 void term_caps_next_palette(struct term_caps *d);
 
-/* Selects the next kind of glyphs that the terminal shows, and around. */
+/* Selects the next kind of glyphs that the terminal shows, and around. The kind
+ * of the automatic choice becomes that again. */
 void term_caps_next_glyphs(struct term_caps *d);
+
+/* Selects a kind of glyphs. Returns false if the terminal does not show it. */
+bool term_caps_use_glyphs(struct term_caps *d, enum glyph_mode mode);
 
 /* Returns the kind of pixel graphics in use, if any. */
 enum pixel_graphics_kind term_caps_pixels(const struct term_caps *d);

@@ -31,6 +31,9 @@
 /* Asks for the number of colours in a sixel image (XTSMGRAPHICS of xterm). */
 #define SIXEL_QUESTION "\033[?1;1;0S"
 
+/* Asks for the terminal's name and version (XTVERSION of xterm). */
+#define NAME_QUESTION "\033[>q"
+
 /* Asks for the colour of the background. */
 #define BACKGROUND_QUESTION "\033]11;?\033\\"
 
@@ -246,6 +249,7 @@ static void ask(void)
     if (term.may_ask_colors) {
         tty_write(COLOR_QUESTION, sizeof COLOR_QUESTION - 1);
         tty_write(SIXEL_QUESTION, sizeof SIXEL_QUESTION - 1);
+        tty_write(NAME_QUESTION, sizeof NAME_QUESTION - 1);
     }
     if (term.may_ask_colors && !is_inside_another()) {
         tty_write(KITTY_QUESTION, sizeof KITTY_QUESTION - 1);

@@ -210,6 +210,23 @@ static bool accepts_kitty(const unsigned char *p, size_t length)
     return length >= 4 && p[0] == 'G' && memcmp(p + length - 3, ";OK", 3) == 0;
 }
 
+void tty_name(char name[TTY_NAME_BYTES], const char *from, size_t length)
+{
+    length = length < TTY_NAME_BYTES ? length : TTY_NAME_BYTES - 1;
+    for (size_t i = 0; i < length; i++)
+        name[i] = from[i] > ' ' && from[i] <= '~' ? from[i] : '_';
+    name[length] = '\0';
+}
+
+/* Takes >|NAME(VERSION), the answer to XTVERSION. */
+static void set_name(struct sequence *s, const unsigned char *p, size_t length)
+{
+    if (length <= 2 || p[0] != '>' || p[1] != '|')
+        return;
+    set_answer(s, EVENT_NAME, 0, 0);
+    tty_name(s->event.name, (const char *)p + 2, length - 2);
+}
+
 static int digit_of(unsigned char c)
 {
     if (c >= '0' && c <= '9')
@@ -266,6 +283,8 @@ static void take_string(struct sequence *s, const unsigned char *p,
         s->length = p[i] == 7 ? i + 1 : i + 2;
         if (p[1] == 'P' && reports_true_color(p + 2, i - 2))
             set_answer(s, EVENT_TRUE_COLOR, 0, 0);
+        else if (p[1] == 'P')
+            set_name(s, p + 2, i - 2);
         else if (p[1] == '_' && accepts_kitty(p + 2, i - 2))
             set_answer(s, EVENT_KITTY, 0, 0);
         else if (p[1] == ']' && reads_background(p + 2, i - 2, &is_light))

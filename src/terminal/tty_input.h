@@ -39,7 +39,8 @@ enum event_kind {
     EVENT_BACKGROUND,   /* x: 1 if the terminal's background is light */
     EVENT_SYNC,         /* synchronized updates are supported */
     EVENT_CELL_SIZE,    /* x, y: size of a cell in pixels */
-    EVENT_CURSOR        /* x, y: position of the cursor */
+    EVENT_CURSOR,       /* x, y: position of the cursor */
+    EVENT_NAME          /* name: of the terminal, with its version */
 };
 
 enum mouse_kind {
@@ -51,6 +52,9 @@ enum mouse_kind {
     MOUSE_OTHER
 };
 
+/* Bytes of the longest name of a terminal, with its final 0. */
+#define TTY_NAME_BYTES 48
+
 struct event {
     enum event_kind kind;
     int key; /* a byte, or enum tty_key */
@@ -58,7 +62,11 @@ struct event {
     int button;       /* mouse button: 0 left, 2 right */
     bool is_modified; /* with Ctrl or Alt */
     int x, y;
+    char name[TTY_NAME_BYTES]; /* printable ASCII without blanks */
 };
+
+/* Copies a name, cut where it is too long. Other characters become _. */
+void tty_name(char name[TTY_NAME_BYTES], const char *from, size_t length);
 
 #define TTY_INPUT_BYTES 4096
 

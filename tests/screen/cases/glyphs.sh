@@ -65,6 +65,7 @@ wait_for "@@@"
 reject "▀"
 keys q
 expect_end 0
+rm "$XDG_STATE_HOME/glim/glyphs"
 fresh
 start_line "LC_ALL=C TERM=tmux-256color glim lamp.obj"
 wait_until eval 'screen_colors | grep -q "48;2;255;255;255m"'
@@ -75,5 +76,52 @@ wait_for "@@@"
 keys G
 wait_for "blanks"
 reject "@@@"
+keys q
+expect_end 0
+rm -f "$XDG_STATE_HOME/glim/glyphs"
+# G is remembered for this terminal, and Escape takes it back while the message
+# is shown. An option and the configuration win.
+fresh
+lamp="TERM=tmux-256color glim lamp.obj"
+start_line "$lamp"
+wait_for "LIVE .* spp"
+keys G
+wait_for "quadrants from now on; Esc goes back"
+wait_for "[▖▗▘▙▛▜▝▞▟▌▐]"
+keys G
+wait_for "sextants from now on; Esc goes back"
+keys Escape
+wait_for "half blocks again"
+wait_for "[▀▄]"
+reject "[🬕🬂🬎🬁🬓]"
+keys G
+wait_for "quadrants from now on"
+keys q
+expect_end 0
+fresh
+start_line "$lamp"
+wait_for "[▖▗▘▙▛▜▝▞▟▌▐]"
+keys q
+expect_end 0
+for case in "half:[▀▄]" "auto:[▀▄]" "braille:[⢀⡀⣀⣠⣄⠘⠉⣤⢠⡄⠙⠋⠛]"; do
+    fresh
+    start --glyph ${case%%:*} lamp.obj
+    wait_for "LIVE .* spp"
+    wait_for "${case#*:}"
+    reject "[▖▗▘▙▛▜▝▞▟▌▐]"
+    keys q
+    expect_end 0
+done
+echo 'option glyph sextant' >config/glim/config
+fresh
+start_line "XDG_CONFIG_HOME=\$PWD/config $lamp"
+wait_for "[🬕🬂🬎🬁🬓]"
+keys q
+expect_end 0
+# Another terminal has its own.
+fresh
+start_line "TERM=screen-256color TMUX= glim lamp.obj"
+wait_for "LIVE .* spp"
+wait_for "[▀▄]"
 keys q
 expect_end 0

@@ -105,6 +105,27 @@ static void escape_and_a_key_are_two(void **state)
     assert_false(tty_input_next(&in, false, &e));
 }
 
+/* These are an xterm and kitty, and names that would break a line of a file. */
+static void terminals_have_names(void **state)
+{
+    struct event e;
+
+    (void)state;
+    e = only_event("\033P>|XTerm(379)\033\\", 5);
+    assert_int_equal(e.kind, EVENT_NAME);
+    assert_string_equal(e.name, "XTerm(379)");
+    e = only_event("\033P>|kitty(0.26.5)\033\\", 1);
+    assert_string_equal(e.name, "kitty(0.26.5)");
+    e = only_event("\033P>|tmux 3.3a\033\\", 100);
+    assert_string_equal(e.name, "tmux_3.3a");
+    e = only_event("\033P>|a\nb\xc3\033\\", 100);
+    assert_string_equal(e.name, "a_b_");
+    e = only_event("\033P>|0123456789012345678901234567890123456789012345678"
+                   "\033\\",
+                   100);
+    assert_int_equal(strlen(e.name), TTY_NAME_BYTES - 1);
+}
+
 static void answers_become_events(void **state)
 {
     static const struct {
@@ -155,7 +176,7 @@ static void other_sequences_are_dropped(void **state)
         "\033[?1;2$y",              /* another mode */
         "\033P1$r0;48:5:16m\033\\", /* rounded to 256 colours */
         "\033P0$r\033\\",           /* the question is unknown */
-        "\033P>|XTerm(379)\033\\",
+        "\033P>XTerm(379)\033\\",
         "\033]10;rgb:0000/0000/0000\033\\",
         "\033]11;rgb:0000/00x0/0000\007",
         "\033]11;rgb:0000/0000\007",
@@ -259,6 +280,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sequences_become_keys),
         cmocka_unit_test(escape_and_a_key_are_two),
+        cmocka_unit_test(terminals_have_names),
         cmocka_unit_test(answers_become_events),
         cmocka_unit_test(other_sequences_are_dropped),
         cmocka_unit_test(mouse_reports_become_events),
