@@ -65,8 +65,10 @@ static void set_slab(float *lo, float *hi, const struct instance *at, int axis,
 {
     const struct vec3 *row = &at->rows[axis];
     const double m[3] = {(double)row->x, (double)row->y, (double)row->z};
-    const float *low = &b->lo.x, *high = &b->hi.x;
-    double from = (double)(&at->origin.x)[axis], to = from;
+    const float low[3] = {b->lo.x, b->lo.y, b->lo.z};
+    const float high[3] = {b->hi.x, b->hi.y, b->hi.z};
+    const float origin[3] = {at->origin.x, at->origin.y, at->origin.z};
+    double from = (double)origin[axis], to = from;
 
     for (int k = 0; k < 3; k++) {
         from += fmin(m[k] * (double)low[k], m[k] * (double)high[k]);

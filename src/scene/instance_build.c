@@ -129,13 +129,15 @@ static void set_inverse(struct instance *at)
  * from that of the world. */
 static void set_pad(struct instance *at)
 {
+    const struct vec3 from = v3_abs(at->origin);
+    const float origin[3] = {from.x, from.y, from.z};
     double most = 0;
 
     for (int i = 0; i < 3; i++) {
         struct vec3 row = v3_abs(at->rows[i]);
 
         most = fmax(most, (double)row.x + (double)row.y + (double)row.z +
-                              fabs((double)(&at->origin.x)[i]));
+                              (double)origin[i]);
     }
     at->pad = (float)((double)BOX_PAD + 1.25 * (double)INSTANCE_ERROR * most);
 }

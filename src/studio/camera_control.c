@@ -81,8 +81,9 @@ static struct surfaces surfaces_of(const struct camera_control *camera)
 
 static void set_walls(struct camera_control *camera)
 {
-    camera->input.walls =
-        camera->passes_walls ? (struct surfaces){0} : surfaces_of(camera);
+    const struct surfaces none = {0};
+
+    camera->input.walls = camera->passes_walls ? none : surfaces_of(camera);
 }
 
 /* Adapts the speed to the place of the camera. */
