@@ -69,7 +69,7 @@ ALL_CXXFLAGS = -std=c++17 $(filter-out -std=c11 -Wstrict-prototypes \
 	-Wmissing-prototypes,$(ALL_CFLAGS)) $(if $(SAN),-fno-sanitize=vptr)
 LIB_LIBS = -ljansson -lmeshoptimizer $(if $(WEBP),-lwebp) -lz -lm -ldl
 LIBS = -lncursesw -ltinfo $(if $(DRACO),-ldraco -lstdc++) $(LIB_LIBS)
-FLAGS = $(CC) $(if $(DRACO),$(CXX)) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
+FLAGS = $(if $(DRACO),$(CXX) $(strip $(ALL_CXXFLAGS)) : )$(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
 # src/render/cpu_kernel.c is built for each instruction set and each set of

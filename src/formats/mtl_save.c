@@ -204,8 +204,6 @@ static char *map_value(const struct writer *w, const struct mtl_source *s,
 {
     const struct texture *t = &w->scene->textures[s->maps[map]];
     double angle = w->scene->texture_origins[s->maps[map]].rotation_deg;
-    struct mtl_source copy = *s;
-    const double *scale = mtl_source_map_scale(&copy, map);
     char *name = path_seen_from(w->path, w->scene->texture_paths[s->maps[map]]);
     char *text = NULL;
     size_t size_bytes;
@@ -220,8 +218,7 @@ static char *map_value(const struct writer *w, const struct mtl_source *s,
         print_flags(to, t->flags);
         if (t->channel != CHANNEL_DEFAULT)
             fprintf(to, "-imfchan %c ", "lrgbm"[t->channel]);
-        if (scale != NULL)
-            print_number(to, "-bm", *scale, 1);
+        print_number(to, "-bm", s->map_scales[map], 1);
         fputs(name, to);
         if (fclose(to) != 0) {
             free(text);

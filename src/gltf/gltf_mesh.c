@@ -12,6 +12,7 @@
 #include "gltf/gltf_material.h"
 #include "gltf/gltf_primitive.h"
 #include "gltf/gltf_skin.h"
+#include "scene/material_features.h"
 #include "kernels/vec.h"
 
 /* Meshes of the scene that were made of a mesh of the document. */
@@ -211,15 +212,14 @@ static bool has_low_alpha(const struct gltf_accessor *colors)
 }
 
 /* Leaves out what the material of the primitive does not use: the alpha of
- * opaque surfaces, and tangents of those without a map of normals or a
- * grain. */
+ * opaque surfaces, and tangents. */
 static bool leave_out(const struct builder *b, struct gltf_primitive *p)
 {
     const struct material *m = &b->scene->materials[p->material];
 
-    p->has_tangents = p->has_tangents &&
-                      (m->normal_texture != NO_INDEX ||
-                       m->coat_normal_texture != NO_INDEX || m->anisotropy > 0);
+    p->has_tangents =
+        p->has_tangents &&
+        features_use_tangents(material_features(m, b->scene->textures));
     if (!p->has_alphas || !has_low_alpha(&p->colors)) {
         p->has_alphas = false;
         return true;

@@ -418,7 +418,7 @@ static bool make_principled(struct material *m, int illum, bool has_ks,
         m->coat_normal_texture = mtl_source_map(s, MTL_MAP_PC_NORM);
     }
     if (m->coat_normal_texture != NO_INDEX)
-        m->coat_normal_strength = (float)s->coat_normal_scale;
+        m->coat_normal_strength = (float)s->map_scales[MTL_MAP_PC_NORM];
     set_sheen_and_grain(m, s, at);
     if (m->metalness == 0 && !has_ks)
         m->anisotropy = 0;
@@ -536,9 +536,9 @@ struct material material_from_source(const struct mtl_source *s,
                      path, s->tf_distance.line);
     m.normal_texture = mtl_source_map(s, MTL_MAP_NORM);
     if (m.normal_texture != NO_INDEX)
-        m.normal_strength = (float)s->normal_scale;
+        m.normal_strength = (float)s->map_scales[MTL_MAP_NORM];
     m.bump_texture = mtl_source_map(s, MTL_MAP_BUMP);
-    m.bump_scale = (float)s->bump_scale;
+    m.bump_scale = (float)s->map_scales[MTL_MAP_BUMP];
     m.emission = statement_radiance(&light, &at);
     m.emission_texture = mtl_source_map(s, MTL_MAP_KE);
     return m;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/material_features.h"
 
-#include <stdbool.h>
-
 #include "scene/material.h"
 #include "kernels/bump.h"
 #include "kernels/light.h"
@@ -95,4 +93,10 @@ uint32_t material_features(const struct material *m,
              (m->alpha >= ALPHA_SMOOTH || m->coat_alpha >= ALPHA_SMOOTH))
         features |= FEATURE_ROUGH;
     return features;
+}
+
+bool features_use_tangents(uint32_t features)
+{
+    return (features &
+            (FEATURE_BUMPS | FEATURE_ANISOTROPY | FEATURE_COAT_NORMALS)) != 0;
 }

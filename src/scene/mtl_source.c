@@ -63,12 +63,12 @@ const char *const mtl_map_keys[MTL_MAPS] = {
 
 struct mtl_source mtl_source_empty(void)
 {
-    struct mtl_source s = {.bump_scale = 1,
-                           .normal_scale = 1,
-                           .coat_normal_scale = 1};
+    struct mtl_source s = {.dialect = MTL_CLASSIC};
 
-    for (int i = 0; i < MTL_MAPS; i++)
+    for (int i = 0; i < MTL_MAPS; i++) {
         s.maps[i] = NO_INDEX;
+        s.map_scales[i] = 1;
+    }
     return s;
 }
 
@@ -106,15 +106,12 @@ static bool property_equal(const struct mtl_property *p,
 bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b)
 {
     for (int i = 0; i < MTL_MAPS; i++)
-        if (a->maps[i] != b->maps[i])
+        if (a->maps[i] != b->maps[i] || a->map_scales[i] != b->map_scales[i])
             return false;
     for (int i = 0; i < MTL_PROPERTIES; i++)
         if (!property_equal(&mtl_properties[i], a, b))
             return false;
     return a->dialect == b->dialect && a->maps_off == b->maps_off &&
-           a->bump_scale == b->bump_scale &&
-           a->normal_scale == b->normal_scale &&
-           a->coat_normal_scale == b->coat_normal_scale &&
            mtl_color_equal(&a->ke, &b->ke) &&
            mtl_number_equal(&a->kelvin, &b->kelvin) &&
            mtl_number_equal(&a->luminance, &b->luminance);
@@ -142,11 +139,9 @@ struct mtl_color mtl_source_light(const struct mtl_source *s)
 
 double *mtl_source_map_scale(struct mtl_source *s, enum mtl_map map)
 {
-    if (map == MTL_MAP_BUMP)
-        return &s->bump_scale;
-    if (map == MTL_MAP_NORM)
-        return &s->normal_scale;
-    return map == MTL_MAP_PC_NORM ? &s->coat_normal_scale : NULL;
+    return map == MTL_MAP_BUMP || map == MTL_MAP_NORM || map == MTL_MAP_PC_NORM
+               ? &s->map_scales[map]
+               : NULL;
 }
 
 double mtl_source_full_coat(const struct mtl_source *s)

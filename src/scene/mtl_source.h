@@ -69,10 +69,10 @@ struct mtl_source {
     struct mtl_number pf, pf_ior, pf_thickness, pf_thinnest, d_cutoff;
     struct mtl_number ks_full;
     uint32_t maps[MTL_MAPS]; /* numbers of textures, or NO_INDEX */
-    uint32_t maps_off;   /* bit set of 1 << enum mtl_map: maps to be ignored */
-    double bump_scale;   /* factor for the heights of MTL_MAP_BUMP */
-    double normal_scale; /* factor for x and y of MTL_MAP_NORM */
-    double coat_normal_scale; /* the same for MTL_MAP_PC_NORM */
+    uint32_t maps_off; /* bit set of 1 << enum mtl_map: maps to be ignored */
+    /* factors for the heights of MTL_MAP_BUMP, and for x and y of maps of
+     * normals; 1 for all others */
+    double map_scales[MTL_MAPS];
 };
 
 /* A statement of one colour or one number. Statements of this table are read,

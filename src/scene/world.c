@@ -416,8 +416,7 @@ uint32_t world_features(const struct host_world *host)
     for (uint32_t i = 0; i < host->material_count; i++)
         if (host->material_is_used[i])
             features |= material_features(&host->materials[i], host->textures);
-    if (host->has_tangents && (features & (FEATURE_BUMPS | FEATURE_ANISOTROPY |
-                                           FEATURE_COAT_NORMALS)) != 0)
+    if (host->has_tangents && features_use_tangents(features))
         features |= FEATURE_TANGENTS;
     return features;
 }

@@ -49,9 +49,7 @@ static char *add_lines(char *text, const struct edit *e, uint32_t material)
 static void copy_maps(struct mtl_source *to, const struct mtl_source *from)
 {
     memcpy(to->maps, from->maps, sizeof to->maps);
-    to->bump_scale = from->bump_scale;
-    to->normal_scale = from->normal_scale;
-    to->coat_normal_scale = from->coat_normal_scale;
+    memcpy(to->map_scales, from->map_scales, sizeof to->map_scales);
     to->dialect = from->dialect;
 }
 

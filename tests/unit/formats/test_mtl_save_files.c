@@ -118,11 +118,12 @@ static void check_same(const struct scene *got, uint32_t g,
     struct mtl_source there = *want;
     struct material a, b;
 
-    for (int i = 0; i < MTL_MAPS; i++)
+    for (int i = 0; i < MTL_MAPS; i++) {
         there.maps[i] = mtl_source_map(want, (enum mtl_map)i);
+        if (there.maps[i] == NO_INDEX)
+            there.map_scales[i] = 1;
+    }
     there.maps_off = 0;
-    if (there.maps[MTL_MAP_BUMP] == NO_INDEX)
-        there.bump_scale = 1;
     a = material_from_source(&got->material_origins[g].source, path, &none);
     b = material_from_source(&there, path, &none);
     /* Textures have new numbers, so only their presence is compared. */

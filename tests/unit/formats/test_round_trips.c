@@ -270,10 +270,10 @@ static bool is_written(const struct scene *got, const char *name,
         ok &= maps_are_equal(got, a.maps[i], from,
                              mtl_source_map(want, (enum mtl_map)i));
         a.maps[i] = b.maps[i] = NO_INDEX;
+        if (mtl_source_map(want, (enum mtl_map)i) == NO_INDEX)
+            b.map_scales[i] = a.map_scales[i];
     }
     b.maps_off = 0;
-    if (mtl_source_map(want, MTL_MAP_BUMP) == NO_INDEX)
-        b.bump_scale = a.bump_scale;
     return ok && mtl_source_equal(&a, &b);
 }
 
