@@ -21,8 +21,13 @@
 /* Longest message that is shown. */
 #define MESSAGE_MAX 300
 
-/* Sanitizers map more memory than any limit. */
-#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+/* Sanitizers map more memory than any limit. gcc and clang name them in their
+ * own ways. */
+#ifndef __has_feature
+#define __has_feature(name) 0
+#endif
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ || \
+    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define HAS_SHADOW 1
 #else
 #define HAS_SHADOW 0

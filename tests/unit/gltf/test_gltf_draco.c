@@ -440,7 +440,7 @@ static void broken_bytes_cost_a_line(void **state)
                                      (i % 2 == 0 ? 1 : 0.02));
         char old = bytes[at];
 
-        bytes[at] = (char)(256 * check_random(&seed));
+        bytes[at] = (char)(uint8_t)(256 * check_random(&seed));
         put_bytes("data.bin", bytes, size_bytes);
         bytes[at] = old;
         if (load_with("/proc/self/exe", &scene, &err)) {

@@ -2,93 +2,8 @@
 /* test_maps.c - image files and MTL options give the surface at a point */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
-#include "scene/world.h"
-#include "load/scene_load.h"
-#include "tests/unit/files.h"
-
-#include "kernels/traverse.h"
-
-#include "kernels/path.h"
-
-/* A scene of one triangle whose material "m" has these statements, and its
- * world. */
-struct loaded {
-    struct scene scene;
-    struct host_world host;
-    struct warnings report;
-    struct view view;
-    struct world world;
-    struct material material;
-};
-
-/* Writes an uncompressed Targa with the top row first and 3 or 4 channels in
- * the order red, green, blue, alpha. */
-static void write_image(const char *path, int width, int height, int channels,
-                        const uint8_t *pixels)
-{
-    uint8_t bytes[18 + 64] = {[2] = 2,
-                              [12] = (uint8_t)width,
-                              [14] = (uint8_t)height,
-                              [16] = (uint8_t)(8 * channels),
-                              [17] = 0x20};
-    size_t size = (size_t)(width * height * channels);
-
-    if (channels == 4)
-        bytes[17] |= 8;
-    assert_true(size <= 64);
-    for (size_t i = 0; i < size; i++) {
-        size_t channel = i % (size_t)channels;
-        size_t to = channel < 3 ? i - channel + 2 - channel : i;
-
-        bytes[18 + to] = pixels[i];
-    }
-    put_bytes(path, bytes, 18 + size);
-}
-
-static void load(struct loaded *l, const char *statements)
-{
-    static const char obj[] = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
-                              "vt 0 0\nvt 1 0\nvt 0 1\nusemtl m\n"
-                              "f 1/1 2/2 3/3\n";
-    char mtl[512];
-    struct error err = {""};
-
-    memset(l, 0, sizeof *l);
-    snprintf(mtl, sizeof mtl, "newmtl m\n%s\n", statements);
-    put_bytes("a.mtl", mtl, strlen(mtl));
-    put_bytes("a.obj", obj, sizeof obj - 1);
-    view_init(&l->view);
-    l->view.pose.eye[2] = 5;
-    if (!scene_load(&l->scene, "a.obj", SCENE_UP_OF_FILE, &l->report, &err) ||
-        !world_init(&l->host, &l->scene, 2, &l->report, &err) ||
-        !world_lend(&l->host, &l->scene, &l->view, 0, &l->world, &err))
-        print_error("%s\n", err.text);
-    assert_string_equal(err.text, "");
-    for (int i = 0; i < l->report.entry_count; i++)
-        print_error("%s\n", l->report.entries[i].text);
-    assert_int_equal(l->report.entry_count, 0);
-    l->material = l->host.materials[1];
-}
-
-static void unload(struct loaded *l)
-{
-    world_free(&l->host);
-    scene_free(&l->scene);
-    warnings_free(&l->report);
-    view_free(&l->view);
-}
-
-static struct bsdf surface(const struct loaded *l, float u, float v)
-{
-    struct surface_point at = {.uv = {{u, v}, {0, 0}},
-                               .has_uv = true,
-                               .is_outside = true};
-
-    return bsdf_at(&l->world, &l->material, &at);
-}
+#include "tests/unit/mapped.h"
 
 /* Returns the share of 10,000 rays that a point stops. */
 static double stopped(const struct loaded *l, float u, float v)
@@ -534,175 +449,6 @@ static void maps_are_the_share_of_stopped_rays(void **state)
     unload(&l);
 }
 
-static const struct vec3 up = {0, 0, 1};
-
-static struct vec3 bumped(const struct loaded *l, float u, float v,
-                          struct vec3 wo)
-{
-    struct uv_pair uv = {{u, v}, {u, v}};
-
-    return bumped_normal(&l->world, &l->material, l->scene.tris[0], NO_INDEX,
-                         (struct hit){.b0 = 1}, uv, up, up, wo);
-}
-
-static void check_direction(struct vec3 n, double x, double y, double z)
-{
-    double length = sqrt(x * x + y * y + z * z);
-
-    check_close((double)n.x, x / length, 1e-5);
-    check_close((double)n.y, y / length, 1e-5);
-    check_close((double)n.z, z / length, 1e-5);
-}
-
-/* Decoding is linear: 0 is -1 and 255 is 1. */
-static void normal_maps_turn_the_normal(void **state)
-{
-    const uint8_t tilted[3] = {170, 102, 221};
-    struct loaded l;
-
-    (void)state;
-    write_image("two.tga", 1, 1, 3, tilted);
-    load(&l, "Kd 1\nnorm two.tga");
-    check_direction(bumped(&l, 0.5f, 0.5f, up), 85. / 255, -51. / 255,
-                    187. / 255);
-    /* Half of its strength is half way to the normal of the face. */
-    l.material.normal_strength = l.material.normal_depth = 0.5f;
-    check_direction(bumped(&l, 0.5f, 0.5f, up), 85. / 255, -51. / 255,
-                    187. / 255 + 1);
-    l.material.normal_strength = l.material.normal_depth = 1;
-    /* If u increases to the left, x is reversed. */
-    l.scene.uvs[1].x = -1;
-    check_direction(bumped(&l, 0.5f, 0.5f, up), -85. / 255, -51. / 255,
-                    187. / 255);
-    unload(&l);
-}
-
-/* A map of normals bends the surface below a coat, and that of the coat the
- * coat alone. */
-static void coats_have_normals_of_their_own(void **state)
-{
-    static const char *const statements[] = {
-        "Kd 1\nPc 1\nnorm two.tga", "Kd 1\nPc 1\nmap_Pc_norm -bm 1.5 two.tga",
-        "Kd 1\nPc 1\nnorm two.tga\nmap_Pc_norm two.tga"};
-    const double x[3][2] = {{1, 0}, {0, 1.5}, {1, 1}};
-    const uint8_t tilted[3] = {170, 102, 221};
-    struct loaded plain;
-
-    (void)state;
-    write_image("two.tga", 1, 1, 3, tilted);
-    for (int i = 0; i < 3; i++) {
-        struct ray r = {.o = {0.2f, 0.2f, 1}, .d = {0, 0, -1}};
-        struct surface_point v;
-        struct loaded l;
-        struct bsdf b;
-
-        load(&l, statements[i]);
-        assert_int_not_equal(l.world.settings.features & FEATURE_COAT_NORMALS,
-                             0);
-        assert_true(surface_at(&l.world, &l.material, r,
-                               (struct hit){.t = 1, .b0 = 1}, &v));
-        b = bsdf_at(&l.world, &l.material, &v);
-        check_direction(v.n, x[i][0] * 85, x[i][0] * -51,
-                        x[i][0] > 0 ? 187 : 1);
-        check_direction(v.coat_n, x[i][1] * 85, x[i][1] * -51,
-                        x[i][1] > 0 ? 187 : 1);
-        check_close((double)v3_length(
-                        v3_sub(surface_to_world(&v, b.coat_normal), v.coat_n)),
-                    0, 1e-6);
-        unload(&l);
-    }
-    load(&plain, "Kd 1\nPc 1");
-    assert_int_equal(plain.world.settings.features & FEATURE_COAT_NORMALS, 0);
-    unload(&plain);
-}
-
-/* With tangents of vertices, x of the map is along them, and y along the normal
- * times the tangent, times its sign. From behind only z is reversed. */
-static void normal_maps_use_tangents(void **state)
-{
-    static const struct vec3 normals[3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
-    static const struct tangent tangents[3] = {{{0, 1, 0}, -1},
-                                               {{0, 1, 0}, -1},
-                                               {{0, 1, 0}, -1}};
-    static const struct vec3 down = {0, 0, -1};
-    const uint8_t tilted[3] = {170, 102, 221};
-    struct uv_pair uv = {{0.5f, 0.5f}, {0.5f, 0.5f}};
-    struct hit h = {.b0 = 1};
-    struct loaded l;
-    struct tri t;
-
-    (void)state;
-    write_image("two.tga", 1, 1, 3, tilted);
-    load(&l, "Kd 1\nnorm two.tga");
-    l.world.normals = normals;
-    l.world.tangents = tangents;
-    l.world.settings.tangent_count = 3;
-    t = l.scene.tris[0];
-    for (uint32_t k = 0; k < 3; k++)
-        t.vn[k] = k;
-    check_direction(bumped_normal(&l.world, &l.material, t, NO_INDEX, h, uv, up,
-                                  up, up),
-                    -51. / 255, 85. / 255, 187. / 255);
-    check_direction(bumped_normal(&l.world, &l.material, t, NO_INDEX, h, uv,
-                                  down, down, down),
-                    -51. / 255, 85. / 255, -187. / 255);
-    unload(&l);
-}
-
-/* A ramp of 0.2 per texel rises to the right, so the normal leans left. */
-static void bump_maps_tilt_by_their_slope(void **state)
-{
-    const uint8_t ramp[12] = {0,   0,   0,   51,  51,  51,
-                              102, 102, 102, 153, 153, 153};
-    struct loaded l;
-
-    (void)state;
-    write_image("two.tga", 4, 1, 3, ramp);
-    load(&l, "Kd 1\nbump -clamp on two.tga");
-    check_direction(bumped(&l, 0.5f, 0.5f, up), -0.2, 0, 1);
-    unload(&l);
-    load(&l, "Kd 1\nbump -clamp on -bm -2 -s .5 1 two.tga");
-    check_direction(bumped(&l, 1, 0.5f, up), 0.4, 0, 1);
-    unload(&l);
-}
-
-/* No reflected direction is below the face, whatever the map is. */
-static void bent_normals_reflect_upwards(void **state)
-{
-    uint64_t seed = 5;
-
-    (void)state;
-    for (int i = 0; i < 100000; i++) {
-        struct vec3 v[2];
-        struct vec3 n, r;
-
-        for (int k = 0; k < 2; k++) {
-            double z = check_random(&seed);
-            double phi = 2 * M_PI * check_random(&seed);
-            double s = sqrt(1 - z * z);
-
-            v[k] = v3((float)(s * cos(phi)), (float)(s * sin(phi)), (float)z);
-        }
-        if (v3_dot(v[0], v[1]) <= 0)
-            continue;
-        n = bent_normal(v[0], up, v[1]);
-        r = v3_sub(v3_scale(n, 2 * v3_dot(n, v[1])), v[1]);
-        assert_true(v3_dot(n, v[1]) > 0);
-        assert_true(r.z > 0);
-        check_close((double)v3_length(n), 1, 1e-5);
-    }
-}
-
-static int remove_files(void **state)
-{
-    const char *const names[] = {"a.obj", "a.mtl", "six.tga", "two.tga",
-                                 "leaf.tga"};
-
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        unlink(names[i]);
-    return leave_empty_folder(state);
-}
-
 /* Colours of vertices are mixed linearly over a triangle, and multiply the
  * colour of the material. */
 static void vertices_have_colors(void **state)
@@ -748,7 +494,6 @@ int main(void)
         cmocka_unit_test(numbers_come_from_their_channels),
         cmocka_unit_test(rare_maps_multiply),
         cmocka_unit_test(maps_turn_and_scale_the_grain),
-        cmocka_unit_test(coats_have_normals_of_their_own),
         cmocka_unit_test(second_coordinates_are_used),
         cmocka_unit_test(options_move_and_scale),
         cmocka_unit_test(extreme_coordinates_have_colors),
@@ -759,10 +504,6 @@ int main(void)
         cmocka_unit_test(metal_is_mixed_by_its_map),
         cmocka_unit_test(layers_are_weighed_by_their_maps),
         cmocka_unit_test(maps_are_the_share_of_stopped_rays),
-        cmocka_unit_test(normal_maps_turn_the_normal),
-        cmocka_unit_test(normal_maps_use_tangents),
-        cmocka_unit_test(bump_maps_tilt_by_their_slope),
-        cmocka_unit_test(bent_normals_reflect_upwards),
         cmocka_unit_test(vertices_have_colors),
     };
 
