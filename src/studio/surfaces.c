@@ -59,11 +59,13 @@ static void set_normal(const struct world *w, struct hit h, const double d[3],
 
 /* Finds the first surface on a ray in normalised units. hit->t is its distance
  * from the ray's origin. */
-static bool first_surface(const struct bvh8_world *w, struct ray ray,
+static bool first_surface(struct bvh8_world *w, struct ray ray,
                           enum surface_glass glass, struct hit *hit)
 {
     float passed = 0;
 
+    /* else partial coverage would let rays pass by chance */
+    w->world.settings.features &= ~(uint32_t)FEATURE_COVERAGE;
     if (w->tree == NULL || !isfinite(ray.o.x + ray.o.y + ray.o.z))
         return false;
     for (int i = 0; i < LAYERS_MOST; i++) {

@@ -214,6 +214,44 @@ static void picks_pass_transparent_surfaces(void **state)
     unload(&scene);
 }
 
+/* 40 strips before a wall: all are picked if they cover more than a half, and
+ * none if they cover less. Chance has no part in it. */
+static void picks_are_not_random(void **state)
+{
+    static const char *const covers[] = {".4", ".6"};
+
+    (void)state;
+    for (int dense = 0; dense < 2; dense++) {
+        struct scene scene;
+        struct surfaces surfaces = {&scene, &host};
+        struct view view = view_from(0, 0, 5);
+        char *text = NULL, mtl[64];
+        size_t size_bytes;
+        FILE *to = open_memstream(&text, &size_bytes);
+
+        assert_non_null(to);
+        fprintf(to, "mtllib a.mtl\nv -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n"
+                    "usemtl sheet\n");
+        for (int i = 0; i < 40; i++)
+            fprintf(to, "v %g -1 1\nv %g -1 1\nv %g 1 1\nf -3 -2 -1\n",
+                    i * .05 - 1, i * .05 - .95, i * .05 - .975);
+        assert_int_equal(fclose(to), 0);
+        snprintf(mtl, sizeof mtl, "newmtl sheet\nd %s\n", covers[dense]);
+        put("a.mtl", mtl);
+        load(&scene, text);
+        for (int i = 0; i < 40; i++) {
+            double x = (i * .05 - .975) / (4 * tan(20 * M_PI / 180));
+            struct pick pick;
+
+            assert_true(
+                surfaces_pick(&surfaces, &view, 512 + 288 * x, 300, &pick));
+            check_close(pick.position[2], dense, 1e-5);
+        }
+        unload(&scene);
+        free(text);
+    }
+}
+
 /* The cells together cover the picture. */
 static void cells_cover_the_picture(void **state)
 {
@@ -241,6 +279,7 @@ int main(void)
         cmocka_unit_test(picks_have_the_box_of_their_object),
         cmocka_unit_test(picks_of_the_sky_miss),
         cmocka_unit_test(picks_pass_transparent_surfaces),
+        cmocka_unit_test(picks_are_not_random),
         cmocka_unit_test(cells_cover_the_picture),
     };
 
