@@ -38,12 +38,20 @@ enum { BALL, FLOOR_LIGHT, FLOOR_DARK };
 /* Samples of each pixel that are added together: some 2000 paths. */
 #define SPP_TOGETHER 4
 
+/* Arrays of the studio's world. */
+struct ball_arrays {
+    struct vec3 positions[POINTS], normals[CORNERS];
+    struct vec2 uvs[CORNERS];
+    struct tri tris[TRIS];
+    struct vec3 sky_texels[SKY_ROWS * SKY_COLUMNS];
+};
+
 /* ---- the studio ---- */
 
 static void add_tri(struct material_ball *b, uint32_t v0, uint32_t v1,
                     uint32_t v2, uint32_t material)
 {
-    struct tri *t = &b->tris[b->studio.world.settings.tri_count];
+    struct tri *t = &b->arrays->tris[b->studio.world.settings.tri_count];
     bool is_ball = material == BALL;
 
     *t = (struct tri){.v = {v0, v1, v2},
@@ -52,8 +60,8 @@ static void add_tri(struct material_ball *b, uint32_t v0, uint32_t v1,
                       .material = material};
     for (int i = 0; i < 3 && is_ball; i++)
         t->vn[i] = t->vt[i] = t->v[i];
-    if (triangle_normal(b->positions[v0], b->positions[v1], b->positions[v2],
-                        &t->ng))
+    if (triangle_normal(b->arrays->positions[v0], b->arrays->positions[v1],
+                        b->arrays->positions[v2], &t->ng))
         b->studio.world.settings.tri_count++;
 }
 
@@ -66,10 +74,11 @@ static void add_ball(struct material_ball *b)
         bool is_pole = row == 0 || row == ROWS;
         double s = is_pole ? 0 : sin(theta);
 
-        b->normals[i] =
+        b->arrays->normals[i] =
             v3((float)(s * sin(phi)), (float)cos(theta), (float)(s * cos(phi)));
-        b->positions[i] = v3_scale(b->normals[i], RADIUS);
-        b->uvs[i] = v2((float)column / COLUMNS * 2, 1.0f - (float)row / ROWS);
+        b->arrays->positions[i] = v3_scale(b->arrays->normals[i], RADIUS);
+        b->arrays->uvs[i] =
+            v2((float)column / COLUMNS * 2, 1.0f - (float)row / ROWS);
     }
     for (uint32_t row = 0; row < ROWS; row++) {
         for (uint32_t column = 0; column < COLUMNS; column++) {
@@ -87,7 +96,7 @@ static void add_floor(struct material_ball *b)
         float x = (float)(i % (SQUARES + 1)) - 0.5f * SQUARES;
         float z = (float)(i / (SQUARES + 1)) - 0.5f * SQUARES;
 
-        b->positions[CORNERS + i] =
+        b->arrays->positions[CORNERS + i] =
             v3(x * SQUARE_SIDE, -RADIUS, z * SQUARE_SIDE);
     }
     for (uint32_t z = 0; z < SQUARES; z++) {
@@ -121,16 +130,16 @@ static bool add_sky(struct material_ball *b, struct error *err)
     struct world *w = &b->studio.world;
 
     for (int i = 0; i < SKY_ROWS * SKY_COLUMNS; i++)
-        b->sky_texels[i] =
+        b->arrays->sky_texels[i] =
             sky_radiance(90 - 180 * (i / SKY_COLUMNS + 0.5) / SKY_ROWS,
                          360 * (i % SKY_COLUMNS + 0.5) / SKY_COLUMNS);
     w->settings.sky = (struct sky){.color = v3(1.0f, 1.0f, 1.0f),
                                    .width = SKY_COLUMNS,
                                    .height = SKY_ROWS,
                                    .rotation_cos = 1.0f};
-    w->sky_texels = b->sky_texels;
-    if (!sky_table_build(&b->sky_table, b->sky_texels, SKY_COLUMNS, SKY_ROWS,
-                         SKY_WITH_MIS, err))
+    w->sky_texels = b->arrays->sky_texels;
+    if (!sky_table_build(&b->sky_table, b->arrays->sky_texels, SKY_COLUMNS,
+                         SKY_ROWS, SKY_WITH_MIS, err))
         return false;
     sky_table_lend(&b->sky_table, w);
     return true;
@@ -164,22 +173,17 @@ static bool open_studio(struct material_ball *b, struct error *err)
 {
     struct world *w = &b->studio.world;
 
-    b->positions = alloc_array(POINTS, sizeof *b->positions);
-    b->normals = alloc_array(CORNERS, sizeof *b->normals);
-    b->uvs = alloc_array(CORNERS, sizeof *b->uvs);
-    b->tris = alloc_array(TRIS, sizeof *b->tris);
-    b->sky_texels =
-        alloc_array((size_t)SKY_ROWS * SKY_COLUMNS, sizeof *b->sky_texels);
-    if (!b->positions || !b->normals || !b->uvs || !b->tris || !b->sky_texels)
+    b->arrays = alloc_array(1, sizeof *b->arrays);
+    if (!b->arrays)
         return fail(err, "out of memory for the ball of the material");
     b->materials[FLOOR_LIGHT] = grey_material(0.6f);
     b->materials[FLOOR_DARK] = grey_material(0.08f);
     add_ball(b);
     add_floor(b);
-    w->positions = b->positions;
-    w->normals = b->normals;
-    w->uvs = b->uvs;
-    w->tris = b->tris;
+    w->positions = b->arrays->positions;
+    w->normals = b->arrays->normals;
+    w->uvs = b->arrays->uvs;
+    w->tris = b->arrays->tris;
     w->materials = b->materials;
     w->settings.position_count = POINTS;
     w->settings.normal_count = w->settings.uv_count = CORNERS;
@@ -280,10 +284,6 @@ void material_ball_free(struct material_ball *b)
 {
     bvh8_free(&b->tree);
     sky_table_free(&b->sky_table);
-    free(b->positions);
-    free(b->normals);
-    free(b->uvs);
-    free(b->tris);
-    free(b->sky_texels);
+    free(b->arrays);
     *b = (struct material_ball){.kernel = NULL};
 }

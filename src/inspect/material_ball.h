@@ -29,12 +29,10 @@
 
 struct material_ball {
     const struct cpu_kernel *kernel; /* NULL: there is no studio yet */
-    struct bvh8_world studio;        /* its arrays are those below */
+    struct bvh8_world studio;
     struct bvh8 tree;
     struct sky_table sky_table;
-    struct vec3 *positions, *normals, *sky_texels;
-    struct vec2 *uvs;
-    struct tri *tris;
+    struct ball_arrays *arrays; /* the world's */
     struct material materials[BALL_MATERIALS];
     uint64_t textures; /* version of the textures that the picture shows */
     uint32_t spp;

@@ -145,37 +145,29 @@ static void add_event(struct overlay_text *l, const struct overlay_names *names,
              material, light, keeps, ends[s->way]);
 }
 
-void overlay_text_events(struct overlay_text *l,
-                         const struct overlay_names *names,
-                         const struct path_record *path, int count)
-{
-    int first = count > OVERLAY_TEXT_STEPS ? count - OVERLAY_TEXT_STEPS : 0;
-
-    l->count = 0;
-    for (int i = first; i < count; i++)
-        add_event(l, names, &path->steps[i],
-                  i + 1 < path->count ? &path->steps[i + 1].throughput : NULL,
-                  i + 1);
-    snprintf(next_line(l), OVERLAY_TEXT_BYTES,
-             "step %d of %d; the path brings light %.3g %.3g %.3g", count,
-             path->vertices, (double)path->radiance.x, (double)path->radiance.y,
-             (double)path->radiance.z);
-}
-
 void overlay_text_path(struct overlay_text *l, const struct scene *scene,
                        const struct overlay_names *names,
                        const struct path_record *path, int count)
 {
-    int first = count > OVERLAY_TEXT_STEPS ? count - OVERLAY_TEXT_STEPS : 0;
+    int room = OVERLAY_TEXT_STEPS;
 
     l->count = 0;
+    if (scene)
+        snprintf(next_line(l), OVERLAY_TEXT_BYTES,
+                 "%2s %-10s %-17s %-8s %-14s %-6s %s", "#", "material",
+                 "position", "way", "throughput", "pdf", "light");
+    for (int i = count > room ? count - room : 0; i < count; i++) {
+        const struct path_record_step *step = &path->steps[i];
+        const struct vec3 *next =
+            i + 1 < path->count ? &path->steps[i + 1].throughput : NULL;
+
+        if (scene)
+            add_step(l, scene, names, step, i + 1);
+        else
+            add_event(l, names, step, next, i + 1);
+    }
     snprintf(next_line(l), OVERLAY_TEXT_BYTES,
-             "%2s %-10s %-17s %-8s %-14s %-6s %s", "#", "material", "position",
-             "way", "throughput", "pdf", "light");
-    for (int i = first; i < count; i++)
-        add_step(l, scene, names, &path->steps[i], i + 1);
-    snprintf(next_line(l), OVERLAY_TEXT_BYTES,
-             "step %d of %d; radiance of the whole path %.4g %.4g %.4g", count,
+             "step %d of %d; the path brings light %.3g %.3g %.3g", count,
              path->vertices, (double)path->radiance.x, (double)path->radiance.y,
              (double)path->radiance.z);
 }

@@ -31,12 +31,8 @@ struct overlay_names {
 };
 
 /* Says what happens in the first `count` steps, or in the last ones of them
- * that fit, and which light the whole path brings. */
-void overlay_text_events(struct overlay_text *l,
-                         const struct overlay_names *names,
-                         const struct path_record *path, int count);
-
-/* The same as a table of numbers. */
+ * that fit, and which light the whole path brings: in words, or as a table of
+ * numbers with places in the scene's units (NULL: words). */
 void overlay_text_path(struct overlay_text *l, const struct scene *scene,
                        const struct overlay_names *names,
                        const struct path_record *path, int count);

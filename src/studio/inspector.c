@@ -81,12 +81,10 @@ void inspector_open_table(struct inspector *inspector)
         snprintf(title, sizeof title, " directions from pixel %u %u ",
                  inspector->x, inspector->y);
     } else if (draws_path(inspector)) {
-        if (inspector->drawing == INSPECTOR_PATH)
-            overlay_text_events(&legend, &names, &inspector->trail,
-                                inspector->step);
-        else
-            overlay_text_path(&legend, &s->scene, &names, &inspector->trail,
-                              inspector->step);
+        overlay_text_path(&legend,
+                          inspector->drawing == INSPECTOR_NUMBERS ? &s->scene
+                                                                  : NULL,
+                          &names, &inspector->trail, inspector->step);
         snprintf(title, sizeof title, " sample %llu of pixel %u %u - %s %s ",
                  (unsigned long long)inspector->sample, inspector->x,
                  inspector->y,

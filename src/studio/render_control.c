@@ -21,14 +21,41 @@
 /* Period of checks of the files if the system cannot watch them. */
 #define FILES_POLL_NS UINT64_C(1000000000)
 
+/* Least time of a message, and per byte for 200 words per minute. LONG_NS is
+ * the least time of long ones. */
+#define MESSAGE_NS UINT64_C(4000000000)
+#define BYTE_NS    UINT64_C(60000000)
+#define LONG_NS    UINT64_C(10000000000)
+
+/* Shows the message for the time that it takes to read it, at least `least_ns`.
+ */
+static void show_message(struct render_control *control, uint64_t least_ns)
+{
+    struct message *m = &control->message;
+    uint64_t ns = strlen(m->text) * BYTE_NS;
+
+    m->is_error = false;
+    m->until_ns = m->said_ns + (ns > least_ns ? ns : least_ns);
+    control->has_changed = true;
+}
+
+static void __attribute__((format(printf, 2, 0)))
+set_text(struct render_control *control, const char *format, va_list values)
+{
+    struct message *m = &control->message;
+
+    vsnprintf(m->text, sizeof m->text, format, values);
+    m->said_ns = clock_ns();
+}
+
 void render_control_say(struct render_control *control, const char *format, ...)
 {
     va_list values;
 
     va_start(values, format);
-    message_set(&control->message, false, format, values);
+    set_text(control, format, values);
     va_end(values);
-    control->has_changed = true;
+    show_message(control, MESSAGE_NS);
 }
 
 void render_control_say_long(struct render_control *control, const char *format,
@@ -37,15 +64,16 @@ void render_control_say_long(struct render_control *control, const char *format,
     va_list values;
 
     va_start(values, format);
-    message_set(&control->message, true, format, values);
+    set_text(control, format, values);
     va_end(values);
-    control->has_changed = true;
+    show_message(control, LONG_NS);
 }
 
 void render_control_say_error(struct render_control *control, const char *text)
 {
-    message_set_error(&control->message, text);
-    control->has_changed = true;
+    render_control_say(control, "%s", text);
+    control->message.is_error = true;
+    control->message.until_ns = UINT64_MAX;
 }
 
 void render_control_clear_message(struct render_control *control)
@@ -56,8 +84,8 @@ void render_control_clear_message(struct render_control *control)
 
 void render_control_acknowledge_error(struct render_control *control)
 {
-    if (message_acknowledge(&control->message))
-        control->has_changed = true;
+    if (control->message.is_error)
+        show_message(control, MESSAGE_NS);
 }
 
 struct keymap_name render_control_key(const struct render_control *control,

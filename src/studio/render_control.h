@@ -22,7 +22,14 @@
 #include "session/reload.h"
 #include "session/save_thread.h"
 #include "session/session.h"
-#include "studio/message.h"
+
+/* The line for the person in the place of the status line. */
+struct message {
+    char text[sizeof(struct error)];
+    bool is_error; /* shown until a key is pressed */
+    uint64_t said_ns;
+    uint64_t until_ns; /* end of the display; 0: no message */
+};
 
 struct render_control {
     struct session *session;

@@ -97,7 +97,7 @@ expect "1  hits red, finds light, ends there"
 expect "step 1 of 1; the path brings light 3 0 0"
 keys t
 expect "1 red .* end "
-expect "step 1 of 1; radiance of the whole path 3 0 0"
+expect "step 1 of 1; the path brings light 3 0 0"
 keys '>'
 wait_for "sample 1 of pixel"
 keys '<'

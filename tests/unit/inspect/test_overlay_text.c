@@ -40,7 +40,7 @@ static void paths_show_their_last_steps(void **state)
     check_has(l.lines[2], " 2 red paint  5 0 7 ");
     check_has(l.lines[2], "reflect  1.00 0.50 0.25 0.125  0 4 0");
     check_has(l.lines[1], " 1 no materia ");
-    check_has(l.lines[3], "step 2 of 9; radiance of the whole path 1 2 3");
+    check_has(l.lines[3], "step 2 of 9; the path brings light 1 2 3");
     overlay_text_path(&l, &scene, &names, &trail, 9);
     assert_int_equal(l.count, OVERLAY_TEXT_LINES);
     check_has(l.lines[1], " 4 red paint ");
@@ -71,7 +71,7 @@ static void paths_are_told(void **state)
                                                .way = PATH_RECORD_ROULETTE};
     trail.steps[3] =
         (struct path_record_step){.way = PATH_RECORD_SKY, .light = {1, 1, 1}};
-    overlay_text_events(&l, &names, &trail, 4);
+    overlay_text_path(&l, NULL, &names, &trail, 4);
     assert_int_equal(l.count, 5);
     assert_string_equal(l.lines[0],
                         " 1  hits red paint, keeps 35 %, is reflected");
@@ -83,7 +83,7 @@ static void paths_are_told(void **state)
     assert_string_equal(l.lines[3],
                         " 4  leaves the scene for the sky, finds light");
     check_has(l.lines[4], "step 4 of 5; the path brings light 0.5 0.25 0");
-    overlay_text_events(&l, &names, &trail, 1);
+    overlay_text_path(&l, NULL, &names, &trail, 1);
     assert_int_equal(l.count, 2);
 }
 
