@@ -13,57 +13,50 @@
 
 /* ---- scales ---- */
 
-/* Limits of typed numbers; ends of the scale, its step and digits. */
-#define TYPED(a, b) .least = a, .most = b
-#define SHOWN(a, b, by, numerals) \
-    .from = a, .to = b, .step = by, .digits = numerals
+/* Limits of typed numbers, ends of the scale, step, digits, and the rest. */
+#define SCALE(a, b, c, d, by, numerals, ...)                   \
+    {                                                          \
+        .least = a, .most = b, .from = c, .to = d, .step = by, \
+        .digits = numerals, __VA_ARGS__                        \
+    }
 
-const struct value_scale scale_unit = {TYPED(0, 1), SHOWN(0, 1, 0.01, 3)};
-const struct value_scale scale_specular = {TYPED(0, 1), SHOWN(0, 1, 0.01, 3),
-                                           .is_positive = true};
-const struct value_scale scale_hue = {TYPED(0, 360), SHOWN(0, 360, 1, 3),
-                                      .wraps = true};
-const struct value_scale scale_ior = {TYPED(1e-6, 1e6), SHOWN(1, 3, 0.01, 4)};
-const struct value_scale scale_film_ior = {TYPED(1, 10), SHOWN(1, 3, 0.01, 4)};
-const struct value_scale scale_film_thickness = {TYPED(0, 2000),
-                                                 SHOWN(0, 1000, 10, 4),
-                                                 .zero = "off"};
-const struct value_scale scale_emission = {TYPED(0, RADIANCE_MAX),
-                                           SHOWN(0.01, 1e4, 0, 4),
-                                           .zero = "off"};
-const struct value_scale scale_kelvin = {TYPED(BLACKBODY_LEAST,
-                                               BLACKBODY_GREATEST),
-                                         SHOWN(1000, 20000, 100, 6),
-                                         .suffix = "K"};
-static const struct value_scale scale_radiance = {TYPED(0, RADIANCE_MAX),
-                                                  SHOWN(0, 1, 0.01, 3)};
-static const struct value_scale scale_sky = {TYPED(0, RADIANCE_MAX),
-                                             SHOWN(0.01, 1e4, 0, 4)};
-static const struct value_scale scale_rotation = {TYPED(-1e6, 1e6),
-                                                  SHOWN(0, 360, 1, 4),
-                                                  .wraps = true};
-static const struct value_scale scale_azimuth = {TYPED(-SUN_AZIMUTH_MAX,
-                                                       SUN_AZIMUTH_MAX),
-                                                 SHOWN(0, 360, 1, 4),
-                                                 .wraps = true};
-static const struct value_scale scale_elevation = {TYPED(-SUN_ELEVATION_MAX,
-                                                         SUN_ELEVATION_MAX),
-                                                   SHOWN(0, 90, 1, 4)};
-static const struct value_scale scale_turbidity = {
-    TYPED(TURBIDITY_LEAST, TURBIDITY_GREATEST),
-    SHOWN(TURBIDITY_LEAST, TURBIDITY_GREATEST, 0.1, 3)};
-static const struct value_scale scale_lamp_elevation = {TYPED(-90, 90),
-                                                        SHOWN(-90, 90, 1, 4)};
-static const struct value_scale scale_cone = {TYPED(0, 90), SHOWN(0, 90, 1, 4)};
-static const struct value_scale scale_disc = {TYPED(0, 180),
-                                              SHOWN(0.01, 180, 0, 4),
-                                              .zero = "none"};
-static const struct value_scale scale_radius = {TYPED(0, RADIANCE_MAX),
-                                                SHOWN(1e-3, 1e3, 0, 4),
-                                                .zero = "none"};
-static const struct value_scale scale_exposure = {TYPED(-100, 100),
-                                                  SHOWN(-8, 8, 0.1, 3),
-                                                  .suffix = " stops"};
+/* clang-format off */
+const struct value_scale scale_unit = SCALE(0, 1, 0, 1, 0.01, 3,);
+const struct value_scale scale_specular =
+    SCALE(0, 1, 0, 1, 0.01, 3, .is_positive = true);
+const struct value_scale scale_hue = SCALE(0, 360, 0, 360, 1, 3, .wraps = true);
+const struct value_scale scale_ior = SCALE(1e-6, 1e6, 1, 3, 0.01, 4,);
+const struct value_scale scale_film_ior = SCALE(1, 10, 1, 3, 0.01, 4,);
+const struct value_scale scale_film_thickness =
+    SCALE(0, 2000, 0, 1000, 10, 4, .zero = "off");
+const struct value_scale scale_emission =
+    SCALE(0, RADIANCE_MAX, 0.01, 1e4, 0, 4, .zero = "off");
+const struct value_scale scale_kelvin =
+    SCALE(BLACKBODY_LEAST, BLACKBODY_GREATEST, 1000, 20000, 100, 6,
+          .suffix = "K");
+static const struct value_scale scale_radiance =
+    SCALE(0, RADIANCE_MAX, 0, 1, 0.01, 3,);
+static const struct value_scale scale_sky =
+    SCALE(0, RADIANCE_MAX, 0.01, 1e4, 0, 4,);
+static const struct value_scale scale_rotation =
+    SCALE(-1e6, 1e6, 0, 360, 1, 4, .wraps = true);
+static const struct value_scale scale_azimuth =
+    SCALE(-SUN_AZIMUTH_MAX, SUN_AZIMUTH_MAX, 0, 360, 1, 4, .wraps = true);
+static const struct value_scale scale_elevation =
+    SCALE(-SUN_ELEVATION_MAX, SUN_ELEVATION_MAX, 0, 90, 1, 4,);
+static const struct value_scale scale_turbidity =
+    SCALE(TURBIDITY_LEAST, TURBIDITY_GREATEST, TURBIDITY_LEAST,
+          TURBIDITY_GREATEST, 0.1, 3,);
+static const struct value_scale scale_lamp_elevation =
+    SCALE(-90, 90, -90, 90, 1, 4,);
+static const struct value_scale scale_cone = SCALE(0, 90, 0, 90, 1, 4,);
+static const struct value_scale scale_disc =
+    SCALE(0, 180, 0.01, 180, 0, 4, .zero = "none");
+static const struct value_scale scale_radius =
+    SCALE(0, RADIANCE_MAX, 1e-3, 1e3, 0, 4, .zero = "none");
+static const struct value_scale scale_exposure =
+    SCALE(-100, 100, -8, 8, 0.1, 3, .suffix = " stops");
+/* clang-format on */
 
 /* ---- material of an object ---- */
 
@@ -283,8 +276,8 @@ static struct value_scale place_scale(const struct scene *scene)
     for (int k = 0; k < 3; k++)
         reach = fmax(reach, fabs(scene->center[k]) + 1 / scene->scale);
     most = pow(10, ceil(log10(reach)));
-    return (struct value_scale){TYPED(-RADIANCE_MAX, RADIANCE_MAX),
-                                SHOWN(-most, most, most / 200, 5)};
+    return (struct value_scale)SCALE(-RADIANCE_MAX, RADIANCE_MAX, -most, most,
+                                     most / 200, 5, );
 }
 
 /* ---- table ---- */

@@ -4,13 +4,14 @@
  * it, one window over it and the status line; and when each is drawn
  *
  * The help, the progress panel and the inspector's table share the window. The
- * help hides the others while it is open. Progress and the editor panel exclude
- * each other, as there is room for one of them.
+ * help hides the others while it is open. A window of progress and the editor
+ * panel exclude each other, as there is room for one of them.
  *
  * Units:     nanoseconds of clock_ns()
  * Ownership: control and camera stay the caller's and outlive it;
- * workspace_free() frees the rest Threads:   main only Errors:    become
- * messages
+ *            workspace_free() frees the rest
+ * Threads:   main only
+ * Errors:    become messages
  */
 #ifndef GLIM_WORKSPACE_H
 #define GLIM_WORKSPACE_H
