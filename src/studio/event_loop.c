@@ -150,7 +150,7 @@ static void take_event(struct studio *studio, const struct event *event)
     } else {
         bool is_other = screen_answer(&workspace->screen, event);
 
-        if (event->kind == EVENT_ATTRIBUTES &&
+        if ((event->kind == EVENT_ATTRIBUTES || event->kind == EVENT_KITTY) &&
             workspace_recall_glyphs(workspace))
             is_other = true;
         if (is_other)

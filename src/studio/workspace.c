@@ -408,7 +408,8 @@ static void say_lack(struct workspace *workspace, uint64_t now_ns)
 {
     const struct screen *screen = &workspace->screen;
     const char *lack = term_caps_lack(&screen->display);
-    bool is_known = screen->has_all_answers || now_ns >= workspace->lack_ns;
+    bool is_known = (screen->has_all_answers && !tty_is_in_tmux()) ||
+                    now_ns >= workspace->lack_ns;
 
     if (workspace->lack_ns == 0 || !is_known ||
         workspace->control->message.until_ns != 0)

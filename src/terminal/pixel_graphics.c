@@ -17,12 +17,28 @@
 /* Most bytes of a jump to any cell. */
 #define JUMP_BYTES 24
 
+/* Numbers of kitty's images: those of 256 colours that tmux does not change. */
+#define ID_FIRST 16
+#define ID_LAST  255
+
 /* First guess of the bytes of a pixel: base64 of three bytes. Sixels have as
  * many in a picture with some noise. */
 #define PIXEL_BYTES 4
 
 /* At rest a frame may take so many times as long as while the camera moves. */
 #define REST_SHARE 4
+
+static int at_most(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* Most rows of cells in an image. */
+static int image_rows_max(const struct pixel_graphics *g)
+{
+    return at_most((g->shape.rows + IMAGE_ROWS - 1) / IMAGE_ROWS,
+                   KITTY_ROWS_MAX);
+}
 
 /* Remembers an image of kitty that is to be removed. */
 static void retire(struct pixel_graphics *g, int id)
@@ -35,8 +51,7 @@ bool pixel_graphics_init(struct pixel_graphics *g,
                          const struct pixel_graphics_shape *shape,
                          const struct pixel_graphics *before, struct error *err)
 {
-    size_t rows_px = ((size_t)shape->rows + IMAGE_ROWS - 1) / IMAGE_ROWS *
-                     (size_t)shape->cell_height_px;
+    size_t rows_px;
 
     assert(shape->kind != PIXEL_GRAPHICS_NONE);
     *g = (struct pixel_graphics){
@@ -51,6 +66,7 @@ bool pixel_graphics_init(struct pixel_graphics *g,
         retire(g, before->old_images[i]);
     for (int i = 0; i < before->image_count; i++)
         retire(g, before->images[i].id);
+    rows_px = (size_t)image_rows_max(g) * (size_t)shape->cell_height_px;
     g->pixels = alloc_array(3 * rows_px, SIXEL_WIDTH_MAX);
     g->numbers = alloc_array(rows_px, SIXEL_WIDTH_MAX);
     if (g->pixels && g->numbers &&
@@ -78,11 +94,6 @@ void pixel_graphics_invalidate(struct pixel_graphics *g)
 
 /* ---- places of the images ---- */
 
-static int at_most(int a, int b)
-{
-    return a < b ? a : b;
-}
-
 /* Finds the images that show what no window covers. Rows that are covered alike
  * are of one image, if it does not become too high. Returns their number. */
 static int find_images(const struct pixel_graphics *g,
@@ -90,7 +101,7 @@ static int find_images(const struct pixel_graphics *g,
                        struct ansi_diff_rect rects[PIXEL_GRAPHICS_IMAGES])
 {
     int cols_max = SIXEL_WIDTH_MAX / g->shape.cell_width_px;
-    int rows_max = (g->shape.rows + IMAGE_ROWS - 1) / IMAGE_ROWS;
+    int rows_max = image_rows_max(g);
     int count = 0;
 
     for (int row = 0; row < g->shape.rows; row++) {
@@ -287,32 +298,76 @@ static double block_of(const struct pixel_graphics *g, double pixels,
     return block;
 }
 
-static size_t encode(struct pixel_graphics *g,
-                     struct pixel_graphics_image *image,
-                     const struct area *screen, int width, int height,
-                     char *bytes)
+static bool is_id_used(const struct pixel_graphics *g, int id)
+{
+    for (int i = 0; i < g->image_count; i++) {
+        if (g->images[i].id == id)
+            return true;
+    }
+    for (int i = 0; i < g->old_count; i++) {
+        if (g->old_images[i] == id)
+            return true;
+    }
+    return false;
+}
+
+/* Returns a number for a new image. Fewer are in use
+ * than there are. */
+static int next_id(struct pixel_graphics *g)
+{
+    int id = g->last_id;
+
+    do
+        id = id < ID_FIRST || id >= ID_LAST ? ID_FIRST : id + 1;
+    while (is_id_used(g, id));
+    g->last_id = id;
+    return id;
+}
+
+static void erase(struct pixel_graphics *g, struct ansi_diff *a, int id)
+{
+    struct kitty_image image = {.id = id, .is_virtual = g->shape.is_in_tmux};
+
+    a->length += kitty_erase(&image, a->bytes + a->length);
+}
+
+/* Appends g->pixels as an image of kitty, and the removal of the one before. */
+static void put_kitty(struct pixel_graphics *g, struct ansi_diff *a,
+                      struct pixel_graphics_image *image, int width, int height,
+                      const struct ansi_diff_draw *how)
 {
     int before = image->id;
-    struct kitty_image kitty = {.id = g->last_id + 1,
+    struct kitty_image kitty = {.id = next_id(g),
+                                .is_virtual = g->shape.is_in_tmux,
                                 .cols = image->rect.cols,
                                 .rows = image->rect.rows,
                                 .width = width,
                                 .height = height,
                                 .rgb = g->pixels,
                                 .stride_bytes = 3 * (size_t)width};
-    struct sixel_image sixel = {screen->width, screen->height, g->shape.palette,
-                                g->numbers};
-    size_t length;
 
-    if (g->shape.kind == PIXEL_GRAPHICS_SIXEL) {
-        fill_numbers(g, screen, width, height);
-        return sixel_encode(&sixel, bytes);
+    a->length += kitty_encode(&kitty, a->bytes + a->length);
+    for (int row = 0; kitty.is_virtual && row < kitty.rows; row++) {
+        ansi_diff_jump(a, how->row + image->rect.row + row,
+                       how->col + image->rect.col);
+        a->length += kitty_cells(&kitty, row, a->bytes + a->length);
     }
-    image->id = ++g->last_id;
-    length = kitty_encode(&kitty, bytes);
     if (before > 0)
-        length += kitty_erase(before, bytes + length);
-    return length;
+        erase(g, a, before);
+    image->id = kitty.id;
+}
+
+/* Most bytes of an image with its jumps. */
+static size_t image_bytes_max(const struct pixel_graphics *g,
+                              const struct pixel_graphics_image *image,
+                              const struct area *screen, int width, int height)
+{
+    size_t cells = (size_t)image->rect.rows *
+                   (JUMP_BYTES + kitty_cells_bytes_max(image->rect.cols));
+
+    return JUMP_BYTES + (g->shape.kind == PIXEL_GRAPHICS_KITTY
+                             ? kitty_bytes_max(width, height) + cells
+                             : sixel_bytes_max(screen->width, screen->height));
 }
 
 /* Sends an image with pixels of this width. Returns false when memory is out.
@@ -326,17 +381,21 @@ static bool put_image(struct pixel_graphics *g, struct ansi_diff *a,
     struct area screen = area_in(g, &image->rect, g->width_px, g->height_px);
     int width = at_most((int)ceil(screen.width / block), from.width);
     int height = at_most((int)ceil(screen.height / block), from.height);
+    struct sixel_image sixel = {screen.width, screen.height, g->shape.palette,
+                                g->numbers};
     size_t before = a->length;
 
     if (!ansi_diff_reserve(a,
-                           JUMP_BYTES + (g->shape.kind == PIXEL_GRAPHICS_KITTY
-                                             ? kitty_bytes_max(width, height)
-                                             : sixel_bytes_max(screen.width,
-                                                               screen.height))))
+                           image_bytes_max(g, image, &screen, width, height)))
         return false;
     reduce(frame, &from, width, height, g->pixels);
     ansi_diff_jump(a, how->row + image->rect.row, how->col + image->rect.col);
-    a->length += encode(g, image, &screen, width, height, a->bytes + a->length);
+    if (g->shape.kind == PIXEL_GRAPHICS_KITTY) {
+        put_kitty(g, a, image, width, height, how);
+    } else {
+        fill_numbers(g, &screen, width, height);
+        a->length += sixel_encode(&sixel, a->bytes + a->length);
+    }
     g->pixel_bytes +=
         .2 * ((double)(a->length - before) / (width * height) - g->pixel_bytes);
     image->is_fine = width == from.width && height == from.height;
@@ -362,7 +421,7 @@ static bool put_all(struct pixel_graphics *g, struct ansi_diff *a,
     for (int i = 0; i < g->old_count; i++) {
         if (!ansi_diff_reserve(a, kitty_bytes_max(0, 0)))
             return false;
-        a->length += kitty_erase(g->old_images[i], a->bytes + a->length);
+        erase(g, a, g->old_images[i]);
     }
     g->old_count = 0;
     g->next = 0;

@@ -32,6 +32,7 @@ struct pixel_graphics_shape {
     int cols, rows; /* size of the picture */
     int cell_width_px, cell_height_px;
     enum palette palette; /* of sixels: 256, or 16 for few registers */
+    bool is_in_tmux;      /* kitty's images go through it */
 };
 
 struct pixel_graphics_image {
@@ -43,7 +44,7 @@ struct pixel_graphics_image {
 /* Most images: windows divide the picture into few parts, and these into four
  * rows of images. */
 #define PIXEL_GRAPHICS_IMAGES 64
-#define PIXEL_GRAPHICS_OLD    (4 * PIXEL_GRAPHICS_IMAGES)
+#define PIXEL_GRAPHICS_OLD    128
 
 struct pixel_graphics {
     struct pixel_graphics_shape shape;

@@ -125,6 +125,7 @@ static bool init_pixels(struct screen *screen,
         .cols = screen->fit.cols,
         .rows = screen->fit.rows,
         .palette = is_poor ? PALETTE_16 : PALETTE_256,
+        .is_in_tmux = tty_is_in_tmux(),
     };
 
     if (shape.kind == PIXEL_GRAPHICS_NONE ||
@@ -196,9 +197,10 @@ bool screen_answer(struct screen *screen, const struct event *event)
     }
     if (event->kind == EVENT_READY)
         frame_pacing_answer(&screen->pace, clock_ns());
-    if (event->kind != EVENT_ATTRIBUTES)
+    if (event->kind == EVENT_ATTRIBUTES)
+        screen->has_all_answers = true;
+    else if (event->kind != EVENT_KITTY) /* which is later inside tmux */
         return is_other;
-    screen->has_all_answers = true;
     return term_caps_pixels(&screen->display) != screen->graphics.shape.kind;
 }
 

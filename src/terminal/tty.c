@@ -194,14 +194,19 @@ static bool is_simple(const char *name)
     return false;
 }
 
-/* Returns true inside tmux, which takes KITTY_QUESTION for a title, or screen,
- * which forwards it blindly. */
-static bool is_inside_another(void)
+bool tty_is_in_tmux(void)
 {
     const char *tmux = getenv("TMUX");
+
+    return tmux && tmux[0];
+}
+
+/* Returns true inside screen, which forwards KITTY_QUESTION blindly. */
+static bool is_in_screen(void)
+{
     const char *sty = getenv("STY");
 
-    return (tmux && tmux[0]) || (sty && sty[0]);
+    return sty && sty[0];
 }
 
 /* Writes to the terminal. If it ends early, a signal that stops the program
@@ -251,7 +256,9 @@ static void ask(void)
         tty_write(SIXEL_QUESTION, sizeof SIXEL_QUESTION - 1);
         tty_write(NAME_QUESTION, sizeof NAME_QUESTION - 1);
     }
-    if (term.may_ask_colors && !is_inside_another()) {
+    if (term.may_ask_colors && tty_is_in_tmux()) {
+        tty_write(KITTY_TMUX_QUESTION, sizeof KITTY_TMUX_QUESTION - 1);
+    } else if (term.may_ask_colors && !is_in_screen()) {
         tty_write(KITTY_QUESTION, sizeof KITTY_QUESTION - 1);
         tty_write(BACKGROUND_QUESTION, sizeof BACKGROUND_QUESTION - 1);
     }
@@ -368,11 +375,9 @@ enum palette tty_palette(bool *is_final)
 
 bool tty_is_utf8(bool *may_learn)
 {
-    const char *tmux = getenv("TMUX");
-
     /* tmux accepts every character and shows underscores if the outer terminal
      * lacks it, so its answer does not tell */
-    *may_learn = !(tmux && tmux[0]) && !is_simple(getenv("TERM"));
+    *may_learn = !tty_is_in_tmux() && !is_simple(getenv("TERM"));
     return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
 }
 

@@ -47,6 +47,9 @@ enum palette tty_palette(bool *is_final);
  * more. */
 bool tty_is_utf8(bool *may_learn);
 
+/* True inside tmux. */
+bool tty_is_in_tmux(void);
+
 /* Returns true if a character in the last column of the last row scrolls the
  * screen. */
 bool tty_scrolls_at_end(void);

@@ -10,6 +10,7 @@
 #ifndef TESTS_PIXELS_H
 #define TESTS_PIXELS_H
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 #include "tests/unit/check.h"
@@ -100,6 +101,7 @@ static inline const char *sixels_read(const char *p, struct sixels *s)
 
 struct kitty_pixels {
     int width, height, cols, rows, id;
+    bool is_virtual; /* sent through tmux, shown by placeholders */
     uint8_t rgb[3 * PIXELS_MAX];
 };
 
@@ -113,19 +115,33 @@ static inline int base64_digit(char c)
     return (int)(at - digits);
 }
 
-/* Reads an image in pieces that begin with ESC _. Returns a pointer behind
- * it. */
+/* Expects the begin or end of a command, which tmux passes on if `is_virtual`.
+ */
+static inline const char *kitty_begin(const char *p, bool is_virtual)
+{
+    return expect_text(p, is_virtual ? "\033Ptmux;\033\033_G" : "\033_G");
+}
+
+static inline const char *kitty_end(const char *p, bool is_virtual)
+{
+    return expect_text(p, is_virtual ? "\033\033\\\033\\" : "\033\\");
+}
+
+/* Reads an image in pieces that begin with ESC. Returns a pointer behind it. */
 static inline const char *kitty_read(const char *p, struct kitty_pixels *k)
 {
     size_t length = 0;
     int has_more;
 
-    p = read_int(expect_text(p, "\033_Ga=T,f=24,s="), &k->width);
+    k->is_virtual = p[1] == 'P';
+    p = kitty_begin(p, k->is_virtual);
+    p = read_int(expect_text(p, "a=T,f=24,s="), &k->width);
     p = read_int(expect_text(p, ",v="), &k->height);
     p = read_int(expect_text(p, ",c="), &k->cols);
     p = read_int(expect_text(p, ",r="), &k->rows);
     p = read_int(expect_text(p, ",i="), &k->id);
-    p = read_int(expect_text(p, ",p=1,q=2,C=1,m="), &has_more);
+    p = expect_text(p, k->is_virtual ? ",U=1" : ",p=1,C=1");
+    p = read_int(expect_text(p, ",q=2,m="), &has_more);
     for (;;) {
         const char *begin = ++p; /* behind the semicolon */
 
@@ -139,10 +155,11 @@ static inline const char *kitty_read(const char *p, struct kitty_pixels *k)
             k->rgb[length++] = (uint8_t)bits;
         }
         assert_true(p - begin <= 4096);
-        p = expect_text(p, "\033\\");
+        p = kitty_end(p, k->is_virtual);
         if (!has_more)
             break;
-        p = read_int(expect_text(p, "\033_Gm="), &has_more);
+        p = kitty_begin(p, k->is_virtual);
+        p = read_int(expect_text(p, "m="), &has_more);
     }
     assert_int_equal(length, 3 * k->width * k->height);
     return p;

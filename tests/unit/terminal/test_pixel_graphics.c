@@ -20,7 +20,7 @@
 /* Pixels of a window without text. */
 #define BLANK (-1)
 
-#define IDS 4096
+#define IDS 256
 
 struct screen {
     int pixel[HEIGHT][WIDTH]; /* 0xRRGGBB, a colour number, or BLANK */
@@ -90,50 +90,98 @@ static void remove_image(struct screen *s, int id)
     check_whole(s);
 }
 
+static int pixel_in(const struct kitty_pixels *image, int x, int y)
+{
+    const uint8_t *p = image->rgb + 3 * (y * image->width + x);
+
+    return p[0] << 16 | p[1] << 8 | p[2];
+}
+
+/* An image that waits for its placeholders. */
+static struct kitty_pixels image;
+
 static const char *take_kitty(struct screen *s, const char *p)
 {
-    static struct kitty_pixels image;
     static int pixels[PIXELS_MAX];
+    bool is_virtual = p[1] == 'P';
     int id;
 
-    if (memcmp(p, "\033_Ga=d", 6) == 0) {
-        p = read_int(expect_text(p, "\033_Ga=d,d=I,i="), &id);
+    if (memcmp(kitty_begin(p, is_virtual), "a=d", 3) == 0) {
+        p = expect_text(kitty_begin(p, is_virtual), "a=d,d=I,i=");
+        p = read_int(p, &id);
         remove_image(s, id);
-        return expect_text(p, ",q=2\033\\");
+        return kitty_end(expect_text(p, ",q=2"), is_virtual);
     }
     p = kitty_read(p, &image);
     /* the terminal would remove an image of the same number at once */
-    assert_in_range(image.id, 1, IDS - 1);
+    assert_in_range(image.id, 16, IDS - 1);
     assert_false(s->has_image[image.id]);
     s->has_image[image.id] = true;
     for (int i = 0; i < image.width * image.height; i++)
-        pixels[i] = image.rgb[3 * i] << 16 | image.rgb[3 * i + 1] << 8 |
-                    image.rgb[3 * i + 2];
-    put_pixels(s, image.width, image.height, pixels, image.cols * CELL_W,
-               image.rows * CELL_H, image.id);
+        pixels[i] = pixel_in(&image, i, 0);
+    if (is_virtual)
+        s->images++;
+    else
+        put_pixels(s, image.width, image.height, pixels, image.cols * CELL_W,
+                   image.rows * CELL_H, image.id);
+    return p;
+}
+
+/* Shows the cells of a row of an image. The first has marks of row and column,
+ * U+0305, U+030D, U+030E for the first three; this picture needs no more. */
+static const char *take_placeholders(struct screen *s, const char *p)
+{
+    static const char *const marks[] = {"\xcc\x85", "\xcc\x8d", "\xcc\x8e"};
+    int id, row = 0;
+
+    p = expect_text(read_int(expect_text(p, "\033[38;5;"), &id), "m");
+    assert_int_equal(id, image.id);
+    p = expect_text(p, "\xf4\x8e\xbb\xae");
+    while (row < 3 && memcmp(p, marks[row], 2) != 0)
+        row++;
+    assert_true(row < image.rows);
+    p = expect_text(p + 2, marks[0]);
+    for (int col = 0; col < image.cols; col++) {
+        for (int y = 0; y < CELL_H; y++) {
+            for (int x = 0; x < CELL_W; x++) {
+                int to_x = (s->col + col) * CELL_W + x;
+                int to_y = s->row * CELL_H + y;
+
+                s->pixel[to_y][to_x] = pixel_in(
+                    &image,
+                    (col * CELL_W + x) * image.width / (image.cols * CELL_W),
+                    (row * CELL_H + y) * image.height / (image.rows * CELL_H));
+                s->owner[to_y][to_x] = id;
+            }
+        }
+        if (col + 1 < image.cols)
+            p = expect_text(p, "\xf4\x8e\xbb\xae");
+    }
     return p;
 }
 
 static void screen_write(struct screen *s, struct ansi_diff *a)
 {
-    static struct sixels image;
+    static struct sixels sixels;
     const char *p = a->bytes;
 
     assert_true(ansi_diff_reserve(a, 1));
     p = a->bytes;
     a->bytes[a->length] = '\0';
     while (p < a->bytes + a->length) {
-        if (p[1] == '[') {
+        if (memcmp(p, "\033[38", 4) == 0) {
+            p = take_placeholders(s, p);
+        } else if (p[1] == '[') {
             p = read_int(p + 2, &s->row);
             p = expect_text(read_int(expect_text(p, ";"), &s->col), "H");
             s->row--;
             s->col--;
-        } else if (p[1] == '_') {
+        } else if (p[1] == '_' || memcmp(p, "\033Pt", 3) == 0) {
             p = take_kitty(s, p);
         } else {
-            p = sixels_read(p, &image);
-            put_pixels(s, image.width, image.height, image.number, image.width,
-                       image.height, 0);
+            p = sixels_read(p, &sixels);
+            put_pixels(s, sixels.width, sixels.height, sixels.number,
+                       sixels.width, sixels.height, 0);
         }
         check_whole(s);
     }
@@ -147,15 +195,22 @@ struct fixture {
     struct screen screen;
 };
 
-static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
-                                                 PIXEL_GRAPHICS_KITTY};
+/* Sixels, kitty's images, and these through tmux. */
+#define WAYS 3
 
 static struct fixture st;
 
-static void begin_layout(enum pixel_graphics_kind kind)
+static void begin_layout(int way)
 {
-    struct pixel_graphics_shape shape = {kind,   COLS,   ROWS,
-                                         CELL_W, CELL_H, PALETTE_256};
+    struct pixel_graphics_shape shape = {
+        .kind = way > 0 ? PIXEL_GRAPHICS_KITTY : PIXEL_GRAPHICS_SIXEL,
+        .cols = COLS,
+        .rows = ROWS,
+        .cell_width_px = CELL_W,
+        .cell_height_px = CELL_H,
+        .palette = PALETTE_256,
+        .is_in_tmux = way == 2,
+    };
     struct pixel_graphics before = st.g;
     struct error err;
 
@@ -163,12 +218,12 @@ static void begin_layout(enum pixel_graphics_kind kind)
     assert_true(pixel_graphics_init(&st.g, &shape, &before, &err));
 }
 
-static void fixture_init(enum pixel_graphics_kind kind, uint64_t *seed)
+static void fixture_init(int way, uint64_t *seed)
 {
     struct error err;
 
     memset(&st, 0, sizeof st);
-    begin_layout(kind);
+    begin_layout(way);
     assert_true(ansi_diff_init(&st.a, COLS, ROWS, &err));
     assert_true(frame_init(&st.frame, WIDTH, HEIGHT, &err));
     assert_true(dither_init(&st.dither, &err));
@@ -244,8 +299,8 @@ static void terminal_shows_the_picture(void **state)
     bool is_done;
 
     (void)state;
-    for (int i = 0; i < 2; i++) {
-        fixture_init(kinds[i], &seed);
+    for (int i = 0; i < WAYS; i++) {
+        fixture_init(i, &seed);
         draw_all(&how);
         check_shown();
         assert_int_equal(draw(&how, PIXEL_GRAPHICS_RESTS, &is_done), 0);
@@ -272,8 +327,8 @@ static void moving_frames_are_whole(void **state)
     bool is_done;
 
     (void)state;
-    for (int i = 0; i < 2; i++) {
-        fixture_init(kinds[i], &seed);
+    for (int i = 0; i < WAYS; i++) {
+        fixture_init(i, &seed);
         for (int k = 0; k < 20; k++) {
             for (int y = 0; y < HEIGHT; y++) {
                 for (int x = 0; x < WIDTH; x++)
@@ -303,7 +358,7 @@ static void coarse_pixels_are_means(void **state)
     bool is_done;
 
     (void)state;
-    fixture_init(PIXEL_GRAPHICS_KITTY, &seed);
+    fixture_init(1, &seed);
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++)
             set_pixel(x, y, 255 * x / WIDTH);
@@ -321,7 +376,7 @@ static void coarse_pixels_are_means(void **state)
 /* From the first picture on nothing is removed before its successor is there:
  * while it moves, when it comes to rest, when a window opens and closes, and
  * when the layout changes. At the end no old image is left. */
-static void there_are_no_holes(void **state)
+static void check_holes(int way)
 {
     struct ansi_diff_rect window = {10, 2, 35, 4};
     struct ansi_diff_draw how = {.budget_bytes = 20000, .covered = &window};
@@ -329,8 +384,7 @@ static void there_are_no_holes(void **state)
     int left = 0;
     bool is_done;
 
-    (void)state;
-    fixture_init(PIXEL_GRAPHICS_KITTY, &seed);
+    fixture_init(way, &seed);
     draw(&how, PIXEL_GRAPHICS_MOVES, &is_done);
     st.screen.must_be_whole = true;
     for (int k = 0; k < 60; k++) {
@@ -340,7 +394,7 @@ static void there_are_no_holes(void **state)
         if (how.covered_count)
             st.screen.window = window;
         if (k % 15 == 14)
-            begin_layout(PIXEL_GRAPHICS_KITTY);
+            begin_layout(way);
         draw(&how, (enum pixel_graphics_pace)(k % 5 / 2), &is_done);
         if (how.covered_count == 0) /* where the window was is picture now */
             st.screen.window = (struct ansi_diff_rect){0, 0, 0, 0};
@@ -353,6 +407,13 @@ static void there_are_no_holes(void **state)
     fixture_free();
 }
 
+static void there_are_no_holes(void **state)
+{
+    (void)state;
+    check_holes(1);
+    check_holes(2);
+}
+
 /* A frame at rest exceeds the budget by at most four frames' worth, and a
  * picture that never stops changing is drawn everywhere. */
 static void budget_is_kept(void **state)
@@ -362,8 +423,8 @@ static void budget_is_kept(void **state)
     bool is_done;
 
     (void)state;
-    for (int i = 0; i < 2; i++) {
-        fixture_init(kinds[i], &seed);
+    for (int i = 0; i < WAYS; i++) {
+        fixture_init(i, &seed);
         draw(&how, PIXEL_GRAPHICS_MOVES, &is_done);
         for (int k = 0; k < 40; k++) {
             for (int x = 0; x < WIDTH; x++)
@@ -384,15 +445,15 @@ static void windows_stay_free(void **state)
     bool is_done;
 
     (void)state;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < WAYS; i++) {
         struct ansi_diff_draw how = {.budget_bytes = 1 << 20,
                                      .covered = &window};
 
-        fixture_init(kinds[i], &seed);
+        fixture_init(i, &seed);
         draw_all(&how);
         how.covered_count = 1;
         st.screen.window = window;
-        if (kinds[i] == PIXEL_GRAPHICS_SIXEL) /* curses overwrites sixels */
+        if (i == 0) /* curses overwrites sixels */
             blank(&st.screen, 10, 1, 25, 3);
         draw_all(&how);
         check_shown();
@@ -419,10 +480,10 @@ static void small_frames_are_enlarged(void **state)
     uint64_t seed = 7;
 
     (void)state;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < WAYS; i++) {
         bool is_done = false;
 
-        fixture_init(kinds[i], &seed);
+        fixture_init(i, &seed);
         assert_true(frame_init(&small, WIDTH / 7, HEIGHT / 5, &err));
         for (int k = 0; k < 3 * small.width * small.height; k++)
             small.rgb[k] = (uint8_t)(64 * (int)(4 * check_random(&seed)));
@@ -438,10 +499,9 @@ static void small_frames_are_enlarged(void **state)
                 const uint8_t *p =
                     small.rgb + 3 * (y / 5 * small.width + x / 7);
                 struct rgb c = {p[0], p[1], p[2]};
-                int color = kinds[i] == PIXEL_GRAPHICS_SIXEL
-                                ? (int)dither_color(&st.dither, c, x / 7, y / 5,
-                                                    PALETTE_256)
-                                : c.r << 16 | c.g << 8 | c.b;
+                int color = i == 0 ? (int)dither_color(&st.dither, c, x / 7,
+                                                       y / 5, PALETTE_256)
+                                   : c.r << 16 | c.g << 8 | c.b;
 
                 assert_int_equal(st.screen.pixel[y][x], color);
             }
