@@ -33,6 +33,10 @@
 #define STATUS_NS      (250 * MS_NS)
 #define STATUS_SLOW_NS S_NS
 
+/* A new layout clears the screen. It waits so long for a picture, so that both
+ * appear together. */
+#define LAYOUT_NS (100 * MS_NS)
+
 /* The status line says that the picture is filtered until it was not for this
  * time: the first frames after a move of the camera are not. */
 #define FILTERED_NS S_NS
@@ -97,6 +101,7 @@ void workspace_layout(struct workspace *workspace)
     struct error err;
 
     workspace->help.is_open = false;
+    workspace->layout_ns = clock_ns();
     workspace->width_px = film->width;
     workspace->height_px = film->height;
     workspace_refresh(workspace);
@@ -508,7 +513,7 @@ static void size_frame(struct workspace *workspace,
 }
 
 /* Writes text that has changed, then makes and writes a frame if `has_frame`.
- */
+ * The text of a new layout, which clears the screen, waits for the frame. */
 static enum screen_result send(struct workspace *workspace, bool has_frame)
 {
     struct screen *screen = &workspace->screen;
@@ -518,14 +523,17 @@ static enum screen_result send(struct workspace *workspace, bool has_frame)
     struct screen_frame frame = {.pixels = &workspace->frame};
     enum screen_result result;
 
-    screen_draw_text(screen);
+    if (workspace->layout_ns == 0 || !has_frame || screen->is_too_small)
+        screen_draw_text(screen);
     if (!has_frame || screen->is_too_small)
         return screen_draw(screen, &(struct screen_frame){.pixels = NULL});
     frame.pace = pace_of(workspace, now_ns);
     frame.step = frame_step(workspace);
     size_frame(workspace, frame.pace);
     paint(workspace);
+    screen_draw_text(screen);
     result = screen_draw(screen, &frame);
+    workspace->layout_ns = 0;
     if (view_mode->is_filtered)
         workspace->filtered_until_ns = now_ns + FILTERED_NS;
     if (view_mode->legend_is_new ||
@@ -578,6 +586,9 @@ bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
                             now_ns);
     if ((!shows && !screen->must_update) ||
         !frame_pacing_may_send(&screen->pace))
+        return true;
+    if (!shows && now_ns < workspace->layout_ns + LAYOUT_NS &&
+        render_control_awaits_picture(workspace->control))
         return true;
     result = send(workspace, shows);
     if (shows && result != SCREEN_GONE) {

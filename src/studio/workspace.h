@@ -47,9 +47,10 @@ struct workspace {
     uint64_t lack_ns; /* when the terminal's answers count as lost, and a
                          message says why no pixels are shown; 0: never */
 
-    bool is_settled;            /* the screen shows the final picture */
-    uint64_t frame_ns;          /* when the next frame is due */
-    uint64_t status_ns;         /* when the status line is formatted next */
+    bool is_settled;    /* the screen shows the final picture */
+    uint64_t layout_ns; /* when a layout was made that no frame has; 0: none */
+    uint64_t frame_ns;  /* when the next frame is due */
+    uint64_t status_ns; /* when the status line is formatted next */
     uint64_t filtered_until_ns; /* the status line says so until then */
     int width_px, height_px;    /* size of the picture in this layout */
 };
