@@ -58,7 +58,7 @@ take()
     done
     sleep "$pause"
     import -window "$window" "$home/shot.png" &&
-        convert "$home/shot.png" -strip +dither -colors 48 -define png:compression-level=9 \
+        convert "$home/shot.png" -strip +dither -colors 256 -define png:compression-level=9 \
             "PNG8:$out/$name-$theme-$size.png"
 }
 
