@@ -211,9 +211,53 @@ static inline float distance_error(struct vec3 a, struct vec3 b, struct vec3 c,
     return 3.0f * weight * spread / fabsf(det) + GAMMA(12) * reach_z;
 }
 
+/* Edge function in compensated floats. */
+static inline struct compensated_float compensated_edge(float a, float b,
+                                                        float c, float d)
+{
+    return compensated_add(two_product(a, b),
+                           compensated_neg(two_product(c, d)));
+}
+
+/* Distance of the point that the edge functions of sheared corners interpolate,
+ * in compensated floats. */
+static inline float edge_distance(struct vec3 a, struct vec3 b, struct vec3 c)
+{
+    struct compensated_float u = compensated_edge(c.x, b.y, c.y, b.x);
+    struct compensated_float v = compensated_edge(a.x, c.y, a.y, c.x);
+    struct compensated_float w = compensated_edge(b.x, a.y, b.y, a.x);
+    struct compensated_float az = {a.z, 0.0f}, bz = {b.z, 0.0f},
+                             cz = {c.z, 0.0f};
+    struct compensated_float sum =
+        compensated_add(compensated_mul(u, az),
+                        compensated_add(compensated_mul(v, bz),
+                                        compensated_mul(w, cz)));
+
+    return sum.hi / compensated_add(u, compensated_add(v, w)).hi;
+}
+
 /* Relative error from which a distance is computed again: that of needles, and
  * of faces near the origin. */
 #define T_PRECISION 0x1p-14f
+
+/* Distance to a needle, or to a face near the origin: that of the plane, which
+ * tells on which side the origin is. The edge functions may let a ray hit that
+ * misses the triangle by a few roundings. If it is almost parallel to the
+ * plane, it meets the plane far from the triangle, where no tree would look. So
+ * a hit is not nearer than the point that they interpolate, with T_PRECISION.
+ */
+static inline float distance_again(struct ray r, struct vec3 p0, struct vec3 p1,
+                                   struct vec3 p2, struct vec3 a, struct vec3 b,
+                                   struct vec3 c)
+{
+    float t = plane_distance(r, p0, p1, p2);
+
+    t = f_max(t, f_min(a.z, f_min(b.z, c.z)));
+    t = f_min(t, f_max(a.z, f_max(b.z, c.z)));
+    if (t > 0.0f)
+        t = f_max(edge_distance(a, b, c) * (1.0f - T_PRECISION), t);
+    return t;
+}
 
 /* Intersects a ray and a triangle. Returns true for a hit at a distance above 0
  * and up to t_max, and fills *h except tri. The other winding, p1 and p2
@@ -238,11 +282,8 @@ static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
         return false;
     if (!axis_distance(r, p0, p1, p2, &t)) {
         t = (u * a.z + (v * b.z + w * c.z)) / det;
-        if (!(fabsf(t) * T_PRECISION > distance_error(a, b, c, det))) {
-            t = plane_distance(r, p0, p1, p2);
-            t = f_max(t, f_min(a.z, f_min(b.z, c.z)));
-            t = f_min(t, f_max(a.z, f_max(b.z, c.z)));
-        }
+        if (!(fabsf(t) * T_PRECISION > distance_error(a, b, c, det)))
+            t = distance_again(r, p0, p1, p2, a, b, c);
     }
     if (!(t > 0.0f && t <= t_max))
         return false;

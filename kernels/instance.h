@@ -22,7 +22,7 @@
 /* Errors of a ray and of a moved corner, in multiples of a float's rounding
  * u = 2^-24 and of the vector from the instance's origin to the ray's: 4 for
  * the sum of products o - origin, 3 for the direction's and 2 for the slab test
- * of a plane; 16 for those of the triangle test, which BOX_WIDEN stands for in
+ * of a plane; 16 for those of the triangle test, which EXIT_WIDEN stands for in
  * world space. At a hit the distance times the direction is at most this vector
  * plus the reach of the instance, which instance.pad has. 32 has room for the
  * rounding of the bound. */

@@ -23,22 +23,19 @@
 struct slabs {
     struct vec3 o;
     struct vec3 inverse;
-    /* only with FEATURE_INSTANCES */
-    struct vec3 widen; /* of boxes */
-    float nearer;      /* factor of the distance of entry */
+    struct vec3 widen; /* of boxes, only with FEATURE_INSTANCES */
 };
 
 /* Entries of the stack: with instances those of two trees. */
 #define QUERY_STACK ((HAS(FEATURE_INSTANCES) ? 2 : 1) * TRAVERSE_STACK)
 
-static inline struct slabs slabs_of(const struct world *w, struct ray r)
+static inline struct slabs slabs_of(struct ray r)
 {
     struct slabs s;
 
     s.o = r.o;
     s.inverse = v3(1.0f / r.d.x, 1.0f / r.d.y, 1.0f / r.d.z);
     s.widen = v3(0.0f, 0.0f, 0.0f);
-    s.nearer = 1.0f - (has_instances(w) ? INSTANCE_WIDEN : BOX_WIDEN);
     return s;
 }
 
@@ -46,7 +43,7 @@ static inline struct slabs slabs_of(const struct world *w, struct ray r)
 static inline struct slabs slabs_in(const struct world *w, struct ray r,
                                     uint32_t instance)
 {
-    struct slabs s = slabs_of(w, r);
+    struct slabs s = slabs_of(r);
 
     if (instance != NO_INDEX) {
         struct mesh_ray m = instance_ray(w->instances[instance], r);
@@ -88,8 +85,8 @@ static inline float box_entry(struct slabs s, struct vec3 lo, struct vec3 hi,
     slab_axis(lo.x, hi.x, s.o.x, s.inverse.x, &enter, &leave);
     slab_axis(lo.y, hi.y, s.o.y, s.inverse.y, &enter, &leave);
     slab_axis(lo.z, hi.z, s.o.z, s.inverse.z, &enter, &leave);
-    enter *= HAS(FEATURE_INSTANCES) ? s.nearer : 1.0f - BOX_WIDEN;
-    leave *= 1.0f + BOX_WIDEN;
+    enter *= 1.0f - ENTRY_WIDEN;
+    leave *= 1.0f + EXIT_WIDEN;
     return enter <= leave && enter <= t_max ? enter : bits_float(0x7f800000u);
 }
 
@@ -119,7 +116,7 @@ static inline bool leaf_hit(const struct world *w, struct ray r, struct shear s,
 static inline bool hit_closest(const struct world *w, struct ray r,
                                struct hit *best)
 {
-    struct slabs slabs = slabs_of(w, r);
+    struct slabs slabs = slabs_of(r);
     struct shear shear = shear_of(r);
     uint32_t stack[QUERY_STACK];
     float entries[QUERY_STACK];
@@ -177,7 +174,7 @@ static inline bool hit_closest(const struct world *w, struct ray r,
             if (HAS(FEATURE_INSTANCES) && depth == base) {
                 is_in_tris = false;
                 base = NO_INDEX;
-                slabs = slabs_of(w, r);
+                slabs = slabs_of(r);
             }
             if (depth == 0)
                 return best->tri != NO_INDEX;
@@ -201,7 +198,7 @@ static inline void hits_closest(const struct world *w, const struct ray *rays,
  * hit. Children are visited in any order. */
 static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
-    struct slabs slabs = slabs_of(w, r);
+    struct slabs slabs = slabs_of(r);
     struct shear shear = shear_of(r);
     uint32_t stack[QUERY_STACK];
     uint32_t depth = 0;
@@ -221,7 +218,7 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
         if (HAS(FEATURE_INSTANCES) && depth < base && base != NO_INDEX) {
             is_in_tris = false;
             base = NO_INDEX;
-            slabs = slabs_of(w, r);
+            slabs = slabs_of(r);
         }
         while (box_entry(slabs, n.lo, n.hi, r.t_max) <= r.t_max) {
             if (HAS(FEATURE_INSTANCES) && n.count != 0 && !is_in_tris) {

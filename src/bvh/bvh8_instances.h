@@ -16,9 +16,6 @@
 #include "bvh/bvh8_leaf.h"
 #include "kernels/instance.h"
 
-/* Factor of a hit's distance, beyond which no box is entered. */
-#define FAR_WIDEN (1.0f + INSTANCE_WIDEN)
-
 /* One row of instance_point() for four points, in its order of operations. */
 static inline f4 row_moved(struct vec3 row, float origin, const f4 p[3])
 {
@@ -126,14 +123,14 @@ intersect_stand_in(void *query, const struct tri_block *block, uint32_t more)
         return q->hit->t;
     if (instance == w->settings.instance_count) {
         bvh8_walk(q->tree->meshes[q->tree->mesh_count - 1].nodes, &q->outer,
-                  &q->outer, q->hit->t, FAR_WIDEN, intersect_plain, q);
+                  &q->outer, q->hit->t, intersect_plain, q);
     } else {
         struct bvh8_ray first, last;
 
         q->at = &w->instances[instance];
         bvh8_mesh_rays(q->at, q->ray.ray, &first, &last);
         bvh8_walk(q->tree->meshes[q->at->mesh].nodes, &first, &last, q->hit->t,
-                  FAR_WIDEN, intersect_moved, q);
+                  intersect_moved, q);
     }
     return q->hit->t;
 }
@@ -146,8 +143,7 @@ instances_closest(const struct world *w, const struct bvh8 *tree, struct ray r,
     struct instances_query q = {
         w, tree, NULL, block_ray_of(r, NO_INDEX), bvh8_ray_of(r), hit};
 
-    bvh8_walk(tree->nodes, &q.outer, &q.outer, r.t_max, FAR_WIDEN,
-              intersect_stand_in, &q);
+    bvh8_walk(tree->nodes, &q.outer, &q.outer, r.t_max, intersect_stand_in, &q);
 }
 
 /* ---- any hit ---- */
@@ -178,12 +174,11 @@ meets_stand_in(void *query, const struct tri_block *block, uint32_t more)
         return false;
     if (instance == q->world->settings.instance_count)
         return bvh8_any(q->tree->meshes[q->tree->mesh_count - 1].nodes,
-                        &q->outer, &q->outer, q->hit->t, FAR_WIDEN, meets_plain,
-                        q);
+                        &q->outer, &q->outer, q->hit->t, meets_plain, q);
     q->at = &q->world->instances[instance];
     bvh8_mesh_rays(q->at, q->ray.ray, &first, &last);
     return bvh8_any(q->tree->meshes[q->at->mesh].nodes, &first, &last,
-                    q->hit->t, FAR_WIDEN, meets_moved, q);
+                    q->hit->t, meets_moved, q);
 }
 
 /* hit_any() for finite rays in a world with instances. */
@@ -195,8 +190,8 @@ instances_any(const struct world *w, const struct bvh8 *tree, struct ray r,
     struct instances_query q = {
         w, tree, NULL, block_ray_of(r, tri), bvh8_ray_of(r), &h};
 
-    return bvh8_any(tree->nodes, &q.outer, &q.outer, r.t_max, FAR_WIDEN,
-                    meets_stand_in, &q);
+    return bvh8_any(tree->nodes, &q.outer, &q.outer, r.t_max, meets_stand_in,
+                    &q);
 }
 
 #endif

@@ -26,10 +26,9 @@
  * the padding of boxes. */
 #define DIRECTION_MIN 0x1p-60f
 
-/* Widening of the distances at which a ray leaves a box, see BOX_WIDEN, as a
- * factor and in ulps. An ulp is at least FLOAT_EPSILON of the number; one more,
- * as f8_distance_mask_lt() excludes equality. */
-#define WIDEN       (1.0f + 2.0f * BOX_WIDEN)
+/* Widening of the distances at which a ray leaves a box, twice EXIT_WIDEN, in
+ * ulps. An ulp is at least FLOAT_EPSILON of the number; one more, as
+ * f8_distance_mask_lt() excludes equality. */
 #define WIDEN_STEPS 33
 
 static inline struct hit no_hit(struct ray r)
@@ -46,8 +45,8 @@ static inline const struct bvh8 *bvh8_of(const struct world *w)
 
 /* A ray, prepared for box tests: a plane at p is at distance p * inverse -
  * start. If the origin is further from the scene than its size, the error is in
- * proportion to the distance, which WIDEN covers; nearer, it is a small part of
- * BOX_PAD. */
+ * proportion to the distance, which WIDEN_STEPS cover; nearer, it is a small
+ * part of BOX_PAD. */
 struct bvh8_ray {
     f8 inverse[3], start[3];
     size_t near[3], far[3]; /* offsets in a node's planes, in bytes */
@@ -109,9 +108,9 @@ bvh8_enter(const struct bvh8_node *n, const struct bvh8_ray *first,
 
 /* Distance beyond which no child is entered, for a hit at t. Finite, as the
  * boxes of missing children are at infinity. */
-static inline float bvh8_far(float t, float widen)
+static inline float bvh8_far(float t)
 {
-    return f_min(t * widen, FLOAT_MAX);
+    return f_min(t * (1.0f + ENTRY_WIDEN), FLOAT_MAX);
 }
 
 static inline const struct bvh8_node *bvh8_node_at(const struct bvh8_node *root,
@@ -208,18 +207,18 @@ static inline uint32_t bvh8_push_children(const struct bvh8_node *nodes,
 typedef float bvh8_leaf(void *query, const struct tri_block *block,
                         uint32_t more);
 
-/* Visits the leaves that are entered before t_max, which is multiplied by
- * `widen`, nearest first; see bvh8_enter(). Every node is visited at most once,
- * also for invalid rays, as missing children name the empty block. So
- * BVH8_STACK is enough for trees within the depth that bvh.h promises. */
+/* Visits the leaves that are entered before t_max, nearest first; see
+ * bvh8_enter(). Every node is visited at most once, also for invalid rays, as
+ * missing children name the empty block. So BVH8_STACK is enough for trees
+ * within the depth that bvh.h promises. */
 static inline __attribute__((always_inline)) void
 bvh8_walk(const struct bvh8_node *nodes, const struct bvh8_ray *first,
-          const struct bvh8_ray *last, float t_max, float widen,
-          bvh8_leaf *leaf, void *query)
+          const struct bvh8_ray *last, float t_max, bvh8_leaf *leaf,
+          void *query)
 {
     uint64_t stack[BVH8_STACK];
     uint64_t *top = stack;
-    float t_far = bvh8_far(t_max, widen);
+    float t_far = bvh8_far(t_max);
     uint32_t at = 0;
 
     for (;;) {
@@ -236,8 +235,7 @@ bvh8_walk(const struct bvh8_node *nodes, const struct bvh8_ray *first,
             }
         } else {
             t_far =
-                bvh8_far(leaf(query, bvh8_block_at(nodes, at), at & BVH8_MORE),
-                         widen);
+                bvh8_far(leaf(query, bvh8_block_at(nodes, at), at & BVH8_MORE));
         }
         do {
             if (top == stack)
@@ -256,10 +254,10 @@ typedef bool bvh8_any_leaf(void *query, const struct tri_block *block,
  * occludes the ray. */
 static inline __attribute__((always_inline)) bool
 bvh8_any(const struct bvh8_node *nodes, const struct bvh8_ray *first,
-         const struct bvh8_ray *last, float t_max, float widen,
-         bvh8_any_leaf *leaf, void *query)
+         const struct bvh8_ray *last, float t_max, bvh8_any_leaf *leaf,
+         void *query)
 {
-    float t_far = bvh8_far(t_max, widen);
+    float t_far = bvh8_far(t_max);
     uint32_t stack[BVH8_STACK];
     uint32_t *top = stack;
     uint32_t at = 0;
@@ -319,7 +317,7 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     if (has_instances(w))
         instances_closest(w, bvh8_of(w), r, hit);
     else
-        bvh8_walk(nodes, &ray, &ray, r.t_max, WIDEN, intersect_blocks, &query);
+        bvh8_walk(nodes, &ray, &ray, r.t_max, intersect_blocks, &query);
     return hit->tri != NO_INDEX;
 }
 
@@ -382,7 +380,7 @@ static inline bool packet_closest(const struct world *w, const struct ray *rays,
         return false;
     for (uint32_t i = 0; i < count; i++)
         hits[i] = no_hit(rays[i]);
-    bvh8_walk(nodes, &first, &last, g.t_max, WIDEN, intersect_packet, &g);
+    bvh8_walk(nodes, &first, &last, g.t_max, intersect_packet, &g);
     return true;
 }
 
@@ -417,7 +415,7 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
         return false;
     if (has_instances(w))
         return instances_any(w, bvh8_of(w), r, tri);
-    return bvh8_any(nodes, &ray, &ray, r.t_max, WIDEN, meets_blocks, &query);
+    return bvh8_any(nodes, &ray, &ray, r.t_max, meets_blocks, &query);
 }
 
 #endif

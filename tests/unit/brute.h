@@ -8,6 +8,8 @@
 #ifndef TESTS_BRUTE_H
 #define TESTS_BRUTE_H
 
+#include <math.h>
+
 #include "tests/unit/check.h"
 #include "kernels/hit.h"
 
@@ -45,6 +47,24 @@ static inline struct vec3 random_point(uint64_t *seed, float half)
     float z = random_span(seed, half);
 
     return v3(x, y, z);
+}
+
+/* Returns a ray to a point of a triangle, often on its edge, from a point
+ * almost in its plane. */
+static inline struct ray grazing_ray(const struct vec3 p[3], uint64_t *seed)
+{
+    float u = check_random(seed) < 0.5 ? 0.0f : (float)check_random(seed);
+    struct vec3 at =
+        v3_lerp(v3_lerp(p[0], p[1], u), p[2], (float)check_random(seed));
+    float height = powf(10.0f, -6.0f + 5.0f * (float)check_random(seed));
+    struct ray r = {random_point(seed, 1.2f), {0, 0, 0}, FLOAT_MAX, 0, 0};
+    struct vec3 n;
+
+    if (triangle_normal(p[0], p[1], p[2], &n))
+        r.o = v3_sub(r.o,
+                     v3_scale(n, v3_dot(v3_sub(r.o, at), n) * (1.0f - height)));
+    r.d = v3_unit(v3_sub(at, r.o));
+    return r;
 }
 
 #endif

@@ -130,7 +130,7 @@ static inline void instance_test_free(struct instance_test *t)
 
 /* Returns a ray to a point of a random triangle: to a vertex, to an edge, or
  * inside. Some begin far away, some on another triangle, some are along an
- * axis. */
+ * axis, some graze the triangle. */
 static inline struct ray random_instance_ray(const struct instance_test *t,
                                              uint64_t *seed, int i)
 {
@@ -146,6 +146,8 @@ static inline struct ray random_instance_ray(const struct instance_test *t,
                     (uint32_t)i,
                     0};
 
+    if (i % 8 == 5)
+        return grazing_ray(p, seed);
     if (i % 16 == 7) {
         r.from = 1 + (uint32_t)(check_random(seed) * count);
         r.o = t->positions[3 * (r.from - 1)];
@@ -185,6 +187,7 @@ static inline void check_ray(const struct instance_test *t, struct ray r,
         return;
     ++*hits;
     r.t_max = want.t;
+    assert_true(hit_closest(&t->w.world, r, &got) && got.tri == want.tri);
     assert_true(hit_any(&t->w.world, r, NO_INDEX));
     assert_false(hit_any(&t->w.world, r, want.tri));
     r.t_max = nextafterf(want.t, 0.0f);

@@ -22,7 +22,8 @@
 #include <string.h>
 
 /* Returns a random ray. Every fourth begins far outside, every eighth is along
- * an axis with zero components, every sixteenth begins at a vertex. */
+ * an axis with zero components, every eighth grazes a triangle, every sixteenth
+ * begins at a vertex. */
 static struct ray random_ray(const struct mesh *m, uint64_t *seed, int i)
 {
     struct ray r = {random_point(seed, i % 4 == 0 ? 50.0f : 1.2f),
@@ -32,6 +33,10 @@ static struct ray random_ray(const struct mesh *m, uint64_t *seed, int i)
                     0};
     struct vec3 at = random_point(seed, 0.8f);
 
+    if (i % 8 == 5)
+        return grazing_ray(
+            &m->positions[3 * (uint32_t)(check_random(seed) * m->tri_count)],
+            seed);
     if (i % 16 == 7)
         r.o = m->positions[(uint32_t)(check_random(seed) * 3 * m->tri_count)];
     r.d = v3_unit(v3_sub(at, r.o));
@@ -127,6 +132,7 @@ static void compare(struct mesh *m, int rays, uint64_t seed)
         assert_true(a.tri == b.tri && a.t == b.t && a.b0 == b.b0 &&
                     a.b1 == b.b1 && a.b2 == b.b2);
         r.t_max = a.t;
+        assert_true(hit_closest(&m->world, r, &b) && b.tri == a.tri);
         assert_true(hit_any(&m->world, r, NO_INDEX));
         assert_false(hit_any(&m->world, r, a.tri));
         assert_true(hit_any(&m->world, r, a.tri + 1));
