@@ -116,7 +116,9 @@ static inline struct vec3 light_radiance(const struct world *w, uint32_t light,
         radiance =
             v3_mul(radiance,
                    texture_at(w, texture,
-                              texture_uv_at(w, texture, w->tris[h.tri], h))
+                              texture_uv_at(
+                                  w, texture,
+                                  tri_at(w, h.tri, instance_of(w, h.tri)), h))
                        .color);
     if (has_coverage(w))
         radiance = v3_scale(radiance, coverage_at(w, h));
@@ -174,13 +176,33 @@ static inline bool sample_near_light(const struct world *w,
     return true;
 }
 
-/* The light that a triangle belongs to, or NO_INDEX. Instances have none: light
- * samples do not find their emission. */
+/* The light of a triangle of an instance, or NO_INDEX. Lights are in the order
+ * of their triangles. */
+static inline uint32_t instance_light(const struct world *w, uint32_t tri)
+{
+    uint32_t low = 0, high = w->settings.light_count;
+
+    while (high - low > 1u) {
+        uint32_t middle = low + (high - low) / 2u;
+
+        if (tri < w->lights[middle].tris[0])
+            high = middle;
+        else
+            low = middle;
+    }
+    return w->lights[low].tris[0] == tri || w->lights[low].tris[1] == tri
+               ? low
+               : NO_INDEX;
+}
+
+/* The light that a triangle belongs to, or NO_INDEX. */
 static inline uint32_t light_of(const struct world *w, uint32_t tri)
 {
-    if (has_instances(w) && tri >= plain_tri_count(w))
+    if (w->settings.light_count == 0)
         return NO_INDEX;
-    return w->settings.light_count > 0 ? w->tri_lights[tri] : NO_INDEX;
+    if (has_instances(w) && tri >= plain_tri_count(w))
+        return instance_light(w, tri);
+    return w->tri_lights[tri];
 }
 
 /* Density of light_sample() at point p of a triangle, which a ray from the

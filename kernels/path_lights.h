@@ -242,11 +242,13 @@ FLATTENED static inline void path_add_light(const struct world *w,
     if (has_coverage(w))
         r.key = shadow_key(p, vertex);
     if (l->at.tri != NO_INDEX) {
-        struct tri t = w->tris[l->at.tri];
+        uint32_t instance = instance_of(w, l->at.tri);
+        struct tri t = tri_at(w, l->at.tri, instance);
 
         r.d = v3_sub(l->at.p, r.o);
-        r.t_max = aimed_distance(r, w->positions[t.v[0]], w->positions[t.v[1]],
-                                 w->positions[t.v[2]]);
+        r.t_max = aimed_distance(r, position_at(w, t.v[0], instance),
+                                 position_at(w, t.v[1], instance),
+                                 position_at(w, t.v[2], instance));
         if (!(r.t_max > 0.0f))
             return;
     } else if (HAS(FEATURE_POINT_LIGHTS) && l->at.is_near) {

@@ -39,6 +39,10 @@
 #define NOT_REPEATED \
     (TEXTURE_CLAMP | TEXTURE_MIRROR_U | TEXTURE_MIRROR_V | TEXTURE_SECOND_UVS)
 
+/* Instances with more triangles that shine together are found by BSDF samples
+ * only: their lights would take more than 1 GB. */
+#define INSTANCE_LIGHTS_MOST (1u << 22)
+
 bool lights_differ(const struct material *a, const struct material *b)
 {
     if (!material_shines(a) && !material_shines(b))
@@ -71,7 +75,14 @@ static double mean_radiance(const struct world *w, const struct tri *t,
 
 static struct vec3 corner(const struct world *w, uint32_t tri, uint32_t k)
 {
-    return w->positions[w->tris[tri].v[k % 3]];
+    uint32_t instance = instance_of(w, tri);
+
+    return position_at(w, tri_at(w, tri, instance).v[k % 3], instance);
+}
+
+static uint32_t material_of(const struct world *w, uint32_t tri)
+{
+    return tri_material(w, tri, instance_of(w, tri));
 }
 
 /* A normal of twice the triangle's area. */
@@ -88,14 +99,14 @@ static bool make_emitter(const struct world *w, uint32_t tri,
                          const struct texture_power_sums *footprints,
                          struct emitter *e, double *unsampled_variance)
 {
-    const struct tri *t = &w->tris[tri];
+    const struct tri t = tri_placed(w, tri).t;
     double twice_area = (double)v3_length(long_normal(w, tri));
     double radiance;
 
     if (!(twice_area > AREA_LEAST))
         return false;
-    e->normal = t->ng;
-    radiance = mean_radiance(w, t, footprints);
+    e->normal = t.ng;
+    radiance = mean_radiance(w, &t, footprints);
     e->power = twice_area * radiance;
     *unsampled_variance += e->power / 2 * radiance;
     e->lo = e->hi = corner(w, tri, 0);
@@ -108,8 +119,8 @@ static bool make_emitter(const struct world *w, uint32_t tri,
 
 static struct light make_light(const struct world *w, uint32_t tri)
 {
-    const struct tri *t = &w->tris[tri];
-    const struct material *m = &w->materials[t->material];
+    const struct tri t = tri_at(w, tri, instance_of(w, tri));
+    const struct material *m = &w->materials[t.material];
     struct light l = {.tris = {tri, NO_INDEX},
                       .texture = NO_INDEX,
                       .corners = {corner(w, tri, 0), corner(w, tri, 1),
@@ -117,7 +128,7 @@ static struct light make_light(const struct world *w, uint32_t tri)
                       .scaled_normals = {long_normal(w, tri)},
                       .emission = m->emission};
 
-    if (t->vt[0] != NO_INDEX)
+    if (t.vt[0] != NO_INDEX)
         l.texture = m->emission_texture;
     return l;
 }
@@ -152,8 +163,8 @@ static bool join_light(const struct world *w, struct light *l,
 
     if (l->tris[0] + 1 != tri || l->tris[1] != NO_INDEX ||
         l->texture != other->texture ||
-        lights_differ(&w->materials[w->tris[l->tris[0]].material],
-                      &w->materials[w->tris[tri].material]) ||
+        lights_differ(&w->materials[material_of(w, l->tris[0])],
+                      &w->materials[material_of(w, tri)]) ||
         !(v3_dot(e->normal, last->normal) > FLAT_COSINE) ||
         fmax(e->power, last->power) >
             PAIR_RATIO * fmin(e->power, last->power) ||
@@ -276,6 +287,34 @@ static double add_points(struct lights *l, struct emitter *emitters,
     return total;
 }
 
+/* Returns the number of instances whose lights are sampled: all or none. */
+static uint32_t shining_instances(const struct world *w)
+{
+    uint64_t tris = 0;
+
+    for (uint32_t i = 0; i < w->settings.instance_count; i++)
+        if (material_shines(&w->materials[w->instances[i].material]))
+            tris += w->instances[i].tri_count;
+    return tris <= INSTANCE_LIGHTS_MOST ? w->settings.instance_count : 0;
+}
+
+/* Adds the light of a triangle if it shines, and its power. Returns its index,
+ * or NO_INDEX. */
+static uint32_t find_light(struct lights *l, struct emitter *emitters,
+                           const struct world *w, uint32_t tri,
+                           const struct texture_power_sums *footprints,
+                           double *total)
+{
+    struct emitter e;
+
+    if (!material_shines(&w->materials[material_of(w, tri)]) ||
+        !make_emitter(w, tri, footprints, &e, &l->unsampled_variance))
+        return NO_INDEX;
+    *total += e.power;
+    add_light(w, l, emitters, tri, &e);
+    return l->light_count - 1;
+}
+
 /* Finds the emitters among `candidate_count` triangles of emissive materials,
  * and adds those of point lights. */
 static bool find_emitters(struct lights *l, struct emitter **emitters,
@@ -284,6 +323,7 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
                           struct error *err)
 {
     uint32_t point_count = w->settings.point_light_count;
+    uint32_t instance_count = shining_instances(w);
     double total = 0;
 
     *emitters =
@@ -296,16 +336,13 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
         l->tri_lights == NULL || l->point_lights == NULL)
         return fail(err, "out of memory for %u lights",
                     candidate_count + point_count);
-    for (uint32_t i = 0; i < plain_tri_count(w); i++) {
-        struct emitter e;
+    for (uint32_t i = 0; i < plain_tri_count(w); i++)
+        l->tri_lights[i] = find_light(l, *emitters, w, i, footprints, &total);
+    for (uint32_t i = 0; i < instance_count; i++) {
+        const struct instance *at = &w->instances[i];
 
-        l->tri_lights[i] = NO_INDEX;
-        if (!material_shines(&w->materials[w->tris[i].material]) ||
-            !make_emitter(w, i, footprints, &e, &l->unsampled_variance))
-            continue;
-        total += e.power;
-        add_light(w, l, *emitters, i, &e);
-        l->tri_lights[i] = l->light_count - 1;
+        for (uint32_t k = 0; k < at->tri_count; k++)
+            find_light(l, *emitters, w, at->first_tri + k, footprints, &total);
     }
     total +=
         add_points(l, *emitters, w, true) + add_points(l, *emitters, w, false);
@@ -330,13 +367,24 @@ static bool make_footprints(const struct world *w, const bool *is_used,
     return true;
 }
 
-static uint32_t count_materials(const struct world *w)
+/* Finds the materials that shine. Returns the number of their triangles. */
+static uint32_t find_shining(const struct world *w, bool *is_used)
 {
+    uint32_t instance_count = shining_instances(w);
     uint32_t count = 0;
 
-    for (uint32_t i = 0; i < plain_tri_count(w); i++)
-        if (w->tris[i].material >= count)
-            count = w->tris[i].material + 1;
+    for (uint32_t i = 0; i < plain_tri_count(w); i++) {
+        uint32_t material = w->tris[i].material;
+
+        is_used[material] = material_shines(&w->materials[material]);
+        count += is_used[material] ? 1 : 0;
+    }
+    for (uint32_t i = 0; i < instance_count; i++) {
+        const struct instance *at = &w->instances[i];
+
+        is_used[at->material] = material_shines(&w->materials[at->material]);
+        count += is_used[at->material] ? at->tri_count : 0;
+    }
     return count;
 }
 
@@ -344,7 +392,7 @@ bool lights_build(struct lights *lights, const struct world *w,
                   struct error *err)
 {
     struct emitter *emitters = NULL;
-    uint32_t material_count = count_materials(w);
+    uint32_t material_count = w->settings.material_count;
     struct texture_power_sums *footprints =
         alloc_array(material_count, sizeof *footprints);
     bool *is_used = alloc_array(material_count, sizeof *is_used);
@@ -357,12 +405,7 @@ bool lights_build(struct lights *lights, const struct world *w,
              material_count);
         goto out;
     }
-    for (uint32_t i = 0; i < plain_tri_count(w); i++) {
-        uint32_t material = w->tris[i].material;
-
-        is_used[material] = material_shines(&w->materials[material]);
-        candidate_count += is_used[material] ? 1 : 0;
-    }
+    candidate_count = find_shining(w, is_used);
     ok = candidate_count + w->settings.point_light_count == 0 ||
          (make_footprints(w, is_used, material_count, footprints, err) &&
           find_emitters(lights, &emitters, w, candidate_count, footprints,

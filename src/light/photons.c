@@ -161,7 +161,7 @@ static struct vec2 photon_2d(uint32_t photon, uint32_t vertex, uint32_t kind)
 static float leave_triangle(const struct world *w, uint32_t light,
                             struct vec3 to, struct vec2 u, struct photon *p)
 {
-    struct vec3 n = w->tris[light].ng, a[3], from, error, d;
+    struct vec3 n = tri_placed(w, light).t.ng, a[3], from, error, d;
     float square;
 
     tri_corners(w, light, a);

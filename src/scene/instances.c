@@ -239,20 +239,16 @@ static bool is_regular(const struct affine *a)
            CONDITION_MOST * determinant;
 }
 
-/* Returns true if the triangles of a mesh share a material without emission. */
+/* Returns true if the triangles of a mesh share a material. */
 static bool may_be_kept(const struct scene *scene,
                         const struct scene_mesh *mesh)
 {
     const struct tri *tris = scene->tris + mesh->first_tri;
-    struct vec3 emission;
 
-    if (mesh->tri_count == 0)
-        return false;
     for (uint32_t i = 1; i < mesh->tri_count; i++)
         if (tris[i].material != tris[0].material)
             return false;
-    emission = scene->materials[tris[0].material].emission;
-    return emission.x == 0 && emission.y == 0 && emission.z == 0;
+    return mesh->tri_count > 0;
 }
 
 /* Triangles of the copies that a mesh saves, and its index. */

@@ -83,7 +83,8 @@ static bool bench_lights(uint32_t count, struct error *err)
     struct world w = {.positions = positions,
                       .tris = tris,
                       .materials = &lamp,
-                      .settings.tri_count = count};
+                      .settings.tri_count = count,
+                      .settings.material_count = 1};
     struct lights lights = {.lights = NULL};
     bool ok = positions != NULL && tris != NULL;
 

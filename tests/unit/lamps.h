@@ -143,6 +143,7 @@ static inline void finish(struct mesh *m, struct lights *lights)
     m->world.positions = m->positions;
     m->world.tris = m->tris;
     m->world.settings.tri_count = m->tri_count;
+    m->world.settings.material_count = MESH_MATERIALS;
     m->world.materials = m->materials;
     *lights = (struct lights){.lights = NULL};
     assert_true(lights_build(lights, &m->world, &err));

@@ -6,9 +6,11 @@
 
 #define SAMPLES 20000
 
-/* A room with a lamp, and a mesh with vertex normals, of glossy metal. */
+/* A room with a lamp, a mesh with vertex normals, of glossy metal, and one that
+ * glows. */
 static const char materials[] = "newmtl lamp\nKe 5 5 4\n"
-                                "newmtl metal\nKd .9 .7 .5\nPm 1\nPr .4\n";
+                                "newmtl metal\nKd .9 .7 .5\nPm 1\nPr .4\n"
+                                "newmtl glow\nKe 9 2 2\n";
 static const char room[] =
     "v -1 -1 -1\nv 1 -1 -1\nv 1 -1 1\nv -1 -1 1\n"
     "v -.3 1 -.3\nv .3 1 -.3\nv .3 1 .3\nv -.3 1 .3\n"
@@ -16,7 +18,10 @@ static const char room[] =
     "v 0 .4 0\nv -.4 -.2 -.3\nv .4 -.2 -.3\nv 0 -.2 .4\n"
     "vn 0 1 0\nvn -.8 -.2 -.5\nvn .8 -.2 -.5\nvn 0 -.2 .9\n"
     "f 9//1 11//3 10//2\nf 9//1 10//2 12//4\nf 9//1 12//4 11//3\n"
-    "f 10//2 11//3 12//4\n";
+    "f 10//2 11//3 12//4\n"
+    "o mesh2\nusemtl glow\n"
+    "v 0 0 0\nv .1 0 0\nv .1 .1 .01\nv 0 .1 0\nv .2 .1 .1\n"
+    "f 13 14 15 16\nf 14 17 15\n";
 
 /* Compares samples of both worlds with this kernel. */
 static void compare_samples(const struct cpu_kernel *kernel,
@@ -45,6 +50,7 @@ static void compare_samples(const struct cpu_kernel *kernel,
 static void samples_are_those_of_copies(void **state)
 {
     struct instance_test t = {.positions = NULL};
+    struct lights lights = {.lights = NULL};
     struct bvh8 tree = {0};
     struct bvh8_world copies;
     const struct cpu_kernel *kernel;
@@ -56,14 +62,18 @@ static void samples_are_those_of_copies(void **state)
     for (int k = 0; k < 16; k++) {
         struct affine a = random_affine(&seed, 0.8, k % 2 == 0);
 
-        instanced_place(&t.scene, 0, &a);
+        instanced_place(&t.scene, k % 4 == 0 ? 1 : 0, &a);
     }
     instance_test_finish(&t);
+    assert_true(t.w.world.settings.light_count > 8);
+    assert_true(lights_build(&lights, &t.copies, &err));
+    lights_lend(&lights, &t.copies);
     assert_true(bvh8_build(&tree, &t.copies, NULL, &err));
     copies = (struct bvh8_world){t.copies, &tree};
     for (int i = 0; (kernel = cpu_kernel_at(i)) != NULL; i++)
         compare_samples(kernel, &t, &copies);
     bvh8_free(&tree);
+    lights_free(&lights);
     instance_test_free(&t);
 }
 

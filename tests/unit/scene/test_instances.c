@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "scene/world.h"
+#include "scene/world_materials.h"
 #include "tests/unit/instanced.h"
 
 #define PLACES 20
@@ -193,6 +195,109 @@ static void too_many_triangles_are_an_error(void **state)
     warnings_free(&report);
 }
 
+/* Makes the world of a scene whose tetrahedra are instances, of a material that
+ * is black or glows. */
+static void open_tetrahedra(struct scene *s, struct host_world *host,
+                            bool is_glowing)
+{
+    struct warnings report = {0};
+    struct error err;
+    uint64_t seed = 31;
+    char text[sizeof faces + 20];
+    int before = (int)(strstr(faces, "f 4//2") - faces);
+
+    snprintf(text, sizeof text, "%.*susemtl m\n%s", before, faces,
+             faces + before);
+    instanced_parse(s,
+                    is_glowing ? "newmtl m\nKe 4 3 2\n"
+                               : "newmtl m\nKd 0 0 0\n",
+                    text);
+    for (int i = 0; i < PLACES; i++) {
+        struct affine at = random_affine(&seed, 1, i % 2 == 0);
+
+        instanced_place(s, 0, &at);
+    }
+    s->instances.copied_tris = 0;
+    check_or_say(scene_finish(s, &report, &err) &&
+                     world_init(host, s, 1, &report, &err),
+                 err.text);
+    assert_int_equal(s->placed_count, PLACES);
+    warnings_free(&report);
+}
+
+static void set_material(struct host_world *host, const struct scene *s,
+                         const struct scene *from)
+{
+    const uint32_t none[3] = {NO_INDEX, NO_INDEX, NO_INDEX};
+    struct mtl_source sources[2];
+    struct error err;
+
+    assert_int_equal(s->material_count, 2);
+    assert_int_equal(s->object_count, 3);
+    for (int i = 0; i < 2; i++)
+        sources[i] = from->material_origins[i].source;
+    check_or_say(world_set_materials(host, s, 2, sources, none, &err),
+                 err.text);
+}
+
+/* The power of the tetrahedra in file units: area times radiance, whose mean
+ * over the channels is 3. */
+static double tetrahedra_power(void)
+{
+    uint64_t seed = 31;
+    double power = 0;
+
+    for (int i = 0; i < PLACES; i++) {
+        struct affine at = random_affine(&seed, 1, i % 2 == 0);
+
+        for (int face = 0; face < 4; face++) {
+            double p[3][3], n[3];
+
+            for (int k = 0; k < 3; k++)
+                want_corner(&at, face, k, p[k]);
+            vec3d_sub(p[1], p[0], p[1]);
+            vec3d_sub(p[2], p[0], p[2]);
+            vec3d_cross(p[1], p[2], n);
+            power += 3 * vec3d_length(n) / 2;
+        }
+    }
+    return power;
+}
+
+/* An edit that makes a material glow gives the lights that its file would have,
+ * and an edit back removes them. */
+static void instances_glow_at_once(void **state)
+{
+    struct scene dark = {.path = NULL}, bright = {.path = NULL};
+    struct host_world edited, loaded;
+    const struct lights *a = &edited.lights, *b = &loaded.lights;
+
+    (void)state;
+    open_tetrahedra(&dark, &edited, false);
+    open_tetrahedra(&bright, &loaded, true);
+    assert_int_equal(a->light_count, 0);
+    for (int round = 0; round < 2; round++) {
+        set_material(&edited, &dark, &bright);
+        assert_int_equal(a->light_count, 4 * PLACES);
+        assert_int_equal(b->light_count, a->light_count);
+        assert_int_equal(b->node_count, a->node_count);
+        assert_memory_equal(a->lights, b->lights,
+                            a->light_count * sizeof *a->lights);
+        assert_memory_equal(a->nodes, b->nodes,
+                            a->node_count * sizeof *a->nodes);
+        assert_memory_equal(edited.materials, loaded.materials,
+                            2 * sizeof *edited.materials);
+        check_close(lights_power(a) / (dark.scale * dark.scale),
+                    tetrahedra_power(), 1e-4);
+        set_material(&edited, &dark, &dark);
+        assert_int_equal(a->light_count, 0);
+    }
+    world_free(&edited);
+    world_free(&loaded);
+    scene_free(&dark);
+    scene_free(&bright);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -200,6 +305,7 @@ int main(void)
         cmocka_unit_test(meshes_used_once_are_moved),
         cmocka_unit_test(matrices_may_be_singular),
         cmocka_unit_test(too_many_triangles_are_an_error),
+        cmocka_unit_test(instances_glow_at_once),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
