@@ -32,7 +32,8 @@ done
 
 # so do they for the pictures of a series, whose scene changes
 take moving
-for options in '--turntable 2 box.obj' '--frames 1:2 moving.gltf'; do
+for options in '--turntable 2 box.obj' '--frames 1:2 moving.gltf' \
+    "--turntable 2 $root/scenes/forest.glb"; do
     glim $b -s 9 -o one.png $options 2>/dev/null
     ranks 3 $b -s 9 -o many.png $options >/dev/null
     for i in 0000 0001 0002; do
