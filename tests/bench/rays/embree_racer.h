@@ -16,6 +16,7 @@
 
 struct embree {
     struct racer racer;
+    const struct world *world;
     void *device;
     void *scene;
 };

@@ -6,7 +6,7 @@
 #include "terminal/xmalloc.h"
 
 #include "kernels/camera.h"
-#include "kernels/hit.h"
+#include "kernels/instance.h"
 #include "kernels/rng.h"
 
 /* Rays begin this far above a surface, which exceeds the errors of all racers;
@@ -44,11 +44,12 @@ static void make_primary(struct ray_set *to, const struct camera *c)
 static bool leave(const struct world *w, const struct ray *r, struct answer a,
                   struct ray *next, struct vec3 *n)
 {
-    const struct tri *t = &w->tris[a.tri];
+    struct placed_tri t;
 
-    if (a.tri == NO_INDEX ||
-        !triangle_normal(w->positions[t->v[0]], w->positions[t->v[1]],
-                         w->positions[t->v[2]], n))
+    if (a.tri == NO_INDEX)
+        return false;
+    t = tri_placed(w, a.tri);
+    if (!triangle_normal(t.p[0], t.p[1], t.p[2], n))
         return false;
     if (v3_dot(*n, r->d) > 0.0f)
         *n = v3_neg(*n);

@@ -18,12 +18,15 @@
 #define WIDTH_PX  640
 #define HEIGHT_PX 480
 
-const char *const shape_names[SHAPES] = {"bunny", "sponza_part", "veach_ajar",
-                                         "terrain1m", "terrain4m"};
+const char *const shape_names[SHAPES] = {"bunny",  "sponza_part", "veach_ajar",
+                                         "forest", "terrain1m",   "terrain4m"};
+
+/* The shape that is a scene of the repository, with instances. */
+#define INSTANCED 3
 
 /* Number of squares of a terrain along x, with half as many along z; 0 is a
  * file. */
-static const uint32_t columns[SHAPES] = {0, 0, 0, 1000, 2000};
+static const uint32_t columns[SHAPES] = {0, 0, 0, 0, 1000, 2000};
 
 /* Returns a number in [-1, 1] at a corner of a lattice. */
 static double height_at(int x, int z, int octave)
@@ -105,13 +108,17 @@ static bool load_terrain(struct scene *s, uint32_t across, struct view *view,
     return make_terrain(s, across, err) && scene_finish(s, report, err);
 }
 
-static bool load_file(struct scene *s, const char *name, const char *shared,
+static bool load_file(struct scene *s, int i, const char *shared,
                       struct view *view, struct warnings *report,
                       struct error *err)
 {
-    char *folder = xformat("%s/scenes-real/%s", shared, name);
-    char *path = xformat("%s/%s.obj", folder, name);
-    char *camera = xformat("%s/camera.txt", folder);
+    const char *name = shape_names[i];
+    char *folder = i == INSTANCED ? xstrdup("scenes")
+                                  : xformat("%s/scenes-real/%s", shared, name);
+    char *path =
+        xformat(i == INSTANCED ? "%s/%s.glb" : "%s/%s.obj", folder, name);
+    char *camera = i == INSTANCED ? xformat("%s/%s.view", folder, name)
+                                  : xformat("%s/camera.txt", folder);
     bool ok = access(path, R_OK) == 0;
 
     err->text[0] = '\0';
@@ -165,7 +172,7 @@ bool shape_load(struct shape *shape, int i, const char *shared,
         return shape_make_terrain(shape, columns[i], err);
     *shape = (struct shape){.scene.path = NULL};
     view_init(&view);
-    ok = load_file(&shape->scene, shape_names[i], shared, &view, &report, err);
+    ok = load_file(&shape->scene, i, shared, &view, &report, err);
     return finish(shape, &view, ok, &report, err);
 }
 

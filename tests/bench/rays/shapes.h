@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * shapes.h - meshes in which rays are timed: scans and rooms from ../shared,
- * and generated terrains
+ * shapes.h - meshes in which rays are timed: scans and rooms from ../shared, a
+ * scene of instances, and generated terrains
  *
  * Units:     normalised scene units
  * Ownership: shape_free() frees; a zeroed struct is empty
@@ -13,7 +13,7 @@
 
 #include "scene/world.h"
 
-#define SHAPES 5
+#define SHAPES 6
 
 struct shape {
     struct scene scene;
@@ -23,7 +23,8 @@ struct shape {
 
 extern const char *const shape_names[SHAPES];
 
-/* Returns false with an empty text if `shared` has no such file. */
+/* Returns false with an empty text if `shared`, or the working folder for the
+ * scene of instances, has no such file. */
 bool shape_load(struct shape *shape, int i, const char *shared,
                 struct error *err);
 
