@@ -49,6 +49,7 @@ struct mesh {
     struct vec3 *normals; /* with gaps between blocks */
     struct block *blocks;
     uint32_t block_count;
+    bool is_welded; /* `places` is filled; memory was not out */
 };
 
 /* Corner at the place that is worked on. */
@@ -77,7 +78,7 @@ static uint32_t blocks_of(uint32_t count, uint32_t size)
 
 /* ---- the mesh ---- */
 
-static bool weld_vertices(struct mesh *m)
+static void weld_vertices(struct mesh *m)
 {
     const struct scene *s = m->scene;
     struct weld weld;
@@ -86,7 +87,7 @@ static bool weld_vertices(struct mesh *m)
     for (uint32_t i = 0; ok && i < s->position_count; i++)
         ok = weld_add(&weld, s->file_positions, i, &m->places[i]);
     weld_free(&weld);
-    return ok;
+    m->is_welded = ok;
 }
 
 /* Returns the angle of a cosine to 7e-5 (Abramowitz and Stegun 4.4.45). */
@@ -138,15 +139,22 @@ static void measure_tri(struct mesh *m, uint32_t tri)
     }
 }
 
-static void measure_block(void *context, uint32_t block, int worker)
+/* Welds the vertices, item 0, or measures a block of triangles: one thread
+ * welds while others measure. */
+static void prepare(void *context, uint32_t item, int worker)
 {
     struct mesh *m = context;
-    uint32_t begin = block * BLOCK_TRIS;
-    uint32_t count = least(BLOCK_TRIS, m->scene->tri_count - begin);
+    uint32_t begin, end;
 
     (void)worker;
-    for (uint32_t i = 0; i < count; i++)
-        measure_tri(m, begin + i);
+    if (item == 0) {
+        weld_vertices(m);
+        return;
+    }
+    begin = (item - 1) * BLOCK_TRIS;
+    end = begin + least(BLOCK_TRIS, m->scene->tri_count - begin);
+    for (uint32_t i = begin; i < end; i++)
+        measure_tri(m, i);
 }
 
 /* Lists the corners at each place. */
@@ -187,12 +195,12 @@ static bool mesh_init(struct mesh *m, struct scene *scene, struct pool *pool)
         .block_count = block_count,
     };
     if (m->places == NULL || m->weights == NULL || m->first == NULL ||
-        m->items == NULL || m->normals == NULL || m->blocks == NULL ||
-        !weld_vertices(m))
+        m->items == NULL || m->normals == NULL || m->blocks == NULL)
         return false;
-    pool_each(pool, blocks_of(scene->tri_count, BLOCK_TRIS), measure_block, m);
-    sort_corners(m);
-    return true;
+    pool_each(pool, 1 + blocks_of(scene->tri_count, BLOCK_TRIS), prepare, m);
+    if (m->is_welded)
+        sort_corners(m);
+    return m->is_welded;
 }
 
 static void mesh_free(struct mesh *m)

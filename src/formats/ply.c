@@ -13,14 +13,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/geometry.h"
 #include "base/memory.h"
-#include "kernels/vec.h"
 #include "formats/mesh_finish.h"
 #include "formats/ply_data.h"
 #include "formats/ply_table.h"
 #include "formats/ply_triangles.h"
+#include "formats/ply_vertices.h"
 #include "formats/vertex_colors.h"
+#include "kernels/vec.h"
 
 struct reader {
     struct scene *scene;
@@ -46,97 +46,9 @@ static bool out_of_memory(const struct reader *r)
 
 /* ---- vertices ---- */
 
-/* Reads a row of numbers; lists are skipped. `roles` has the role of each
- * property, or PLY_ROLES. */
-static bool read_row(struct reader *r, const struct ply_table *t,
-                     const unsigned char *roles, double *values)
-{
-    for (uint32_t i = 0; i < t->element->property_count; i++) {
-        const struct ply_property *p = &t->items[i];
-        uint64_t count = 1;
-
-        if (roles[i] < PLY_ROLES) {
-            if (!ply_data_number(&r->data, p->type, &values[roles[i]]))
-                return false;
-            continue;
-        }
-        if ((p->count_type != PLY_NONE &&
-             !ply_data_count(&r->data, p, &count)) ||
-            !ply_data_skip(&r->data, p->type, count))
-            return false;
-    }
-    return true;
-}
-
-static void put_vertex(struct scene *s, uint32_t i, double *values)
-{
-    memcpy(s->file_positions + 3 * (size_t)i, &values[PLY_X],
-           3 * sizeof *values);
-    if (s->normals != NULL) {
-        if (!vec3d_normalize(&values[PLY_NX]))
-            memset(&values[PLY_NX], 0, 3 * sizeof *values); /* unusable */
-        s->normals[i] = v3((float)values[PLY_NX], (float)values[PLY_NY],
-                           (float)values[PLY_NZ]);
-        s->normal_count |= s->normals[i].x != 0 || s->normals[i].y != 0 ||
-                           s->normals[i].z != 0;
-    }
-    if (s->uvs != NULL)
-        s->uvs[i] = v2(texture_coordinate(values[PLY_U]),
-                       texture_coordinate(values[PLY_V]));
-    if (s->colors != NULL)
-        s->colors[i] = vertex_color_encoded(&values[PLY_RED]);
-}
-
-/* Allocates the arrays that the vertices have. */
-static bool allocate_vertices(const struct reader *r)
-{
-    const struct ply_table *t = &r->vertices;
-    struct scene *s = r->scene;
-    bool has_normals = ply_table_has(t, PLY_NX, 3),
-         has_colors = ply_table_has(t, PLY_RED, 3);
-    bool has_uvs = ply_table_has(t, PLY_U, 2);
-
-    s->file_positions = alloc_array(t->count, 3 * sizeof *s->file_positions);
-    if (has_normals)
-        s->normals = alloc_array(t->count, sizeof *s->normals);
-    if (has_colors)
-        s->colors = alloc_array(t->count, sizeof *s->colors);
-    if (has_uvs)
-        s->uvs = alloc_array(t->count, sizeof *s->uvs);
-    return s->file_positions != NULL && !has_normals == (s->normals == NULL) &&
-           !has_colors == (s->colors == NULL) && !has_uvs == (s->uvs == NULL);
-}
-
-static bool read_vertex_rows(struct reader *r, const unsigned char *roles)
-{
-    struct ply_table *t = &r->vertices;
-    struct scene *s = r->scene;
-    double values[PLY_ROLES] = {0};
-
-    if (!allocate_vertices(r))
-        return out_of_memory(r);
-    for (uint32_t i = 0; i < t->count; i++) {
-        if (!read_row(r, t, roles, values))
-            return false;
-        put_vertex(s, i, values);
-    }
-    s->position_count = t->count;
-    s->uv_count = s->uvs != NULL ? t->count : 0;
-    r->scene_uv_capacity = s->uv_count;
-    r->has_uvs = s->uv_count > 0;
-    s->color_count = s->colors != NULL ? t->count : 0;
-    /* normals that are all unusable are none */
-    s->normal_count = s->normal_count > 0 ? t->count : 0;
-    if (s->colors != NULL)
-        ply_table_decode(t, s->colors);
-    return true;
-}
-
 static bool read_vertices(struct reader *r, const struct ply_element *element)
 {
     struct ply_table *t = &r->vertices;
-    unsigned char *roles;
-    bool ok;
 
     if (!ply_table_init(t, &r->header, element, r->path, r->err))
         return false;
@@ -145,16 +57,11 @@ static bool read_vertices(struct reader *r, const struct ply_element *element)
                     "%s:%" PRIu64 ": found vertices without x, y and z, "
                     "expected a number for each",
                     r->path, element->line);
-    roles = alloc_array(element->property_count, sizeof *roles);
-    if (roles == NULL)
-        return out_of_memory(r);
-    memset(roles, PLY_ROLES, element->property_count);
-    for (int i = 0; i < PLY_ROLES; i++)
-        if (t->numbers[i] != NO_INDEX)
-            roles[t->numbers[i]] = (unsigned char)i;
-    ok = read_vertex_rows(r, roles);
-    free(roles);
-    return ok;
+    if (!ply_vertices_read(&r->data, t, r->scene))
+        return false;
+    r->scene_uv_capacity = r->scene->uv_count;
+    r->has_uvs = r->scene->uv_count > 0;
+    return true;
 }
 
 /* ---- faces ---- */

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 /* PLY files in all encodings, and the messages for wrong ones. */
+#include "formats/ply.h"
+
 #include "tests/unit/formats/meshes.h"
 
 #define HEADER   "ply\nformat ascii 1.0\n"
@@ -160,6 +162,52 @@ static void wrong_triangles_are_refused(void **state)
     assert_false(m.ok);
     check_has(m.err.text, "found vertex 4 in a face, expected 0 to 3");
     mesh_file_free(&m);
+}
+
+#define MANY 100001
+
+/* Vertices of binary files are read by several threads, here with a property
+ * between the others that has no meaning. Only the last one has a normal. */
+static void many_vertices_are_read_by_threads(void **state)
+{
+    static const char tail[] = "\3\1\0\0\0\2\0\0\0\3\0\0";
+    const size_t row_bytes = 25;
+    struct scene scene = {.thread_count = 3};
+    struct warnings report = {0};
+    struct error err;
+    char *bytes = malloc(300 + MANY * row_bytes + sizeof tail);
+    char *at = bytes;
+
+    (void)state;
+    assert_non_null(bytes);
+    at += sprintf(at,
+                  "ply\nformat binary_little_endian 1.0\nelement vertex %d\n"
+                  "property float x\nproperty float y\nproperty uchar other\n"
+                  "property float z\nproperty float nx\nproperty float ny\n"
+                  "property float nz\nelement face 1\n" FACE "end_header\n",
+                  MANY);
+    for (int i = 0; i < MANY; i++) {
+        const float row[6] = {(float)i, (float)(i % 7), (float)(i % 11), 0,
+                              0,        i == MANY - 1};
+
+        memcpy(at, row, 8);
+        at[8] = (char)i;
+        memcpy(at + 9, row + 2, 16);
+        at += row_bytes;
+    }
+    memcpy(at, tail, sizeof tail);
+    check_or_say(ply_parse(&scene, bytes, (size_t)(at - bytes) + 13, "a.ply",
+                           &report, &err),
+                 err.text);
+    assert_int_equal(scene.position_count, MANY);
+    assert_int_equal(scene.normal_count, MANY);
+    for (uint32_t i = 0; i < MANY; i++) {
+        check_position(&scene, i, i, i % 7, i % 11);
+        assert_true(scene.normals[i].z == (i == MANY - 1 ? 1 : 0));
+    }
+    scene_free(&scene);
+    warnings_free(&report);
+    free(bytes);
 }
 
 static void lines_may_end_in_any_way(void **state)
@@ -419,6 +467,7 @@ int main(void)
         cmocka_unit_test(binary_is_read_in_both_orders),
         cmocka_unit_test(triangles_are_read_at_once),
         cmocka_unit_test(wrong_triangles_are_refused),
+        cmocka_unit_test(many_vertices_are_read_by_threads),
         cmocka_unit_test(lines_may_end_in_any_way),
         cmocka_unit_test(faces_may_come_first_and_be_polygons),
         cmocka_unit_test(strips_keep_their_side),
