@@ -11,12 +11,9 @@
 
 #include "base/cgroup_quota.h"
 
-/* Limits of time and memory: a start, and more for each byte of the file.
- * libassimp reads 5 to 50 MB/s, and a scene is up to 40 times its file. */
-#define TIME_S           30
-#define BYTES_A_SECOND   1000000
-#define MEMORY_BYTES     ((uint64_t)1 << 30)
-#define MEMORY_OF_A_BYTE 60
+/* Limits of time and memory of small files. */
+#define TIME_S       30
+#define MEMORY_BYTES ((uint64_t)1 << 30)
 
 /* Longest message that is shown. */
 #define MESSAGE_MAX 300
@@ -33,13 +30,14 @@
 #define HAS_SHADOW 0
 #endif
 
-static struct library_limits limits_of(size_t size_bytes)
+static struct library_limits limits_of(const struct library_task *t)
 {
     uint64_t quota = cgroup_quota_memory("").size_bytes;
-    uint64_t wanted = MEMORY_BYTES + MEMORY_OF_A_BYTE * (uint64_t)size_bytes;
+    uint64_t wanted =
+        MEMORY_BYTES + t->memory_of_a_byte * (uint64_t)t->size_bytes;
 
     return (struct library_limits){
-        .time_s = TIME_S + (unsigned)(size_bytes / BYTES_A_SECOND),
+        .time_s = TIME_S + (unsigned)(t->size_bytes / t->bytes_a_second),
         .memory_bytes = wanted < quota ? wanted : quota,
     };
 }
@@ -65,7 +63,7 @@ static bool fail_copy(const char *library, const struct child_result *r,
 bool library_child_run(const struct library_task *task,
                        struct child_result *result, struct error *err)
 {
-    struct library_limits limits = limits_of(task->size_bytes);
+    struct library_limits limits = limits_of(task);
     char text[64];
     const char *const arguments[] = {
         "glim",     task->option, text, task->path != NULL ? "-f" : NULL,

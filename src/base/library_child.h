@@ -32,7 +32,9 @@ struct library_task {
     const char *option;  /* of the program, whose value are the limits */
     const char *path;    /* NULL: the copy reads standard input */
     const void *input;
-    size_t size_bytes; /* of the file or the input */
+    size_t size_bytes;         /* of the file or the input */
+    unsigned bytes_a_second;   /* at least, beyond the start */
+    unsigned memory_of_a_byte; /* at most, beyond the start */
 };
 
 /* Runs the copy and waits for its end. After a failure the output is what the

@@ -16,6 +16,11 @@
 /* Value of mode. */
 enum { MODE_TRIANGLES = 4 };
 
+/* A smooth grid of a million triangles, 181 kB packed, takes the copy .16 s and
+ * 80 MB. */
+#define BYTES_A_SECOND   100000
+#define MEMORY_OF_A_BYTE 2000
+
 /* A primitive that is packed. */
 struct packed {
     const struct gltf_value *primitive;
@@ -326,9 +331,13 @@ bool gltf_draco_unpack(struct gltf_document *document, const char *program,
                        struct error *err)
 {
     struct walk walk = {.document = document};
-    struct library_task task = {.library = "libdraco",
-                                .program = program,
-                                .option = "--unpack"};
+    struct library_task task = {
+        .library = "libdraco",
+        .program = program,
+        .option = "--unpack",
+        .bytes_a_second = BYTES_A_SECOND,
+        .memory_of_a_byte = MEMORY_OF_A_BYTE,
+    };
     struct child_result result = {.output = NULL};
     struct error own = {"found another end in what libdraco unpacked"};
     char *requests = NULL;

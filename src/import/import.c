@@ -15,6 +15,10 @@ const char import_endings[] =
     "cob 3mf amf irr irrmesh md2 md3 mdl mdc md5mesh ms3d ogex q3o q3s smd nff "
     "enff iqm pmx ndo sib hmp 3d uc xgl zgl zae bsp pk3 ifc assbin";
 
+/* libassimp reads 5 to 50 MB/s, and a scene is up to 40 times its file. */
+#define BYTES_A_SECOND   1000000
+#define MEMORY_OF_A_BYTE 60
+
 bool import_parse(struct scene *scene, const char *bytes, size_t size_bytes,
                   const char *path, struct warnings *report, struct error *err)
 {
@@ -24,6 +28,8 @@ bool import_parse(struct scene *scene, const char *bytes, size_t size_bytes,
         .option = "--import",
         .path = path,
         .size_bytes = size_bytes,
+        .bytes_a_second = BYTES_A_SECOND,
+        .memory_of_a_byte = MEMORY_OF_A_BYTE,
     };
     struct child_result result;
     struct error own;
