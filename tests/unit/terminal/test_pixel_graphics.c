@@ -370,6 +370,35 @@ static void coarse_pixels_are_means(void **state)
                                255.0 * x / WIDTH),
                           255.0 * 7 / WIDTH + 1); /* at most a cell wide */
     }
+    for (int y = 0; y < HEIGHT; y++) { /* blocks have three columns or more */
+        for (int x = 0; x < WIDTH; x++)
+            set_pixel(x, y, x % 2 ? 255 : 0);
+    }
+    draw(&how, PIXEL_GRAPHICS_MOVES, &is_done);
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++)
+            assert_in_range(st.screen.pixel[y][x] & 255, 85, 170);
+    }
+    fixture_free();
+}
+
+/* A picture whose sixels take few bytes becomes as fine as the screen. */
+static void cheap_pictures_become_fine(void **state)
+{
+    struct ansi_diff_draw how = {.budget_bytes = 30000};
+    uint64_t seed = 8;
+    bool is_done;
+
+    (void)state;
+    fixture_init(0, &seed);
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++)
+            set_pixel(x, y, y / 10 % 2 ? 255 : 0);
+    }
+    for (int i = 0; i < 20; i++)
+        draw(&how, PIXEL_GRAPHICS_MOVES, &is_done);
+    check_shown();
+    assert_true(st.g.images[0].is_fine);
     fixture_free();
 }
 
@@ -517,6 +546,7 @@ int main(void)
         cmocka_unit_test(terminal_shows_the_picture),
         cmocka_unit_test(moving_frames_are_whole),
         cmocka_unit_test(coarse_pixels_are_means),
+        cmocka_unit_test(cheap_pictures_become_fine),
         cmocka_unit_test(there_are_no_holes),
         cmocka_unit_test(budget_is_kept),
         cmocka_unit_test(windows_stay_free),
