@@ -151,7 +151,9 @@ static enum sight look(const struct framing *f, const double eye[3],
                                                             : SEES_OTHER;
 }
 
-double framing_share(const struct framing *f, const struct pose *pose)
+/* Returns the share of points that are in the picture and not hidden. Points
+ * that only the object itself hides do not count. */
+static double seen_share(const struct framing *f, const struct pose *pose)
 {
     int seen = 0, hidden = 0;
 
@@ -208,7 +210,7 @@ static void try_direction(const struct framing *f, const struct pose *pose,
 
     for (size_t i = 0; i < SIZE(distances) && weight > best->value; i++) {
         struct pose p = candidate(f, pose, turn_deg, tilt_deg, distances[i]);
-        double share = framing_share(f, &p);
+        double share = seen_share(f, &p);
         double value = share * weight;
 
         if (value > best->value)

@@ -33,14 +33,10 @@ struct framing {
 void framing_init(struct framing *f, const struct surfaces *surfaces,
                   uint32_t object, double aspect);
 
-/* Returns the share of points that are in the picture of the pose and not
- * hidden. Points that only the object itself hides do not count. */
-double framing_share(const struct framing *f, const struct pose *pose);
-
 /* Moves the camera so that the object is seen, and fills the picture if nothing
  * is in the way. Turns it as little as is needed. Returns the share of points
- * that are seen, or 0, with the pose unchanged, if there is no such view. Takes
- * milliseconds. */
+ * that are seen, without those that only the object itself hides, or 0, with
+ * the pose unchanged, if there is no such view. Takes milliseconds. */
 double framing_find(const struct framing *f, struct pose *pose);
 
 #endif

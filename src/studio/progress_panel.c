@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/clock.h"
 #include "terminal/gauge.h"
 #include "terminal/xmalloc.h"
 #include "studio/progress_text.h"
@@ -19,15 +18,6 @@
 static const struct backend *backend_of(const struct render_control *control)
 {
     return render_backend(control->session->render);
-}
-
-void progress_panel_switch(struct progress_panel *panel,
-                           const struct render_control *control)
-{
-    panel->is_on = !panel->is_on;
-    panel->due_ns = 0;
-    thread_load_begin(&panel->load, backend_of(control));
-    panel->load_ns = clock_ns();
 }
 
 uint64_t progress_panel_next_ns(const struct progress_panel *panel,

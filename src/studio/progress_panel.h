@@ -24,11 +24,6 @@ struct progress_panel {
     uint64_t load_ns; /* time when the measurement of the load began */
 };
 
-/* Switches the panel on or off. After switching it off the caller closes the
- * screen's window. */
-void progress_panel_switch(struct progress_panel *panel,
-                           const struct render_control *control);
-
 /* Returns the time of the next update of a panel that is shown, or UINT64_MAX
  * if nothing will change. */
 uint64_t progress_panel_next_ns(const struct progress_panel *panel,

@@ -175,7 +175,7 @@ void workspace_switch_progress(struct workspace *workspace)
     }
     inspector_stop_drawing(
         &workspace->inspector); /* there is one window at a time */
-    progress_panel_switch(&workspace->progress_panel, workspace->control);
+    workspace->progress_panel.is_on = !workspace->progress_panel.is_on;
     if (!workspace->progress_panel.is_on)
         screen_close_window(&workspace->screen);
     if (workspace->panel.is_open) { /* there is no room for both */
