@@ -15,9 +15,8 @@
 #define KEY_ROWS     HINTS_MAX
 #define KEY_ROWS_MIN 6
 
-/* Rows of the progress, at least, and of the usual one. */
+/* Rows of the progress, at least. */
 #define ROOM_ROWS_MIN 4
-#define ROOM_ROWS     (PROGRESS_TEXT_ROWS - 1 - PROGRESS_TEXT_RANKS)
 
 /* Actions with what they do. Where an action has no key of its own, the text
  * has it. */
@@ -88,7 +87,7 @@ void keys_bar_lay_out(struct keys_bar *bar, struct screen *screen)
     if (cols - fit->cols >= BESIDE_MIN) {
         fit->col = 0;
         bar->area = (struct window_rect){fit->cols, 0, cols - fit->cols, rows};
-        bar->key_rows = rows - ROOM_ROWS;
+        bar->key_rows = rows - PROGRESS_TEXT_USUAL_ROWS;
         bar->key_rows = bar->key_rows < KEY_ROWS_MIN ? KEY_ROWS_MIN
                         : bar->key_rows > KEY_ROWS   ? KEY_ROWS
                                                      : bar->key_rows;

@@ -121,7 +121,7 @@ void progress_panel_draw(struct progress_panel *panel,
         lines[i] = texts[i];
     if (bar)
         draw_in_bar(&control->progress, screen, bar, lines, row_count);
-    else
+    if (panel->is_on)
         draw_window(&control->progress, screen, lines, row_count);
     panel->due_ns =
         now_ns + (frame_pacing_is_slow(&screen->pace) ? SLOW_NS : UPDATE_NS);

@@ -30,7 +30,7 @@ uint64_t progress_panel_next_ns(const struct progress_panel *panel,
                                 const struct render_control *control);
 
 /* Updates the text: in a bar beside or below the picture, as many lines as it
- * has, or in a window over the picture (NULL), which is opened first. */
+ * has (NULL: there is none), and in the window, which is opened first. */
 void progress_panel_draw(struct progress_panel *panel,
                          const struct render_control *control,
                          struct screen *screen, const struct window_rect *bar,

@@ -25,8 +25,10 @@
 /* Ranks that have a line: the late ones first, then the slow ones. */
 #define PROGRESS_TEXT_RANKS 8
 
-/* Most lines: those of one process, the errors, a title, and the ranks. */
-#define PROGRESS_TEXT_ROWS (12 + 5 + 1 + PROGRESS_TEXT_RANKS)
+/* Lines of one process with the errors, and most lines, with those of ranks and
+ * their title. */
+#define PROGRESS_TEXT_USUAL_ROWS (12 + 5)
+#define PROGRESS_TEXT_ROWS       (PROGRESS_TEXT_USUAL_ROWS + 1 + PROGRESS_TEXT_RANKS)
 
 /* Size of a line: characters of the diagrams take three bytes in UTF-8. */
 #define PROGRESS_TEXT_BYTES PLOT_BYTES

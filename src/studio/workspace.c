@@ -8,6 +8,7 @@
 #include "filter/screen_filter.h"
 #include "session/glyph_memory.h"
 #include "studio/panel_draw.h"
+#include "studio/progress_text.h"
 #include "studio/screen_draft.h"
 #include "studio/status_line.h"
 
@@ -151,23 +152,31 @@ void workspace_ask(struct workspace *workspace, const char *prompt)
 
 /* ---- windows ---- */
 
-/* The bar has the progress from the start, the window on request. */
-static bool shows_progress(const struct workspace *workspace)
+/* Returns the room of the bar if the progress is shown there, as from the
+ * start, or NULL. */
+static const struct window_rect *progress_bar(const struct workspace *workspace,
+                                              struct window_rect *room)
 {
-    const struct progress_panel *panel = &workspace->progress_panel;
-    struct window_rect room;
-
-    if (workspace->help.is_open || workspace->screen.is_too_small)
-        return false;
-    return keys_bar_room(&workspace->keys_bar, &room) ? !panel->leaves_bar
-                                                      : panel->is_on;
+    return workspace->progress_panel.leaves_bar
+               ? NULL
+               : keys_bar_room(&workspace->keys_bar, room);
 }
 
+static bool shows_progress(const struct workspace *workspace)
+{
+    struct window_rect room;
+
+    return !workspace->help.is_open && !workspace->screen.is_too_small &&
+           (workspace->progress_panel.is_on || progress_bar(workspace, &room));
+}
+
+/* A bar with all lines needs no window. */
 void workspace_switch_progress(struct workspace *workspace)
 {
     struct window_rect room;
 
-    if (keys_bar_room(&workspace->keys_bar, &room)) {
+    if (keys_bar_room(&workspace->keys_bar, &room) &&
+        room.rows >= PROGRESS_TEXT_USUAL_ROWS) {
         workspace->progress_panel.leaves_bar =
             !workspace->progress_panel.leaves_bar;
         workspace_layout(workspace);
@@ -582,8 +591,7 @@ bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
         now_ns >= progress_panel_next_ns(&workspace->progress_panel,
                                          workspace->control))
         progress_panel_draw(&workspace->progress_panel, workspace->control,
-                            screen, keys_bar_room(&workspace->keys_bar, &room),
-                            now_ns);
+                            screen, progress_bar(workspace, &room), now_ns);
     if ((!shows && !screen->must_update) ||
         !frame_pacing_may_send(&screen->pace))
         return true;

@@ -7,16 +7,13 @@ wait_for_rows 15 "48;2;188;124;0"
 # the bar of five rows is below the picture, and has the progress and the keys
 wait_for "spp  *no limit"
 wait_for "wasdqe move"
-keys g # without the progress
-wait_until_gone "no limit"
-wait_for_rows 15 "48;2;188;124;0"
 screen_colors >colors
 [ "$(grep -n '48;2;188;124;0m' colors | head -n 1 | cut -d: -f1)" = 1 ] ||
     die "not at the top"
-# each row is 60 blanks in one colour, and nothing else above the last two rows
+# each row is 60 blanks in one colour, and nothing else
 [ "$(sed -n 1,15p colors | sed 's/.\[[0-9;]*m//g' | grep -c '^ \{60\}$')" = 15 ] ||
     die "not 60 blanks a row: $(cat colors)"
-[ "$(head -n -2 colors | grep -o '48;2;[0-9;]*m' | sort -u | wc -l)" = 1 ] ||
+[ "$(head -n 15 colors | grep -o '48;2;[0-9;]*m' | sort -u | wc -l)" = 1 ] ||
     die "more than one colour"
 # without the status line there is room for 21 rows, of which 15 are used
 keys i
@@ -32,13 +29,18 @@ size=90x21
 start --cell-aspect 2 flat.obj # 80x20 cells: no room beside it
 wait_for "LIVE .* spp"
 wait_for_rows 20 "48;2;188;124;0"
-mux resize-window -x 112 -y 21
+mux resize-window -x 128 -y 25
 wait_for "  [0-9]* spp  *no limit"
 wait_for "  samples  *[0-9.]* [kM] .*/s"
 wait_for "  wasdqe move$"
 wait_for "  arrows look$"
-screen_colors | head -n 20 >colors
-[ "$(grep -c '48;2;188;124;0m \{80\}.\[38' colors)" = 20 ] ||
-    die "not 80 blanks at the left: $(cat colors)"
+screen_colors | head -n 24 >colors
+[ "$(grep -c '48;2;188;124;0m \{96\}.\[38' colors)" = 24 ] ||
+    die "not 96 blanks at the left: $(cat colors)"
+# it is removed, and comes back
+keys g
+wait_until_gone "no limit"
+keys g
+wait_for "  [0-9]* spp  *no limit"
 keys q
 expect_end 0
