@@ -117,6 +117,9 @@ void keys_bar_draw(struct keys_bar *bar, const struct render_control *control,
 
     if (bar->area.cols == 0 || bar->state == state)
         return;
+    for (int row = -bar->area.rows; row < 0 && bar->state == KEYS_NONE; row++)
+        windows_text(WINDOW_STATUS, row, bar->area.col, bar->area.cols,
+                     ROLE_TEXT, "");
     bar->state = state;
     for (int i = 0; i < HINTS_MAX && hints[state][i].does; i++) {
         const struct hint *h = &hints[state][i];

@@ -66,6 +66,7 @@ run()
 {
     theme=$1
     size=$2
+    rm -rf "$home/glim" # the session that the last run has left
     colors="-bg black -fg gray85"
     [ "$theme" = light ] && colors="-bg white -fg black"
     # shellcheck disable=SC2086 # several words
