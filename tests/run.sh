@@ -11,6 +11,9 @@ export BUILD=${BUILD:-build/release}
 # PoCL's cache, apart from the user's
 POCL_CACHE_DIR=$(realpath "$BUILD")/pocl
 export POCL_CACHE_DIR
+# PoCL's compiler replaces the signal stacks of threads, which the sanitizer
+# would free at their end
+export ASAN_OPTIONS=use_sigaltstack=0:${ASAN_OPTIONS-}
 export LSAN_OPTIONS=suppressions=$PWD/tests/tools/lsan.supp:print_suppressions=0
 export SAN=${SAN-}
 FILTER=${FILTER-}

@@ -321,7 +321,7 @@ static int status_of(const char *name)
     unsetenv("POCL_MAX_PTHREAD_COUNT");
     unsetenv("POCL_CPU_MAX_CU_COUNT");
     unsetenv("POCL_SIGFPE_HANDLER");
-    setenv("ASAN_OPTIONS", "handle_sigfpe=0", 1);
+    setenv("ASAN_OPTIONS", "handle_sigfpe=0:use_sigaltstack=0", 1);
     setenv("TSAN_OPTIONS", "handle_sigfpe=0", 1);
     assert_int_equal(posix_spawn(&child, program, NULL, NULL, argv, environ),
                      0);
