@@ -8,7 +8,20 @@
 #include "base/memory.h"
 #include "scene/mesh_transform.h"
 
-/* About 60 MB with their part of the tree. */
+/* Triangles of copies up to which meshes are copied. Time of a sample with
+ * instances over that with copies, bytes of copies and their part of the tree,
+ * and seconds to start (spheres of 960 triangles on a floor under a white sky,
+ * one thread of a busy machine):
+ *
+ *     triangles  samples   copies   start with copies, with instances
+ *        1e4      1.38       1 MB    .06  .08
+ *        1e5      1.25      11 MB    .14  .11
+ *      2.4e5      1.15      29 MB    .19  .12
+ *        1e6      1.09     114 MB    .52  .17
+ *        1e7       .72    1144 MB   4.0   .39
+ *
+ * With 10 and 100 times as many triangles in a mesh, 1.06 for 1e6 and .84 for
+ * 1e7. */
 #define COPIED_TRIS 250000
 
 /* Condition number up to which a matrix has an inverse that is good enough for

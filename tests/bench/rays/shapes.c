@@ -124,6 +124,8 @@ static bool load_file(struct scene *s, int i, const char *shared,
     err->text[0] = '\0';
     ok = ok && scene_load(s, path, SCENE_UP_OF_FILE, report, err) &&
          view_read(view, camera, report, err);
+    if (ok && !view->has_camera && s->camera_count > 0)
+        view->pose = s->cameras[0].pose;
     free(folder);
     free(path);
     free(camera);
