@@ -49,6 +49,7 @@ struct mesh {
     struct vec3 *normals; /* with gaps between blocks */
     struct block *blocks;
     uint32_t block_count;
+    struct weld weld;
     bool is_welded; /* `places` is filled; memory was not out */
 };
 
@@ -81,12 +82,10 @@ static uint32_t blocks_of(uint32_t count, uint32_t size)
 static void weld_vertices(struct mesh *m)
 {
     const struct scene *s = m->scene;
-    struct weld weld;
-    bool ok = weld_init(&weld, s->position_count);
+    bool ok = true;
 
     for (uint32_t i = 0; ok && i < s->position_count; i++)
-        ok = weld_add(&weld, s->file_positions, i, &m->places[i]);
-    weld_free(&weld);
+        ok = weld_add(&m->weld, s->file_positions, i, &m->places[i]);
     m->is_welded = ok;
 }
 
@@ -195,20 +194,30 @@ static bool mesh_init(struct mesh *m, struct scene *scene, struct pool *pool)
         .block_count = block_count,
     };
     if (m->places == NULL || m->weights == NULL || m->first == NULL ||
-        m->items == NULL || m->normals == NULL || m->blocks == NULL)
+        m->items == NULL || m->normals == NULL || m->blocks == NULL ||
+        !weld_init(&m->weld, scene->position_count))
         return false;
     pool_each(pool, 1 + blocks_of(scene->tri_count, BLOCK_TRIS), prepare, m);
+    weld_free(&m->weld);
     if (m->is_welded)
         sort_corners(m);
     return m->is_welded;
 }
 
-static void mesh_free(struct mesh *m)
+/* Frees what only the search for groups of corners needs. */
+static void free_corners(struct mesh *m)
 {
-    free(m->places);
     free(m->weights);
     free(m->first);
     free(m->items);
+    m->weights = NULL;
+    m->first = m->items = NULL;
+}
+
+static void mesh_free(struct mesh *m)
+{
+    free_corners(m);
+    free(m->places);
     free(m->normals);
     free(m->blocks);
 }
@@ -426,6 +435,7 @@ bool crease_normals(struct scene *scene, struct pool *pool)
     ok = mesh_init(&m, scene, pool);
     if (ok) {
         pool_each(pool, m.block_count, smooth_block, &m);
+        free_corners(&m);
         ok = take_normals(&m);
     }
     if (ok)
