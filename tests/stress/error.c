@@ -5,12 +5,12 @@
  * usage: error [SCENE]
  *
  * Each scene of scenes/ is rendered with RENDERS seeds, which are not those by
- * which the formulas were chosen. At FIRST_SPP and LAST_SPP samples, and where a
- * limit of the error stops the render in between, the 95 % interval of
- * film_error.h must contain the true error of that very picture in 92 to 98 % of
- * the renders. Renders that are marked as unresolved are counted apart. If most
- * are, as for a caustic of which few paths are found, nothing is wanted of the
- * others.
+ * which the formulas were chosen. At FIRST_SPP and LAST_SPP samples, and where
+ * a limit of the error stops the render in between, the 95 % interval of
+ * film_error.h must contain the true error of that very picture in 92 to 98 %
+ * of the renders. Renders that are marked as unresolved are counted apart. If
+ * most are, as for a caustic of which few paths are found, nothing is wanted of
+ * the others.
  *
  * The truth needs a reference. For picture x of render k that is the mean r of
  * the last pictures of the other K - 1 renders, which is independent of x. With
