@@ -396,5 +396,8 @@ void bvh8_free(struct bvh8 *wide)
         free(wide->meshes[i].nodes);
     free(wide->meshes);
     free(wide->nodes);
-    *wide = (struct bvh8){.nodes = NULL};
+    wide->nodes = NULL;
+    wide->blocks = NULL;
+    wide->meshes = NULL;
+    wide->node_count = wide->block_count = wide->mesh_count = 0;
 }
