@@ -429,6 +429,12 @@ static void say_lack(struct workspace *workspace, uint64_t now_ns)
         workspace->control->message.until_ns != 0)
         return;
     workspace->lack_ns = 0;
+    if (tty_is_in_tmux() && !workspace->has_asked_again) {
+        workspace->has_asked_again = true;
+        workspace->lack_ns = now_ns + LACK_NS;
+        tty_ask_through_tmux();
+        return;
+    }
     if (lack && screen->graphics.shape.kind == PIXEL_GRAPHICS_NONE)
         render_control_say(workspace->control, "%s: %s",
                            screen_glyphs_name(screen), lack);

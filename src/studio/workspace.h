@@ -47,7 +47,8 @@ struct workspace {
     uint64_t lack_ns; /* when the terminal's answers count as lost, and a
                          message says why no pixels are shown; 0: never */
 
-    bool is_settled;    /* the screen shows the final picture */
+    bool has_asked_again; /* see tty_ask_through_tmux() */
+    bool is_settled;      /* the screen shows the final picture */
     uint64_t layout_ns; /* when a layout was made that no frame has; 0: none */
     uint64_t frame_ns;  /* when the next frame is due */
     uint64_t status_ns; /* when the status line is formatted next */

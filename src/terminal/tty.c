@@ -256,9 +256,7 @@ static void ask(void)
         tty_write(SIXEL_QUESTION, sizeof SIXEL_QUESTION - 1);
         tty_write(NAME_QUESTION, sizeof NAME_QUESTION - 1);
     }
-    if (term.may_ask_colors && tty_is_in_tmux()) {
-        tty_write(KITTY_TMUX_QUESTION, sizeof KITTY_TMUX_QUESTION - 1);
-    } else if (term.may_ask_colors && !is_in_screen()) {
+    if (term.may_ask_colors && !tty_is_in_tmux() && !is_in_screen()) {
         tty_write(KITTY_QUESTION, sizeof KITTY_QUESTION - 1);
         tty_write(BACKGROUND_QUESTION, sizeof BACKGROUND_QUESTION - 1);
     }
@@ -266,6 +264,12 @@ static void ask(void)
     /* clears whatever a simple terminal printed of the questions */
     length = snprintf(text, sizeof text, "\033[2J\033[%d;1H", LINES);
     tty_write(text, (size_t)length);
+}
+
+void tty_ask_through_tmux(void)
+{
+    if (term.may_ask_colors && tty_is_in_tmux())
+        tty_write(KITTY_TMUX_QUESTION, sizeof KITTY_TMUX_QUESTION - 1);
 }
 
 /* Releases everything that tty_open() takes before the screen. */
@@ -301,8 +305,9 @@ bool tty_open(struct error *err)
         return fail(err, "TERM=%s: no screen", name);
     }
     set_modes();
-    refresh(); /* enters the screen */
     term.may_ask_colors = !is_simple(getenv("TERM"));
+    tty_ask_through_tmux();
+    refresh(); /* enters the screen */
     tty_relayout();
     windows_update();
     ask();

@@ -50,6 +50,11 @@ bool tty_is_utf8(bool *may_learn);
 /* True inside tmux. */
 bool tty_is_in_tmux(void);
 
+/* Asks the terminal outside tmux, if there is one, for kitty's images. tmux
+ * loses what it should pass on while it draws a window anew, so ask again
+ * later. */
+void tty_ask_through_tmux(void);
+
 /* Returns true if a character in the last column of the last row scrolls the
  * screen. */
 bool tty_scrolls_at_end(void);

@@ -19,11 +19,15 @@ has_bytes()
     grep -qa -e "$1" stream
 }
 
+# The inner tmux loses what it should pass on while it draws its window for the
+# first time, so glim waits for a key.
 begin()
 {
     : >stream
-    start_line "sleep 1; $inner new-session '$(command -v glim) --glyph kitty lamp.obj'"
+    start_line "sleep 1; $inner new-session 'read -r _; $(command -v glim) --glyph kitty lamp.obj'"
     mux pipe-pane "cat >>'$PWD/stream'"
+    wait_for "^\[0\] 0:"
+    keys Enter
     wait_until has_bytes "_Gi=1,s=1,v=1,a=q,t=d,f=24,U=1;"
 }
 
