@@ -50,11 +50,13 @@
 #define FILTER_NORMAL_SCALE 1.7677670f /* 1 / (sqrt(2) * .4) */
 #define FILTER_DEPTH_SCALE  5.0f       /* 1 / .2 */
 
-/* Returns the variance of both halves from the sum of (a - b)^2 over 5x5 pixels
- * and the channels. */
-static inline float filter_variance(float sum)
+/* Returns the variance of both halves of a pixel from the sum of samples *
+ * (a - b)^2 over 5x5 pixels and the channels. `samples` of a pixel are relative
+ * to the mean of all pixels: the variance of each sample is about the same in
+ * the 5x5 pixels, that of the means is not. */
+static inline float filter_variance(float sum, float samples)
 {
-    return sum * (1.0f / 50.0f);
+    return sum * (1.0f / 50.0f) / samples;
 }
 
 /* Returns the squared difference of light at p and q without the part that

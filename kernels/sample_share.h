@@ -11,7 +11,7 @@
 #include "kernels/dialect.h"
 
 #define SHARE_ONE  4096u
-#define SHARE_MOST (5u * SHARE_ONE / 2u)
+#define SHARE_MOST (4u * SHARE_ONE)
 
 /* Samples of each pixel before shares count. */
 #define ADAPTIVE_FIRST 16u

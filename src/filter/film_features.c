@@ -65,17 +65,18 @@ static void put_features(const struct surface_sums *s, float far, int x,
 }
 
 void film_features(struct film *f, float far, int y,
-                   const struct filter_row *to)
+                   struct film_columns columns, const struct filter_row *to)
 {
-    const struct surface_sums *row = f->surfaces + (size_t)y * (size_t)f->width;
+    const struct surface_sums *s =
+        f->surfaces + (size_t)y * (size_t)f->width + columns.first;
 
     film_lock_row(f, y);
-    for (int x = 0; x < f->width; x++) {
-        if (x + AHEAD < f->width) {
-            __builtin_prefetch(&row[x + AHEAD].depth);
-            __builtin_prefetch(&row[x + AHEAD].count);
+    for (int x = 0; x < columns.count; x++, s += columns.step) {
+        if (x + AHEAD < columns.count) {
+            __builtin_prefetch(&s[AHEAD * columns.step].depth);
+            __builtin_prefetch(&s[AHEAD * columns.step].count);
         }
-        put_features(row + x, far, x, to);
+        put_features(s, far, x, to);
     }
     film_unlock_row(f, y);
 }

@@ -16,8 +16,14 @@
  * each way, which rays that leave the scene get. */
 float film_features_far(struct film *film, int stride);
 
-/* Writes the features of row y and their noise. The counts stay as they are. */
+/* Pixels of a row: `count` of them, `step` apart. */
+struct film_columns {
+    int first, step, count;
+};
+
+/* Writes the features of pixels of row y and their noise. The counts stay as
+ * they are. */
 void film_features(struct film *film, float far, int y,
-                   const struct filter_row *to);
+                   struct film_columns columns, const struct filter_row *to);
 
 #endif

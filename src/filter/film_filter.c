@@ -2,6 +2,7 @@
 #include "filter/film_filter.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "filter/film_features.h"
@@ -9,8 +10,21 @@
 
 struct source {
     struct film *film;
-    float far; /* greatest depth, which rays that leave the scene have */
+    float far;  /* greatest depth, which rays that leave the scene have */
+    int colour; /* of a chess board, whose other pixels are left out; or ALL */
 };
+
+/* Instead of a colour of a chess board: the pixels of both. */
+#define ALL (-1)
+
+/* Returns the pixels of a row of the film that are a row of the source. Those
+ * of one colour move together; a last one that not each row has is left out. */
+static struct film_columns columns_of(const struct source *s, int y)
+{
+    if (s->colour == ALL)
+        return (struct film_columns){0, 1, s->film->width};
+    return (struct film_columns){(y + s->colour) & 1, 2, s->film->width / 2};
+}
 
 static size_t row_index(const struct film *f, int y)
 {
@@ -36,13 +50,13 @@ bool film_filter_applies(struct film *f)
 static void give_features(void *context, int y, const struct filter_row *to)
 {
     const struct source *s = context;
+    struct film_columns columns = columns_of(s, y);
     struct film *f = s->film;
+    size_t at = row_index(f, y) + (size_t)columns.first;
 
-    film_features(f, s->far, y, to);
+    film_features(f, s->far, y, columns, to);
     film_lock_row(f, y);
-    for (int x = 0; x < f->width; x++) {
-        size_t at = row_index(f, y) + (size_t)x;
-
+    for (int x = 0; x < columns.count; x++, at += (size_t)columns.step) {
         to->count[0][x] = (float)film_even_count(f->counts[at]);
         to->count[1][x] = (float)film_odd_count(f->counts[at]);
     }
@@ -76,11 +90,13 @@ static void put_light(const struct film *f, size_t at, int component, int x,
 static void give_light(void *context, int component, int y, float *to[2][3])
 {
     const struct source *s = context;
+    struct film_columns columns = columns_of(s, y);
     struct film *f = s->film;
+    size_t at = row_index(f, y) + (size_t)columns.first;
 
     film_lock_row(f, y);
-    for (int x = 0; x < f->width; x++)
-        put_light(f, row_index(f, y) + (size_t)x, component, x, to);
+    for (int x = 0; x < columns.count; x++, at += (size_t)columns.step)
+        put_light(f, at, component, x, to);
     film_unlock_row(f, y);
 }
 
@@ -113,9 +129,9 @@ static void store_row(struct film *to, int y, const float *rgb)
 bool film_filter(struct film *f, struct pool *pool, struct film *filtered,
                  struct error *err)
 {
-    struct source context = {f, film_features_far(f, 1)};
-    const struct filter_source source = {&context, 2, give_features,
-                                         give_light};
+    struct source context = {f, film_features_far(f, 1), ALL};
+    const struct filter_source source = {&context, 2, give_features, give_light,
+                                         NULL};
     float *rgb =
         alloc_array((size_t)f->width * (size_t)f->height, 3 * sizeof *rgb);
     struct filter filter;
@@ -125,7 +141,7 @@ bool film_filter(struct film *f, struct pool *pool, struct film *filtered,
                          f->width, f->height);
 
     if (ok) {
-        filter_run(&filter, &source, FILTER_LEVELS, pool, rgb);
+        filter_run(&filter, &source, FILTER_LEVELS, pool, rgb, NULL);
         filter_free(&filter);
         for (int y = 0; y < f->height; y++) {
             add_seen(f, y, rgb + 3 * row_index(f, y));
@@ -133,6 +149,88 @@ bool film_filter(struct film *f, struct pool *pool, struct film *filtered,
         }
     }
     free(rgb);
+    return ok;
+}
+
+/* Pixels of one colour of a film, filtered. */
+struct estimate {
+    struct source source;
+    float *rgb, *variance;
+    float *squares; /* of all pixels of the film */
+    float floor;    /* added to the square of the light */
+};
+
+/* Returns the squared relative error of pixel `at` of the film, from its
+ * filtered light and its variance. Seen light, which is not filtered, has that
+ * of its halves. */
+static float relative_square(const struct estimate *e, size_t at,
+                             const float *rgb, const float *variance)
+{
+    const struct film *f = e->source.film;
+    const struct surface_sums *s = &f->surfaces[at];
+    float even_count = (float)film_even_count(f->counts[at]);
+    float odd_count = (float)film_odd_count(f->counts[at]);
+    float sum = 0.0f;
+
+    for (int c = 0; c < 3; c++) {
+        float seen = sum_float(s->seen[c]), odd = sum_float(s->odd_seen[c]);
+        float light = rgb[c] + seen / (even_count + odd_count);
+        float difference = 0.5f * ((seen - odd) / even_count - odd / odd_count);
+
+        sum += (variance[c] + difference * difference) /
+               (light * light + e->floor);
+    }
+    return sum * (1.0f / 3.0f);
+}
+
+static void estimate_row(void *context, uint32_t item, int worker)
+{
+    struct estimate *e = context;
+    struct film *f = e->source.film;
+    int y = (int)item;
+    struct film_columns columns = columns_of(&e->source, y);
+    size_t from = 3 * (size_t)y * (size_t)columns.count;
+    size_t at = row_index(f, y) + (size_t)columns.first;
+
+    (void)worker;
+    memset(e->squares + row_index(f, y), 0,
+           (size_t)f->width * sizeof *e->squares);
+    film_lock_row(f, y);
+    for (int x = 0; x < columns.count; x++, at += 2, from += 3)
+        e->squares[at] =
+            relative_square(e, at, e->rgb + from, e->variance + from);
+    if (columns.first + 2 * columns.count < f->width)
+        e->squares[at] = e->squares[at - 2];
+    film_unlock_row(f, y);
+}
+
+bool film_filter_squares(struct film *f, float exposure, int colour,
+                         struct pool *pool, const struct cancel *cancel,
+                         float *squares, bool *is_known, struct error *err)
+{
+    size_t floats = 3 * (size_t)(f->width / 2) * (size_t)f->height;
+    float black = 0.1f / develop_factor(develop_linear(exposure));
+    struct estimate e = {.source = {f, film_features_far(f, 1), colour},
+                         .rgb = alloc_array(floats, sizeof *e.rgb),
+                         .variance = alloc_array(floats, sizeof *e.variance),
+                         .squares = squares,
+                         .floor = black * black};
+    const struct filter_source source = {&e.source, 2, give_features,
+                                         give_light, cancel};
+    struct filter filter;
+    bool ok = e.rgb != NULL && e.variance != NULL
+                  ? filter_init(&filter, f->width / 2, f->height, err)
+                  : fail(err, "out of memory for the error of %dx%d pixels",
+                         f->width, f->height);
+
+    if (ok) {
+        filter_run(&filter, &source, FILTER_LEVELS, pool, e.rgb, e.variance);
+        filter_free(&filter);
+        pool_each(pool, (uint32_t)f->height, estimate_row, &e);
+        *is_known = cancel == NULL || !cancel_requested(cancel);
+    }
+    free(e.rgb);
+    free(e.variance);
     return ok;
 }
 

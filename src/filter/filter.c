@@ -8,9 +8,9 @@
 #include "base/memory.h"
 #include "filter/filter_dispatch.h"
 
-/* Planes of two copies of two halves, weights, features with their noise, and
- * counts. */
-#define PLANES (2 * 8 + 2 * FILTER_PAIRS + FILTER_FEATURES + 1 + 2)
+/* Planes of two copies of two halves, weights, features with their noise,
+ * samples, and counts. */
+#define PLANES (2 * 8 + 2 * FILTER_PAIRS + FILTER_FEATURES + 1 + 1 + 2)
 
 /* Least sum of weights from which the missing half of a pixel is taken. */
 #define GAP_WEIGHT_MIN 1e-3f
@@ -21,11 +21,17 @@ struct job {
     const struct filter_source *source;
     int component;
     float depth_scale;
+    float mean_samples;
     float light_scale;
     int from, step; /* of a level */
     bool is_last;
-    float *rgb;
+    float *rgb, *variance;
 };
+
+static bool is_cancelled(const struct job *j)
+{
+    return j->source->cancel != NULL && cancel_requested(j->source->cancel);
+}
 
 /* ---- planes ---- */
 
@@ -76,6 +82,7 @@ bool filter_init(struct filter *f, int width, int height, struct error *err)
     for (int i = 0; i < FILTER_FEATURES; i++)
         p->features[i] = take(p, &next);
     p->feature_noise = take(p, &next);
+    p->samples = take(p, &next);
     for (int h = 0; h < 2; h++)
         f->count[h] = take(p, &next);
     return true;
@@ -180,10 +187,12 @@ static void load_row(void *context, uint32_t item, int worker)
     load_light(context, item, worker);
 }
 
-static void scale_depths(void *context, uint32_t item, int worker)
+/* Scales what is relative to means of the picture. */
+static void scale_features(void *context, uint32_t item, int worker)
 {
     struct job *j = context;
-    const struct filter_planes *p = &j->filter->planes;
+    const struct filter *f = j->filter;
+    const struct filter_planes *p = &f->planes;
     struct filter_tile row = whole_row(p, (int)item);
     ptrdiff_t at = (int)item * p->pitch;
     float *depth = p->features[6] + at;
@@ -195,10 +204,13 @@ static void scale_depths(void *context, uint32_t item, int worker)
     for (int x = 0; x < p->width; x++) {
         depth[x] *= scale;
         noise[x] += depth_noise[x] * scale * scale;
+        p->samples[at + x] =
+            (f->count[0][at + x] + f->count[1][at + x]) / j->mean_samples;
     }
     for (int i = 0; i < FILTER_FEATURES; i++)
         filter_extend(p, p->features[i], row);
     filter_extend(p, p->feature_noise, row);
+    filter_extend(p, p->samples, row);
 }
 
 /* Returns the inverse of the depth difference that is an edge. */
@@ -211,6 +223,22 @@ static float depth_scale(const struct filter_planes *p)
         for (int x = 0; x < p->width; x++)
             sum += p->features[6][y * p->pitch + x];
     return sum > 0 ? (float)(FILTER_DEPTH_SCALE * pixels / sum) : 0;
+}
+
+/* Returns the mean number of samples. */
+static float mean_samples(const struct filter *f)
+{
+    const struct filter_planes *p = &f->planes;
+    double pixels = (double)p->width * p->height;
+    double sum = 0;
+
+    for (int y = 0; y < p->height; y++)
+        for (int x = 0; x < p->width; x++) {
+            ptrdiff_t at = y * p->pitch + x;
+
+            sum += (double)f->count[0][at] + (double)f->count[1][at];
+        }
+    return (float)(sum / pixels);
 }
 
 /* ---- light ---- */
@@ -359,7 +387,9 @@ static void run_weights(void *context, uint32_t item, int worker)
     const struct filter *f = j->filter;
 
     (void)worker;
-    f->loops->weigh(&f->planes, tile_at(&f->planes, item), j->from, j->step);
+    if (!is_cancelled(j))
+        f->loops->weigh(&f->planes, tile_at(&f->planes, item), j->from,
+                        j->step);
 }
 
 static void run_average(void *context, uint32_t item, int worker)
@@ -368,8 +398,9 @@ static void run_average(void *context, uint32_t item, int worker)
     const struct filter *f = j->filter;
 
     (void)worker;
-    f->loops->average(&f->planes, tile_at(&f->planes, item), j->from, j->step,
-                      j->is_last);
+    if (!is_cancelled(j))
+        f->loops->average(&f->planes, tile_at(&f->planes, item), j->from,
+                          j->step, j->is_last && j->variance == NULL);
 }
 
 /* Runs a level in this thread, row of tiles after row of tiles, while weights
@@ -385,6 +416,21 @@ static void run_level(struct job *j)
         for (uint32_t i = 0; i < columns; i++)
             run_average(j, first + i, 0);
     }
+}
+
+/* Adds the variance of the mean of both halves, with a and b samples, to that
+ * of the picture: a third for each channel. */
+static void add_variance(const struct job *j, float a, float b, ptrdiff_t at,
+                         float *to)
+{
+    const struct filter_planes *p = &j->filter->planes;
+    const struct filter_halves *halves = &p->halves[j->from];
+    float inverse = 1.0f / (j->light_scale * (a + b));
+    float sum = halves->variance[0][at] * (a * inverse) * (a * inverse) +
+                halves->variance[1][at] * (b * inverse) * (b * inverse);
+
+    for (int c = 0; c < 3; c++)
+        to[c] += sum * (1.0f / 3.0f) * divisor(p, c, at) * divisor(p, c, at);
 }
 
 /* Adds a row of the filtered component to the picture. */
@@ -412,6 +458,9 @@ static void add_row(void *context, uint32_t item, int worker)
 
             rgb[3 * x + c] += light * divisor(p, c, at);
         }
+        if (j->variance != NULL)
+            add_variance(j, a, b, at,
+                         j->variance + (rgb - j->rgb) + 3 * (ptrdiff_t)x);
     }
 }
 
@@ -441,17 +490,25 @@ static void run_component(struct job *j, int levels, struct pool *pool)
 }
 
 void filter_run(struct filter *f, const struct filter_source *source,
-                int levels, struct pool *pool, float *rgb)
+                int levels, struct pool *pool, float *rgb, float *variance)
 {
     const struct filter_planes *p = &f->planes;
     uint32_t rows = (uint32_t)p->height;
-    struct job j = {.filter = f, .source = source, .rgb = rgb};
+    size_t size_bytes = (size_t)p->width * rows * 3 * sizeof *rgb;
+    struct job j = {.filter = f,
+                    .source = source,
+                    .rgb = rgb,
+                    .variance = variance};
 
     assert(levels <= FILTER_LEVELS);
-    memset(rgb, 0, (size_t)p->width * (size_t)p->height * 3 * sizeof *rgb);
+    memset(rgb, 0, size_bytes);
+    if (variance != NULL)
+        memset(variance, 0, size_bytes);
     pool_each(pool, rows, load_row, &j);
     j.depth_scale = depth_scale(p);
-    pool_each(pool, rows, scale_depths, &j);
-    for (; j.component < source->component_count; j.component++)
+    j.mean_samples = mean_samples(f);
+    pool_each(pool, rows, scale_features, &j);
+    for (; j.component < source->component_count && !is_cancelled(&j);
+         j.component++)
         run_component(&j, levels, pool);
 }

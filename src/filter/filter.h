@@ -45,6 +45,8 @@ struct filter_source {
     void (*features)(void *context, int y, const struct filter_row *to);
     /* means of red, green and blue of a component of each half */
     void (*light)(void *context, int component, int y, float *to[2][3]);
+    const struct cancel *cancel; /* NULL: none. After a cancel, the result is
+                                    any picture. */
 };
 
 struct filter {
@@ -59,9 +61,10 @@ bool filter_init(struct filter *f, int width, int height, struct error *err);
 void filter_free(struct filter *f);
 
 /* Filters a picture in `levels` levels, FILTER_LEVELS or fewer. Writes the sum
- * of the components to rgb, 3 floats for each pixel. The pool may be NULL.
- * Blocks. */
+ * of the components to rgb, 3 floats for each pixel, and to variance, unless it
+ * is NULL, the variance that noise leaves in it. The pool may be NULL. Blocks.
+ */
 void filter_run(struct filter *f, const struct filter_source *source,
-                int levels, struct pool *pool, float *rgb);
+                int levels, struct pool *pool, float *rgb, float *variance);
 
 #endif

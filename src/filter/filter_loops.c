@@ -284,15 +284,17 @@ static void average(const struct filter_planes *p, struct filter_tile at,
 
 /* ---- variance ---- */
 
-/* Adds (a - b)^2, summed over five pixels of a row. */
+/* Adds samples * (a - b)^2, summed over five pixels of a row. */
 VECTORISED static void add_spread(const float *restrict a,
-                                  const float *restrict b, int width,
+                                  const float *restrict b,
+                                  const float *restrict samples, int width,
                                   float *restrict sum)
 {
     float square[WIDTH + 4];
 
     for (int x = 0; x < width + 4; x++)
-        square[x] = (a[x - 2] - b[x - 2]) * (a[x - 2] - b[x - 2]);
+        square[x] =
+            (a[x - 2] - b[x - 2]) * (a[x - 2] - b[x - 2]) * samples[x - 2];
     for (int x = 0; x < width; x++)
         sum[x] += square[x] + square[x + 1] + square[x + 2] + square[x + 3] +
                   square[x + 4];
@@ -307,18 +309,20 @@ static void variance(const struct filter_planes *p, struct filter_tile t)
         ptrdiff_t at = index_of(p, t.x, t.y + y - 2);
 
         for (int c = 0; c < 3; c++)
-            add_spread(s->light[0][c] + at, s->light[1][c] + at, t.width,
-                       rows[y]);
+            add_spread(s->light[0][c] + at, s->light[1][c] + at,
+                       p->samples + at, t.width, rows[y]);
     }
     for (int y = 0; y < t.height; y++) {
         ptrdiff_t at = index_of(p, t.x, t.y + y);
+        const float *restrict samples = p->samples + at;
         float *restrict a = s->variance[0] + at;
         float *restrict b = s->variance[1] + at;
 
         for (int x = 0; x < t.width; x++)
             a[x] = b[x] =
                 filter_variance(rows[y][x] + rows[y + 1][x] + rows[y + 2][x] +
-                                rows[y + 3][x] + rows[y + 4][x]);
+                                    rows[y + 3][x] + rows[y + 4][x],
+                                samples[x]);
     }
     filter_extend(p, s->variance[0], t);
     filter_extend(p, s->variance[1], t);

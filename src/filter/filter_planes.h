@@ -54,6 +54,7 @@ struct filter_planes {
     float *weights[2][FILTER_PAIRS];
     float *features[FILTER_FEATURES]; /* scaled by FILTER_x_SCALE */
     float *feature_noise; /* variance of the mean, summed over features */
+    float *samples;       /* of each pixel, over the mean of all */
 };
 
 struct filter_tile {

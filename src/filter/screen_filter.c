@@ -187,7 +187,8 @@ static void give_features(void *context, int y, const struct filter_row *to)
     for (int h = 0; h < 2; h++)
         for (int x = 0; x < f->width; x++)
             to->count[h][x] = halves->count[h][x] > 0.0f ? 1.0f : 0.0f;
-    film_features(s->surfaces, s->far, y, to);
+    film_features(s->surfaces, s->far, y,
+                  (struct film_columns){0, 1, s->surfaces->width}, to);
     film_lock_row(s->surfaces, y);
     for (int x = 0; x < f->width; x++) {
         size_t at = first + (size_t)x;
@@ -381,15 +382,15 @@ bool screen_filter_show(struct screen_filter *f, struct film *film,
 {
     struct films context = {
         f, film, draft, surfaces, atomic_load(&film->samples) == 0, 0.0f};
-    const struct filter_source source = {&context, 1, give_features,
-                                         give_light};
+    const struct filter_source source = {&context, 1, give_features, give_light,
+                                         NULL};
     struct target target = {&context, how, frame};
 
     if (!fits(film, surfaces, frame) || !resize(f, surfaces, film, frame))
         return false;
     screen_halves_begin(&f->halves);
     context.far = film_features_far(surfaces, FAR_STRIDE);
-    filter_run(&f->filter, &source, levels, NULL, f->rgb);
+    filter_run(&f->filter, &source, levels, NULL, f->rgb, NULL);
     if (has_detail(f))
         screen_detail_find(&f->detail, film, f->rgb, f->seen);
     for (int y = 0; y < f->height; y++)

@@ -10,13 +10,20 @@
 
 #include "kernels/sample_share.h"
 
-/* Pixels around a pixel, in each direction, whose deviations it takes: fewer
- * are too noisy for scenes with rare bright light, more blur edges. */
-#define REACH 6
-
-/* Least and greatest share over SHARE_ONE. */
+/* Least share over SHARE_ONE. */
 #define LEAST 0.125
-#define MOST  ((double)SHARE_MOST / SHARE_ONE)
+
+static bool film_squares(struct film *film, float exposure, int colour,
+                         struct pool *pool, const struct cancel *cancel,
+                         float *squares, bool *is_known, struct error *err)
+{
+    (void)err;
+    *is_known =
+        film_error_squares(film, exposure, colour, pool, cancel, squares);
+    return true;
+}
+
+const struct adaptive_measure adaptive_film = {film_squares, 6, 2.5};
 
 bool adaptive_init(struct adaptive *a, int width, int height, struct error *err)
 {
@@ -40,6 +47,7 @@ void adaptive_reset(struct adaptive *a)
 
 /* Numbers of the decision, for each pixel. */
 struct plan {
+    const struct adaptive_measure *measure;
     int width, height;
     int colour;     /* of the demands; deviations have the other one */
     float *demands; /* numbers to which the shares are in proportion; before,
@@ -53,19 +61,19 @@ struct window {
     int first, last;
 };
 
-static struct window window_at(int place, int length)
+static struct window window_at(int place, int length, int reach)
 {
     int after = length - 1 - place;
 
-    return (struct window){place < REACH ? -place : -REACH,
-                           after < REACH ? after : REACH};
+    return (struct window){place < reach ? -place : -reach,
+                           after < reach ? after : reach};
 }
 
 /* Returns the weight of a deviation at a distance in rows or in columns.
  * Weights that fall blur edges less than equal ones. */
-static float weight_at(int distance)
+static float weight_at(int distance, int reach)
 {
-    return (float)(REACH + 1 - abs(distance));
+    return (float)(reach + 1 - abs(distance));
 }
 
 /* Replaces the squares of a row by their roots, and sums these. Roots are
@@ -75,35 +83,39 @@ static void sum_row(void *context, uint32_t y, int worker)
     const struct plan *p = context;
     float *deviations = p->demands + (size_t)y * (size_t)p->width;
     float *sums = p->sums + (size_t)y * (size_t)p->width;
+    int reach = p->measure->reach;
 
     (void)worker;
     for (int x = 0; x < p->width; x++)
         deviations[x] = sqrtf(deviations[x]);
     for (int x = 0; x < p->width; x++) {
-        struct window w = window_at(x, p->width);
+        struct window w = window_at(x, p->width, reach);
 
         sums[x] = 0.0f;
         for (int i = w.first; i <= w.last; i++)
-            sums[x] += weight_at(i) * deviations[x + i];
+            sums[x] += weight_at(i, reach) * deviations[x + i];
     }
 }
 
 /* Sums the weights of a window; those of odd distances times `sign`. */
-static float sum_weights(struct window w, float sign)
+static float sum_weights(struct window w, int reach, float sign)
 {
     float sum = 0.0f;
 
     for (int i = w.first; i <= w.last; i++)
-        sum += (i & 1) != 0 ? sign * weight_at(i) : weight_at(i);
+        sum += (i & 1) != 0 ? sign * weight_at(i, reach) : weight_at(i, reach);
     return sum;
 }
 
 /* Sums the weights of the pixels of the other colour: half the difference
  * between the sum of all and that with a minus for the other colour. */
-static float sum_other_weights(struct window rows, struct window columns)
+static float sum_other_weights(struct window rows, struct window columns,
+                               int reach)
 {
-    float all = sum_weights(rows, 1.0f) * sum_weights(columns, 1.0f);
-    float signed_sum = sum_weights(rows, -1.0f) * sum_weights(columns, -1.0f);
+    float all =
+        sum_weights(rows, reach, 1.0f) * sum_weights(columns, reach, 1.0f);
+    float signed_sum =
+        sum_weights(rows, reach, -1.0f) * sum_weights(columns, reach, -1.0f);
 
     return 0.5f * (all - signed_sum);
 }
@@ -123,28 +135,33 @@ static void find_row(void *context, uint32_t row, int worker)
     const struct plan *p = context;
     int y = (int)row;
     size_t width = (size_t)p->width;
-    struct window rows = window_at(y, p->height);
+    int reach = p->measure->reach;
+    struct window rows = window_at(y, p->height, reach);
 
     (void)worker;
     for (int x = (y + p->colour) & 1; x < p->width; x += 2) {
-        struct window columns = window_at(x, p->width);
+        struct window columns = window_at(x, p->width, reach);
         float sum = 0.0f;
 
         for (int i = rows.first; i <= rows.last; i++)
-            sum += weight_at(i) * p->sums[(size_t)(y + i) * width + (size_t)x];
+            sum += weight_at(i, reach) *
+                   p->sums[(size_t)(y + i) * width + (size_t)x];
         p->demands[(size_t)y * width + (size_t)x] =
-            demand_of(sum / sum_other_weights(rows, columns));
+            demand_of(sum / sum_other_weights(rows, columns, reach));
     }
 }
 
-/* Finds the demands of the pixels of the plan's colour. Returns false after
- * a cancel, or if a pixel lacks samples. */
+/* Finds the demands of the pixels of the plan's colour. *is_known is false
+ * after a cancel, and if a pixel lacks samples. */
 static bool find_demands(struct plan *p, struct film *film, float exposure,
-                         struct pool *pool, const struct cancel *cancel)
+                         struct pool *pool, const struct cancel *cancel,
+                         bool *is_known, struct error *err)
 {
-    if (!film_error_squares(film, exposure, 1 - p->colour, pool, cancel,
-                            p->demands))
+    if (!p->measure->squares(film, exposure, 1 - p->colour, pool, cancel,
+                             p->demands, is_known, err))
         return false;
+    if (!*is_known)
+        return true;
     pool_each(pool, (uint32_t)p->height, sum_row, p);
     pool_each(pool, (uint32_t)p->height, find_row, p);
     return true;
@@ -175,41 +192,42 @@ static void count_demands(struct histogram *h, const struct plan *p)
 }
 
 /* Returns the share of a pixel over SHARE_ONE. */
-static double share_of(double demand, double factor, double least)
+static double share_of(double demand, double factor, double least, double most)
 {
-    return fmin(fmax(demand * factor, least), MOST);
+    return fmin(fmax(demand * factor, least), most);
 }
 
-static double mean_share(const struct histogram *h, double factor, double least)
+static double mean_share(const struct histogram *h, double factor, double least,
+                         double most)
 {
     double sum = 0;
 
     for (uint32_t i = 0; i < BINS; i++)
         if (h->counts[i] > 0)
             sum += h->counts[i] *
-                   share_of(h->sums[i] / h->counts[i], factor, least);
+                   share_of(h->sums[i] / h->counts[i], factor, least, most);
     return sum / h->count;
 }
 
 /* Finds the factor of demands and the least share with which the mean of the
  * shares is SHARE_ONE. */
-static void find_factor(const struct histogram *h, double *factor,
+static void find_factor(const struct histogram *h, double most, double *factor,
                         double *least)
 {
     double low = 0x1p-100, high = 0x1p100;
-    double mean = mean_share(h, high, LEAST);
+    double mean = mean_share(h, high, LEAST, most);
 
     *factor = high;
     *least = LEAST;
     if (mean < 1) { /* few pixels have an error: the others share the rest */
-        double few = (mean - LEAST) / (MOST - LEAST);
+        double few = (mean - LEAST) / (most - LEAST);
 
-        *least = (1 - MOST * few) / (1 - few);
+        *least = (1 - most * few) / (1 - few);
         return;
     }
     for (int i = 0; i < 50; i++) {
         *factor = sqrt(low * high);
-        if (mean_share(h, *factor, LEAST) <= 1)
+        if (mean_share(h, *factor, LEAST, most) <= 1)
             low = *factor;
         else
             high = *factor;
@@ -220,24 +238,27 @@ static void find_factor(const struct histogram *h, double *factor,
 static void set_shares(struct adaptive *a, const struct plan *p,
                        struct histogram *h)
 {
-    double factor, least;
+    double factor, least, most = p->measure->most;
 
     count_demands(h, p);
-    find_factor(h, &factor, &least);
+    find_factor(h, most, &factor, &least);
     for (int y = 0; y < a->height; y++)
         for (int x = (y + p->colour) & 1; x < a->width; x += 2) {
             size_t at = (size_t)y * (size_t)a->width + (size_t)x;
-            double share = share_of((double)p->demands[at], factor, least);
+            double share =
+                share_of((double)p->demands[at], factor, least, most);
 
             a->shares[at] = (uint16_t)lrint(share * SHARE_ONE);
         }
 }
 
-static bool plan_init(struct plan *p, const struct adaptive *a)
+static bool plan_init(struct plan *p, const struct adaptive *a,
+                      const struct adaptive_measure *measure)
 {
     size_t pixels = (size_t)a->width * (size_t)a->height;
 
     *p = (struct plan){
+        .measure = measure,
         .width = a->width,
         .height = a->height,
         .demands = alloc_array(pixels, sizeof *p->demands),
@@ -252,27 +273,30 @@ static void plan_free(struct plan *p)
     free(p->sums);
 }
 
-bool adaptive_decide(struct adaptive *a, struct film *film, float exposure,
-                     struct pool *pool, const struct cancel *cancel,
-                     struct error *err)
+bool adaptive_decide(struct adaptive *a, const struct adaptive_measure *measure,
+                     struct film *film, float exposure, struct pool *pool,
+                     const struct cancel *cancel, struct error *err)
 {
     struct histogram *h = NULL;
     struct plan p = {0};
-    bool has_memory;
+    bool ok;
 
     if (a->is_decided)
         return true;
     h = alloc_array(1, sizeof *h);
-    has_memory = plan_init(&p, a) && h != NULL;
-    a->is_decided = has_memory;
+    ok = plan_init(&p, a, measure) && h != NULL;
+    if (!ok)
+        fail(err, "out of memory for adaptive sampling of %dx%d pixels",
+             a->width, a->height);
+    a->is_decided = ok;
     for (p.colour = 0; p.colour < 2 && a->is_decided; p.colour++) {
-        a->is_decided = find_demands(&p, film, exposure, pool, cancel);
+        ok =
+            find_demands(&p, film, exposure, pool, cancel, &a->is_decided, err);
+        a->is_decided = a->is_decided && ok;
         if (a->is_decided)
             set_shares(a, &p, h);
     }
     plan_free(&p);
     free(h);
-    return has_memory ||
-           fail(err, "out of memory for adaptive sampling of %dx%d pixels",
-                a->width, a->height);
+    return ok;
 }

@@ -30,6 +30,25 @@
 #include "base/thread_pool.h"
 #include "picture/film.h"
 
+/* What the shares lower: the error of the film, or that of another picture of
+ * it. */
+struct adaptive_measure {
+    /* Writes the squared relative error of each pixel of one colour, as
+     * film_error_squares(). Fails only without memory. */
+    bool (*squares)(struct film *film, float exposure, int colour,
+                    struct pool *pool, const struct cancel *cancel,
+                    float *squares, bool *is_known, struct error *err);
+    int reach;   /* pixels around a pixel, in each direction, whose deviations
+                    it takes; ADAPTIVE_REACH_MOST at most */
+    double most; /* greatest share over SHARE_ONE, up to SHARE_MOST */
+};
+
+#define ADAPTIVE_REACH_MOST 6
+
+/* The error of the film. Fewer pixels around are too noisy for scenes with rare
+ * bright light, more blur edges. */
+extern const struct adaptive_measure adaptive_film;
+
 struct adaptive {
     int width, height; /* of the film */
     uint16_t *shares;  /* of each pixel: kernels/sample_share.h */
@@ -43,10 +62,11 @@ void adaptive_free(struct adaptive *a);
 /* Forgets the shares. */
 void adaptive_reset(struct adaptive *a);
 
-/* Computes the shares, unless they are. The film has ADAPTIVE_FIRST samples in
- * each pixel. After a cancel, which may be NULL, they are not decided. */
-bool adaptive_decide(struct adaptive *a, struct film *film, float exposure,
-                     struct pool *pool, const struct cancel *cancel,
-                     struct error *err);
+/* Computes the shares with the least error by a measure, unless they are. The
+ * film has ADAPTIVE_FIRST samples in each pixel. After a cancel, which may be
+ * NULL, they are not decided. */
+bool adaptive_decide(struct adaptive *a, const struct adaptive_measure *measure,
+                     struct film *film, float exposure, struct pool *pool,
+                     const struct cancel *cancel, struct error *err);
 
 #endif

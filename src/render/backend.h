@@ -19,7 +19,7 @@
 enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 
 /* Most samples of a pixel in a pass. */
-#define PASS_SAMPLES_MAX 160
+#define PASS_SAMPLES_MAX 256
 
 /* Most samples in the mean, with which pixels of any share have that many. */
 #define PASS_MEAN_MAX (PASS_SAMPLES_MAX * SHARE_ONE / SHARE_MOST)

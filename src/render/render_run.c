@@ -2,6 +2,7 @@
 #include "render/render_run.h"
 
 #include "base/clock.h"
+#include "filter/film_filter.h"
 #include "render/pass_plan.h"
 
 #include "kernels/rng.h"
@@ -188,14 +189,24 @@ static enum pass_result estimate_cut(struct render *r)
     return PASS_CANCELLED;
 }
 
+/* The error of the filtered picture: more samples at silhouettes and in light
+ * with sharp edges, which the filter cannot average. It removes most of the
+ * chance in deviations, so that a pixel takes those of the four beside it, and
+ * shares may be large. */
+static const struct adaptive_measure adaptive_filtered = {film_filter_squares,
+                                                          1, 4};
+
 /* Decides the shares of adaptive sampling before the passes that need them. */
 static enum pass_result decide_shares(struct render *r)
 {
     struct adaptive *a = &r->films.adaptive;
+    struct film *film = &r->films.film;
+    const struct adaptive_measure *measure;
 
     if (!pass_plan_has_shares(r->spp_done, is_adaptive(r)))
         return PASS_DONE;
-    if (!adaptive_decide(a, &r->films.film, r->job.exposure, r->backend->pool,
+    measure = film_filter_applies(film) ? &adaptive_filtered : &adaptive_film;
+    if (!adaptive_decide(a, measure, film, r->job.exposure, r->backend->pool,
                          cancel_between(r), &r->error))
         return PASS_FAILED;
     if (!a->is_decided) {

@@ -132,7 +132,10 @@ static bool settle_backend(struct options *o, struct error *err)
 
 bool options_adaptive(const struct options *o)
 {
-    return o->adaptive || (!o->no_adaptive && o->error_limit > 0);
+    bool is_filtered = o->denoise && !o->denoise_path && o->share_count == 0;
+
+    return o->adaptive ||
+           (!o->no_adaptive && (o->error_limit > 0 || is_filtered));
 }
 
 bool options_output_is_video(const struct options *o)

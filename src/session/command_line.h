@@ -105,7 +105,7 @@ struct options {
     uint64_t spp;                 /* samples per pixel */
     bool has_spp;
     double error_limit;         /* relative; 0: none */
-    bool adaptive, no_adaptive; /* neither: with error_limit */
+    bool adaptive, no_adaptive; /* neither: options_adaptive() */
     uint64_t time_ns;           /* limit of the time of rendering; 0: none */
     int thread_count;           /* 0: all that the process may use */
     int max_bounces;            /* -1: no limit */

@@ -130,6 +130,120 @@ static float noisy_light(int x, int y, uint64_t index)
     return 2 * (float)check_random(&seed);
 }
 
+/* ---- errors for adaptive sampling ---- */
+
+static float level, deviation;
+
+/* Pixels of one colour have `change` times the light. */
+static uint32_t changed_colour = 2;
+static float change;
+
+static float spread_light(int x, int y, uint64_t index)
+{
+    float l = level + deviation * (noisy_light(x, y, index) - 1);
+
+    return ((uint32_t)(x + y) & 1) == changed_colour ? change * l : l;
+}
+
+static void take_squares(struct film *f, int colour, float *squares)
+{
+    struct error err;
+    bool is_known = false;
+
+    check_or_say(film_filter_squares(f, 0, colour, NULL, NULL, squares,
+                                     &is_known, &err),
+                 err.text);
+    assert_true(is_known);
+}
+
+/* Errors of a colour do not depend on the light of the other one, in films of
+ * any width; those of the other colour are 0. */
+static void errors_are_those_of_a_colour(void **state)
+{
+    static float squares[3][WIDTH * HEIGHT];
+
+    (void)state;
+    for (int width = WIDTH - 3; width <= WIDTH; width += 3)
+        for (uint32_t colour = 0; colour < 2; colour++) {
+            struct film f;
+            struct error err;
+            bool differs = false;
+
+            level = 10;
+            deviation = 2;
+            for (int k = 0; k < 3; k++) {
+                changed_colour = k < 2 ? 1 - colour : colour;
+                change = k == 0 ? 1 : 30;
+                assert_true(film_init(&f, width, HEIGHT, &err));
+                assert_true(film_init_surfaces(&f, &err));
+                add_samples(&f, 0, 16, spread_light);
+                take_squares(&f, (int)colour, squares[k]);
+                film_free(&f);
+            }
+            for (int i = 0; i < width * HEIGHT; i++) {
+                bool is_other =
+                    ((uint32_t)(i % width + i / width) & 1) != colour;
+
+                assert_true(is_other == !(squares[0][i] > 0));
+                differs |= squares[0][i] != squares[2][i];
+            }
+            assert_memory_equal(squares[0], squares[1],
+                                (size_t)(width * HEIGHT) * sizeof(float));
+            assert_true(differs);
+        }
+}
+
+/* Noise that is the same part of the light leaves the same relative error,
+ * twice the noise four times the squared error, nearly: it changes the light by
+ * which the error is divided, too. */
+static void errors_follow_the_noise(void **state)
+{
+    static const float levels[] = {10, 40, 10}, deviations[] = {2, 8, 4};
+    static float squares[WIDTH * HEIGHT];
+    double sums[3] = {0};
+    struct film f;
+
+    (void)state;
+    open_film(&f);
+    changed_colour = 2;
+    for (int k = 0; k < 3; k++) {
+        level = levels[k];
+        deviation = deviations[k];
+        film_clear(&f);
+        add_samples(&f, 0, 16, spread_light);
+        take_squares(&f, 0, squares);
+        for (int i = 0; i < WIDTH * HEIGHT; i++)
+            sums[k] += (double)squares[i];
+    }
+    check_close(sums[1] / sums[0], 1, 0.02);
+    check_close(sums[2] / sums[0], 4, 0.3);
+    film_free(&f);
+}
+
+/* Halves of 1 and 3 deviate by 1 from their mean. That is all the error of seen
+ * light, which is half of red and a quarter of green. The rest is filtered: its
+ * error is at most a 20th of what it was. */
+static void seen_light_has_its_own_error(void **state)
+{
+    static float squares[WIDTH * HEIGHT];
+    const double floor = 0.01, blue = 0.5;
+    double red = 0.25 / (4 + floor), green = 0.0625 / 4 / (1 + floor);
+    double rest = red + 9 * green + 0.25 / (blue * blue + floor);
+    struct film f;
+
+    (void)state;
+    seen_share = 1;
+    open_film(&f);
+    add_samples(&f, 0, 16, striped_light);
+    take_squares(&f, 1, squares);
+    for (int x = 1; x < WIDTH; x += 2) {
+        check_at_most((red + green) / 3, (double)squares[x]);
+        check_at_most((double)squares[x], (red + green + rest / 20) / 3);
+    }
+    seen_share = 0;
+    film_free(&f);
+}
+
 /* Noise of mean 1 falls on the floor and in the sky, and the mean of each
  * stays. */
 static void noise_falls_on_each_surface(void **state)
@@ -302,6 +416,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(clean_films_stay),
         cmocka_unit_test(halves_count_as_their_samples),
+        cmocka_unit_test(errors_are_those_of_a_colour),
+        cmocka_unit_test(errors_follow_the_noise),
+        cmocka_unit_test(seen_light_has_its_own_error),
         cmocka_unit_test(noise_falls_on_each_surface),
         cmocka_unit_test(lamps_stay_sharp),
         cmocka_unit_test(few_samples_are_not_filtered),

@@ -19,7 +19,14 @@ struct picture {
     float (*features)[FILTER_FEATURES];
     float feature_noise; /* variance of albedo, normal and depth alike */
     float count[2];
+    float uneven; /* times as many samples in pixels of odd x + y, if not 0 */
 };
+
+/* Returns the samples of half h of a pixel. */
+static float samples_at(const struct picture *p, int h, int x, int y)
+{
+    return p->count[h] * ((x + y) % 2 != 0 && p->uneven > 0 ? p->uneven : 1);
+}
 
 static void picture_init(struct picture *p, int width, int height)
 {
@@ -58,8 +65,8 @@ static void give_features(void *context, int y, const struct filter_row *to)
         to->albedo_noise[x] = p->feature_noise;
         to->normal_noise[x] = p->feature_noise;
         to->depth_noise[x] = p->feature_noise;
-        to->count[0][x] = p->count[0];
-        to->count[1][x] = p->count[1];
+        to->count[0][x] = samples_at(p, 0, x, y);
+        to->count[1][x] = samples_at(p, 1, x, y);
     }
 }
 
@@ -73,21 +80,27 @@ static void give_light(void *context, int component, int y, float *to[2][3])
                 to[h][c][x] = p->light[component][h][y * p->width + x][c];
 }
 
-/* Returns the filtered picture, for free(). */
-static float *filtered(struct picture *p, int levels, struct pool *pool,
-                       const struct filter_loops *loops)
+/* Returns the filtered picture, for free(), and its variance. */
+static float *filtered_with(struct picture *p, int levels, struct pool *pool,
+                            const struct filter_loops *loops, float *variance)
 {
     struct filter_source source = {p, p->component_count, give_features,
-                                   give_light};
+                                   give_light, NULL};
     struct filter f;
     struct error err;
     float *rgb = calloc((size_t)p->width * (size_t)p->height, 3 * sizeof *rgb);
 
     assert_true(filter_init(&f, p->width, p->height, &err));
     f.loops = loops;
-    filter_run(&f, &source, levels, pool, rgb);
+    filter_run(&f, &source, levels, pool, rgb, variance);
     filter_free(&f);
     return rgb;
+}
+
+static float *filtered(struct picture *p, int levels, struct pool *pool,
+                       const struct filter_loops *loops)
+{
+    return filtered_with(p, levels, pool, loops, NULL);
 }
 
 static float *filtered_well(struct picture *p)
@@ -420,42 +433,54 @@ static void truth_begin(struct truth *t, const struct picture *p)
     for (int i = 0; i < p->width * p->height; i++) {
         double sum = 0;
 
+        /* the mean variance of one sample, over the samples of the half */
         for (int k = 0; k < 3 * 25; k++) {
             int q =
                 at(t, i % p->width + k / 3 % 5 - 2, i / p->width + k / 15 - 2);
 
-            sum += pow(t->light[0][k % 3][q] - t->light[1][k % 3][q], 2) / 2;
+            sum += pow(t->light[0][k % 3][q] - t->light[1][k % 3][q], 2) / 2 *
+                   samples_at(p, 0, q % p->width, q / p->width);
         }
-        t->variance[0][i] = t->variance[1][i] = sum / 25;
+        t->variance[0][i] = t->variance[1][i] =
+            sum / 25 / samples_at(p, 0, i % p->width, i / p->width);
     }
 }
 
-/* The filter computes its definition, at sizes below and above the steps. */
+/* The filter computes its definition, at sizes below and above the steps, with
+ * the variance that is left. */
 static void result_is_the_definition(void **state)
 {
     static struct truth t[2];
-    static const int sizes[][2] = {{64, 37}, {5, 64}, {1, 1}, {3, 2}};
+    static const int sizes[][2] = {{64, 37}, {64, 37}, {5, 64}, {1, 1}, {3, 2}};
+    static float variance[3 * 64 * 64];
 
     (void)state;
-    for (int n = 0; n < 4; n++) {
+    for (int n = 0; n < 5; n++) {
         struct picture p;
         float *rgb;
 
         picture_init(&p, sizes[n][0], sizes[n][1]);
         p.feature_noise = 0.001f;
         p.count[0] = 3;
+        p.uneven = n > 0 ? 5 : 0;
         fill_any(&p, 7);
         truth_begin(&t[0], &p);
         for (int l = 0; l < FILTER_LEVELS; l++)
             truth_level(&t[l % 2], &t[1 - l % 2], 1 << l);
-        rgb = filtered_well(&p);
+        rgb = filtered_with(&p, FILTER_LEVELS, NULL, filter_loops_at(0),
+                            variance);
         for (int i = 0; i < 3 * p.width * p.height; i++) {
             int c = i % 3;
+            double albedo = p.features[i / 3][c] + 1e-3;
             double want =
                 (3 * t[0].light[0][c][i / 3] + 2 * t[0].light[1][c][i / 3]) /
-                5 * (p.features[i / 3][c] + 1e-3);
+                5 * albedo;
+            double rest =
+                (9 * t[0].variance[0][i / 3] + 4 * t[0].variance[1][i / 3]) /
+                25 / 3 * albedo * albedo;
 
             check_close(rgb[i], want, 1e-4 * want);
+            check_close(variance[i], rest, 1e-3 * rest);
         }
         free(rgb);
         picture_free(&p);

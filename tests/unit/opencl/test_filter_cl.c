@@ -23,7 +23,7 @@ static const char text[] =
     "    uint i = get_global_id(0);\n"
     "    in += 6 * i;\n"
     "    out += 5 * i;\n"
-    "    out[0] = filter_variance(in[0]);\n"
+    "    out[0] = filter_variance(in[0], 1.0f + in[5]);\n"
     "    out[1] = filter_pixel_distance(in[0], in[2], in[3]);\n"
     "    out[2] = filter_light_distance(in[4]);\n"
     "    out[3] = filter_feature_distance(in[0], in[2], in[3]);\n"
@@ -32,7 +32,7 @@ static const char text[] =
 
 static void compute(const float *in, float *out)
 {
-    out[0] = filter_variance(in[0]);
+    out[0] = filter_variance(in[0], 1.0f + in[5]);
     out[1] = filter_pixel_distance(in[0], in[2], in[3]);
     out[2] = filter_light_distance(in[4]);
     out[3] = filter_feature_distance(in[0], in[2], in[3]);

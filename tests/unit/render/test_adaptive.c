@@ -68,6 +68,10 @@ static void close_render(struct render *r)
     backend->destroy(backend);
 }
 
+/* FEATURE_FILTER: the shares lower the error of the filtered picture. 0: that
+ * of the film. */
+static uint32_t filter_feature;
+
 static void start(struct render *r, struct mesh *m, uint64_t spp,
                   bool is_adaptive, uint32_t seed)
 {
@@ -78,7 +82,8 @@ static void start(struct render *r, struct mesh *m, uint64_t spp,
                              .is_adaptive = is_adaptive};
     struct error err;
 
-    job.world.settings.features = FEATURES_ALL & ~FEATURE_AOV;
+    job.world.settings.features =
+        (FEATURES_ALL & ~FEATURE_AOV & ~FEATURE_FILTER) | filter_feature;
     job.world.settings.seed = seed;
     check_or_say(render_start(r, &job, &err), err.text);
 }
@@ -181,7 +186,7 @@ static void take_film(struct film *film, struct adaptive *a, uint64_t mean,
     film_clear(film);
     adaptive_reset(a);
     take_samples(film, a, ADAPTIVE_FIRST, x0);
-    assert_true(adaptive_decide(a, film, 0, NULL, NULL, &err));
+    assert_true(adaptive_decide(a, &adaptive_film, film, 0, NULL, NULL, &err));
     take_samples(film, a, mean, x0);
 }
 
@@ -238,7 +243,8 @@ static void a_share_does_not_depend_on_its_pixel(void **state)
                                  ? &flash
                                  : &(struct path_sample){{1, 1, 1}, 1, 0},
                              NULL, (const int[]){1});
-            assert_true(adaptive_decide(&a[i], &film, 0, NULL, NULL, &err));
+            assert_true(adaptive_decide(&a[i], &adaptive_film, &film, 0, NULL,
+                                        NULL, &err));
         }
         assert_int_equal(a[0].shares[at], a[1].shares[at]);
         for (int x = 0; x < 20 * 14; x++)
@@ -318,7 +324,8 @@ static void shares_follow_deviations(void **state)
 
         film_add_row(&film, x, y, 1, 1, &sample, NULL, (const int[]){1});
     }
-    assert_true(adaptive_decide(&a, &film, 0, NULL, NULL, &err));
+    assert_true(
+        adaptive_decide(&a, &adaptive_film, &film, 0, NULL, NULL, &err));
     for (int i = 0; i < 64 * 64; i++) {
         left += i % 64 < 25 ? a.shares[i] : 0;
         right += i % 64 >= 39 ? a.shares[i] : 0;
@@ -346,7 +353,8 @@ static void equal_deviations_have_equal_shares(void **state)
         film_add_row(&film, i % 17, i / 17 % 10, 1, 1, &sample, NULL,
                      (const int[]){1});
     }
-    assert_true(adaptive_decide(&a, &film, 0, NULL, NULL, &err));
+    assert_true(
+        adaptive_decide(&a, &adaptive_film, &film, 0, NULL, NULL, &err));
     for (int i = 0; i < 17 * 10; i++)
         check_close((double)a.shares[i] / SHARE_ONE, 1, 0.001);
     adaptive_free(&a);
@@ -403,10 +411,26 @@ static void pictures_without_error_end(void **state)
     mesh_free(&m);
 }
 
+static int with_filter(void **state)
+{
+    (void)state;
+    filter_feature = FEATURE_FILTER;
+    return 0;
+}
+
+static int without_filter(void **state)
+{
+    (void)state;
+    filter_feature = 0;
+    return 0;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mean_is_that_of_uniform_sampling),
+        cmocka_unit_test_setup_teardown(the_mean_is_that_of_uniform_sampling,
+                                        with_filter, without_filter),
         cmocka_unit_test(rare_light_is_not_lost),
         cmocka_unit_test(a_share_does_not_depend_on_its_pixel),
         cmocka_unit_test(samples_go_where_the_error_is),
@@ -414,6 +438,8 @@ int main(void)
         cmocka_unit_test(equal_deviations_have_equal_shares),
         cmocka_unit_test(a_few_noisy_pixels_take_the_most_samples),
         cmocka_unit_test(the_bits_are_the_same),
+        cmocka_unit_test_setup_teardown(the_bits_are_the_same, with_filter,
+                                        without_filter),
         cmocka_unit_test(pictures_without_error_end),
     };
 

@@ -114,7 +114,7 @@ static void shares_count_after_the_first_samples(void **state)
     assert_null(p.shares);
     p = pass_plan_pass(16, 24, 1, &adaptive);
     assert_int_equal(p.target, 24);
-    assert_int_equal(p.samples, 20);
+    assert_int_equal(p.samples, 32);
     assert_ptr_equal(p.shares, shares);
 }
 
@@ -129,7 +129,7 @@ static void samples_follow_shares(void **state)
     assert_int_equal(share_samples(SHARE_ONE, 1000), 1000);
     assert_int_equal(share_samples(2 * SHARE_ONE, 116), 216);
     assert_int_equal(share_samples(SHARE_MOST, UINT64_C(1) << 40),
-                     (UINT64_C(5) << 39) - 24);
+                     (UINT64_C(1) << 42) - 48);
     for (int i = 0; i < 100000; i++) {
         uint32_t share = (uint32_t)(check_random(&seed) * SHARE_MOST);
         uint64_t done = 16 + (uint64_t)(check_random(&seed) * 1000);
@@ -137,7 +137,7 @@ static void samples_follow_shares(void **state)
         uint64_t first = share_samples(share, done);
         uint64_t last = share_samples(share, done + more);
 
-        assert_true(last >= first && last - first <= (5 * more + 1) / 2);
+        assert_true(last >= first && last - first <= 4 * more);
         check_close((double)last,
                     16 + (double)(done + more - 16) * share / SHARE_ONE, 0.5);
     }
