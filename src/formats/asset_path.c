@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <limits.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -66,7 +67,7 @@ static bool name_in_folder(int folder, const char *name,
         if (strcasecmp(entry->d_name, name) != 0 ||
             (*found != '\0' && strcmp(found, entry->d_name) < 0))
             continue;
-        strcpy(found, entry->d_name);
+        snprintf(found, NAME_MAX + 1, "%s", entry->d_name);
     }
     if (entries != NULL)
         closedir(entries);
