@@ -485,25 +485,24 @@ struct view edit_view(const struct edit *e)
     return view;
 }
 
-/* Returns true if the saved statements make the present material, too: a type
- * that was changed and chosen again has more statements of the same meaning. */
-static bool is_same_material(const struct mtl_source *saved,
-                             const struct mtl_source *now)
-{
-    struct mtl_source needed;
-
-    if (mtl_source_equal(now, saved))
-        return true;
-    needed = mtl_source_needed(saved, now);
-    return mtl_source_equal(&needed, saved);
-}
-
-bool edit_is_saved(const struct edit *e, uint32_t i)
+bool edit_has_saved_statements(const struct edit *e, uint32_t i)
 {
     /* an undone duplicate that was saved stays in its file */
     return !e->now.is_there[i] ||
            (e->saved.is_there[i] &&
-            is_same_material(&e->saved.sources[i], &e->now.sources[i]));
+            mtl_source_equal(&e->now.sources[i], &e->saved.sources[i]));
+}
+
+bool edit_is_saved(const struct edit *e, uint32_t i)
+{
+    struct mtl_source needed;
+
+    if (edit_has_saved_statements(e, i))
+        return true;
+    if (!e->saved.is_there[i])
+        return false;
+    needed = mtl_source_needed(&e->saved.sources[i], &e->now.sources[i]);
+    return mtl_source_equal(&needed, &e->saved.sources[i]);
 }
 
 bool edit_has_unsaved_materials(const struct edit *e)

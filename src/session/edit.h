@@ -108,7 +108,11 @@ const struct edit_state *edit_shown(const struct edit *edit);
  * pointers belong to the edit. */
 struct view edit_view(const struct edit *edit);
 
-/* Returns true if the material is saved as it is. */
+/* Returns true if the material has the statements that are saved. */
+bool edit_has_saved_statements(const struct edit *edit, uint32_t material);
+
+/* Returns true if the saved statements make the present material: a type that
+ * was changed and chosen again has more statements of the same meaning. */
 bool edit_is_saved(const struct edit *edit, uint32_t material);
 
 /* Return true if a material, or an assignment, a lamp or the light, is not

@@ -63,18 +63,10 @@ static struct mtl_source maps_of(const struct mtl_source *s)
     return maps;
 }
 
-/* Returns true if the material has the statements of its file. Statements that
- * make no difference are kept, too: another type may need them again. */
-static bool is_as_saved(const struct edit *e, uint32_t i)
-{
-    return !e->now.is_there[i] ||
-           (e->saved.is_there[i] &&
-            mtl_source_equal(&e->now.sources[i], &e->saved.sources[i]));
-}
-
 /* Writes all statements but the maps, which do not change, of all materials
- * that differ from their files. Statements of all dialects are read as they are
- * in files of Blender. */
+ * that differ from their files. Statements that make no difference are kept,
+ * too: another type may need them again. Those of all dialects are read as they
+ * are in files of Blender. */
 static bool take_materials(struct kept *k, const struct session *s,
                            const char *path, struct error *err)
 {
@@ -89,7 +81,7 @@ static bool take_materials(struct kept *k, const struct session *s,
     bool ok;
 
     for (uint32_t i = 0; i < e->material_count; i++) {
-        if (is_as_saved(e, i))
+        if (edit_has_saved_statements(e, i))
             continue;
         snprintf(names[count], NAME_BYTES, "m%zu", count);
         maps[count] = maps_of(&e->now.sources[i]);
