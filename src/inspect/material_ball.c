@@ -93,8 +93,9 @@ static void add_ball(struct material_ball *b)
 static void add_floor(struct material_ball *b)
 {
     for (uint32_t i = 0; i < FLOOR_POINTS; i++) {
-        float x = (float)(i % (SQUARES + 1)) - 0.5f * SQUARES;
-        float z = (float)(i / (SQUARES + 1)) - 0.5f * SQUARES;
+        uint32_t column = i % (SQUARES + 1), row = i / (SQUARES + 1);
+        float x = (float)column - 0.5f * SQUARES;
+        float z = (float)row - 0.5f * SQUARES;
 
         b->arrays->positions[CORNERS + i] =
             v3(x * SQUARE_SIDE, -RADIUS, z * SQUARE_SIDE);
@@ -129,10 +130,13 @@ static bool add_sky(struct material_ball *b, struct error *err)
 {
     struct world *w = &b->studio.world;
 
-    for (int i = 0; i < SKY_ROWS * SKY_COLUMNS; i++)
+    for (int i = 0; i < SKY_ROWS * SKY_COLUMNS; i++) {
+        int row = i / SKY_COLUMNS, column = i % SKY_COLUMNS;
+
         b->arrays->sky_texels[i] =
-            sky_radiance(90 - 180 * (i / SKY_COLUMNS + 0.5) / SKY_ROWS,
-                         360 * (i % SKY_COLUMNS + 0.5) / SKY_COLUMNS);
+            sky_radiance(90 - 180 * (row + 0.5) / SKY_ROWS,
+                         360 * (column + 0.5) / SKY_COLUMNS);
+    }
     w->settings.sky = (struct sky){.color = v3(1.0f, 1.0f, 1.0f),
                                    .width = SKY_COLUMNS,
                                    .height = SKY_ROWS,
