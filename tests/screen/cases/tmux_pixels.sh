@@ -10,7 +10,7 @@ case $(tmux -V) in
     exit 77
     ;;
 esac
-echo 'set -g allow-passthrough on' >inner.conf
+echo 'set -g allow-passthrough on; set -g destroy-unattached on' >inner.conf
 inner="env -u TMUX TERM=xterm-256color tmux -u -S $PWD/inner -f $PWD/inner.conf"
 placeholder=$(printf '\364\216\273\256')
 
