@@ -22,7 +22,8 @@ static const struct option_rule picture[] = {
     {"time", OPTION_TIME, "a time such as 90, 1.5m or 2h", "TIME",
      "stop after this time of rendering, such as 90, 1.5m or 2h"},
     {"adaptive", OPTION_ADAPTIVE, NULL, NULL,
-     "more samples where the error is (default with -e)"},
+     "more samples where the error is (default with -e, and with --denoise "
+     "without a file)"},
     {"no-adaptive", OPTION_NO_ADAPTIVE, NULL, NULL,
      "the same number of samples in each pixel"},
     {"d", OPTION_BOUNCES, "a number of bounces", "BOUNCES",
