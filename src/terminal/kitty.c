@@ -9,7 +9,7 @@
 
 /* Transmission with display: 24-bit pixels, no answers, the cursor stays,
  * base64 in pieces of at most 4096 bytes. Through tmux the image is a virtual
- * one. https://sw.kovidgoyal.net/kitty/graphics-protocol/ */
+ * one: "Unicode placeholders" in the text of kitty's protocol. */
 #define BEGIN "a=T,f=24,s=%d,v=%d,c=%d,r=%d,i=%d,%s,q=2,m=%d;"
 #define GO_ON "m=%d;"
 #define ERASE "a=d,d=I,i=%d,q=2"
