@@ -33,6 +33,17 @@ static inline int enter_folder(void **state)
     return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
 }
 
+/* Enters the folder, whose sub-folder "state" has the state of the user. */
+static inline int enter_folder_with_state(void **state)
+{
+    char path[sizeof folder + 16];
+
+    if (enter_folder(state) != 0)
+        return -1;
+    snprintf(path, sizeof path, "%s/state", folder);
+    return setenv("XDG_STATE_HOME", path, 1);
+}
+
 /* Removes the folder with everything in it. */
 static inline int remove_folder(void **state)
 {

@@ -65,16 +65,6 @@ static void other_lines_are_left_out(void **state)
     assert_int_equal(glyph_memory_read("c"), GLYPH_ASCII);
 }
 
-static int enter(void **state)
-{
-    char path[sizeof folder + 16];
-
-    if (enter_folder(state) != 0)
-        return -1;
-    snprintf(path, sizeof path, "%s/state", folder);
-    return setenv("XDG_STATE_HOME", path, 1);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -83,5 +73,6 @@ int main(void)
         cmocka_unit_test(other_lines_are_left_out),
     };
 
-    return cmocka_run_group_tests(tests, enter, remove_folder);
+    return cmocka_run_group_tests(tests, enter_folder_with_state,
+                                  remove_folder);
 }

@@ -144,16 +144,6 @@ static void answers_select_a_scene(void **state)
     check_answer("not there\n", "");
 }
 
-static int enter(void **state)
-{
-    char path[256];
-
-    if (enter_folder(state) != 0)
-        return -1;
-    snprintf(path, sizeof path, "%s/state", folder);
-    return setenv("XDG_STATE_HOME", path, 1);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -164,5 +154,6 @@ int main(void)
         cmocka_unit_test(answers_select_a_scene),
     };
 
-    return cmocka_run_group_tests(tests, enter, remove_folder);
+    return cmocka_run_group_tests(tests, enter_folder_with_state,
+                                  remove_folder);
 }
