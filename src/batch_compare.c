@@ -123,7 +123,7 @@ static void format_difference(char *text, size_t size_bytes,
     if (t->reference > 0)
         snprintf(relative, sizeof relative, " (%+.3g %%)",
                  100 * t->difference / t->reference);
-    snprintf(text, size_bytes, "%s %+.4g%s, t %.1f", channels[t->channel],
+    snprintf(text, size_bytes, "%s %+.4g%s, t %.3g", channels[t->channel],
              t->difference, relative, t->t);
 }
 

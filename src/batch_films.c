@@ -163,10 +163,13 @@ static bool write_pictures(struct film_file *f, const struct film_error *e,
         batch_filter_warn();
     else if (o->denoise)
         ok = film_filter_copy(film, options_threads(o), &filtered, err);
-    if (ok && filtered.sums != NULL && o->denoise_path)
+    if (ok && filtered.sums != NULL && o->denoise_path) {
         ok = write_picture(f, &filtered, e, o->denoise_path, o, err);
-    else if (filtered.sums != NULL)
+        if (ok)
+            batch_filter_say(o->denoise_path);
+    } else if (filtered.sums != NULL) {
         film = &filtered;
+    }
     ok = ok && write_picture(f, film, e, o->output_path, o, err);
     film_free(&filtered);
     return ok;

@@ -107,6 +107,18 @@ static bool render(struct making *m, struct error *err)
     return true;
 }
 
+/* Writes the file beside the picture. If that fails, an older one, which has the
+ * error of another picture, does not stay. */
+static bool write_info(const struct making *m,
+                       const struct reference_info *info,
+                       const struct reference_origin *origin, struct error *err)
+{
+    if (reference_info_write(info, origin, m->json_path, err))
+        return true;
+    remove(m->json_path);
+    return false;
+}
+
 /* Writes the picture and the file beside it. */
 static bool write(struct making *m, uint64_t start_ns, struct error *err)
 {
@@ -134,7 +146,7 @@ static bool write(struct making *m, uint64_t start_ns, struct error *err)
 
     if (!image_write_floats(mean, r->width, r->height, m->o->output_path,
                             err) ||
-        !reference_info_write(&info, &origin, m->json_path, err))
+        !write_info(m, &info, &origin, err))
         return false;
     print_line(stderr,
                "%s: %dx%d, %" PRIu64 " spp in %d seeds, relMSE %.3g (95 %%: "

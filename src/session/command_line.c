@@ -255,12 +255,12 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
             return true; /* the rest of the command line does not matter */
     }
     keymap_settle(&o->keys, o->phoe_keys);
-    if (!settle_backend(o, err) || !options_check(o, err) ||
-        !take_environment(o, err))
+    if (!settle_backend(o, err) ||
+        (o->command != COMMAND_RENDER && !sub_command_check(o, err)) ||
+        !options_check(o, err) || !take_environment(o, err))
         return false;
-    if (o->command != COMMAND_RENDER)
-        return sub_command_check(o, err);
-    if (o->scene_path || options_need_no_scene(o))
+    if (o->command != COMMAND_RENDER || o->scene_path ||
+        options_need_no_scene(o))
         return true;
     o->lacks_scene = !o->batch;
     return fail(

@@ -180,7 +180,9 @@ static bool check_films(const struct options *o, struct error *err)
                     o->film_count, o->film_count == 1 ? "" : "s",
                     needs_output && !o->output_path ? " and no -o" : "",
                     rules[o->command].name, rules[o->command].operands);
-    return true;
+    return !o->denoise || !o->output_path || !options_output_is_film(o) ||
+           fail(err, "--denoise: found -o %s, a film, expected a picture",
+                o->output_path);
 }
 
 bool sub_command_check(struct options *o, struct error *err)
@@ -195,5 +197,7 @@ bool sub_command_check(struct options *o, struct error *err)
                     "found too few files, expected: glim%s %s (see glim "
                     "--help)",
                     rules[o->command].name, rules[o->command].operands);
+    if (o->csv_path && strcmp(o->csv_path, "-") == 0)
+        return fail(err, "--csv: found -, expected the name of a file");
     return check_output(o, err);
 }

@@ -71,6 +71,7 @@ run compare a.pfm b.pfm --false-alarms 0
 run compare a.pfm b.pfm --false-alarms often
 run compare a.pfm b.pfm -o d.hdr
 run compare a.pfm b.pfm -o -
+run compare a.pfm b.pfm -o d.jpg
 run compare a.pfm b.pfm -o ./a.pfm
 run compare a.pfm b.pfm -o none/d.png
 run -b --tiles 4 box.obj

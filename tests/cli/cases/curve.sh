@@ -67,6 +67,8 @@ run curve -b ref.pfm box.obj
 run curve --show depth ref.pfm box.obj
 run curve -o curve.pfm ref.pfm box.obj
 run curve -o - ref.pfm box.obj
+run curve -o curve.jpg ref.pfm box.obj
+run curve --csv - ref.pfm box.obj
 run curve -o x.png --csv x.png ref.pfm box.obj
 run curve --csv ref.pfm ref.pfm box.obj
 run curve --csv box.mtl ref.pfm box.obj

@@ -47,8 +47,9 @@ for spp in 9 16 23; do
     same b.png whole.png
 done
 glim develop --denoise b.film -o m.png 2>/dev/null
-glim develop --denoise=n.png b.film -o b.png 2>/dev/null
+run_untimed develop --denoise=n.png b.film -o b.png
 same n.png m.png
+run merge --denoise b.film -o n.film
 
 # the limit of the error ends a resumed render where it ends the other one
 e="-b -w 48 -h 36 -e 20%"

@@ -16,6 +16,14 @@ for name in a.pfm b.png; do
 done | sed 's/No space left on device/full/; s/File too large/full/'
 cat disk/a.pfm
 ls -A disk
+# A reference whose JSON file does not fit keeps none of an older picture.
+rm disk/*
+glim reference -w 8 -h 8 -s 4 --seeds 4 disk/r.pfm box.obj 2>/dev/null
+ls -A disk
+glim reference -w 8 -h 8 -s 4 --seeds 4 $(printf -- '--exposure=0 %.0s' \
+    $(seq 2000)) disk/r.pfm box.obj 2>&1 |
+    sed 's/No space left on device/full/; s/File too large/full/'
+ls -A disk
 SH
 unshare -m true 2>/dev/null && own='unshare -m' || own=
 $own sh fill.sh
