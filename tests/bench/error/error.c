@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
  * error - relative MSE over seconds, with all techniques and with each of them
- * off, with adaptive sampling, and the gain over glim's first integrator
+ * off, with adaptive sampling, with the filter, and the gain over glim's first
+ * integrator
  *
  * usage: error FOLDER THREADS ROUNDS [PART_OF_A_NAME]
  *
@@ -20,6 +21,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "filter/film_filter.h"
 #include "scene/world.h"
 #include "measure/chart.h"
 #include "terminal/xmalloc.h"
@@ -47,6 +49,9 @@ enum need {
     NEED_GUIDE
 };
 
+/* What a render has besides its kernel and settings. */
+enum extra { GUIDED, UNGUIDED, ADAPTIVE, FILTERED };
+
 /* All techniques that are on by default, or all except the one of this name, or
  * those and this one. */
 static const struct technique {
@@ -55,31 +60,32 @@ static const struct technique {
     enum direct direct;
     enum sky_use sky_use;
     enum need need;
-    bool is_unguided;
-    bool is_adaptive;
+    enum extra extra;
 } techniques[] = {
-    {"everything", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_NOTHING, false,
-     false},
+    {"everything", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_NOTHING,
+     GUIDED},
     {"first integrator", &paths_hashed, DIRECT_BSDF, SKY_WITH_MIS, NEED_NOTHING,
-     true, false},
+     UNGUIDED},
     {"without light samples", &paths_whole, DIRECT_BSDF, SKY_WITH_MIS,
-     NEED_LIGHT_SAMPLES, false, false},
+     NEED_LIGHT_SAMPLES, GUIDED},
     {"without light by chance", &paths_whole, DIRECT_LIGHTS, SKY_ALONE,
-     NEED_LIGHT_SAMPLES, false, false},
+     NEED_LIGHT_SAMPLES, GUIDED},
     {"without sobol points", &paths_hashed, DIRECT_MIS, SKY_WITH_MIS,
-     NEED_NOTHING, false, false},
+     NEED_NOTHING, GUIDED},
     {"without the light tree", &paths_uniform, DIRECT_MIS, SKY_WITH_MIS,
-     NEED_LIGHTS, false, false},
+     NEED_LIGHTS, GUIDED},
     {"without compensation", &paths_whole, DIRECT_MIS, SKY_ALONE,
-     NEED_SKY_TABLE, false, false},
+     NEED_SKY_TABLE, GUIDED},
     {"without root in roulette", &paths_throughput, DIRECT_MIS, SKY_WITH_MIS,
-     NEED_NOTHING, false, false},
+     NEED_NOTHING, GUIDED},
     {"with all shadow rays", &paths_shadows, DIRECT_MIS, SKY_WITH_MIS,
-     NEED_LIGHT_SAMPLES, false, false},
+     NEED_LIGHT_SAMPLES, GUIDED},
     {"without the guide", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_GUIDE,
-     true, false},
+     UNGUIDED},
     {"with adaptive sampling", &paths_whole, DIRECT_MIS, SKY_WITH_MIS,
-     NEED_NOTHING, false, true},
+     NEED_NOTHING, ADAPTIVE},
+    {"with the filter", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_NOTHING,
+     FILTERED},
 };
 
 enum { TECHNIQUES = sizeof techniques / sizeof techniques[0] };
@@ -174,9 +180,30 @@ static bool start(struct render *r, const struct render_job *job,
     return true;
 }
 
+/* Takes the picture of the film, filtered if that is wanted and the film has
+ * enough samples. *seconds is the time of the filter. */
+static bool take_picture(struct measurement *m, bool is_filtered,
+                         double *seconds, struct error *err)
+{
+    struct film *film = render_film(m->session.render), filtered;
+    uint64_t begin_ns = clock_cpu_ns();
+
+    *seconds = 0;
+    if (!is_filtered || !film_filter_applies(film)) {
+        film_linear(film, m->rgb);
+        return true;
+    }
+    if (!film_filter_copy(film, m->bench->threads, &filtered, err))
+        return false;
+    *seconds = seconds_between(begin_ns, clock_cpu_ns());
+    film_linear(&filtered, m->rgb);
+    film_free(&filtered);
+    return true;
+}
+
 /* Adds one render of this world to a curve; afterwards `rgb` is its picture. */
 static bool measure_world(struct measurement *m, struct curve *c, int round,
-                          const struct world *world, bool is_adaptive,
+                          const struct world *world, enum extra extra,
                           struct error *err)
 {
     struct session *s = &m->session;
@@ -185,8 +212,8 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
                              .crop = {0, 0, s->edit.now.view.width_px,
                                       s->edit.now.view.height_px},
                              .limits.spp = 1,
-                             .is_adaptive = is_adaptive};
-    double seconds = 0, error = 0;
+                             .is_adaptive = extra == ADAPTIVE};
+    double seconds = 0, filter_seconds, error = 0;
 
     if (!start(s->render, &job, err)) /* builds the tree, loads the code */
         return false;
@@ -200,8 +227,9 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
             return false;
         }
         seconds += seconds_between(begin_ns, clock_cpu_ns());
-        c->seconds[i][round] = seconds / m->bench->threads;
-        film_linear(render_film(s->render), m->rgb);
+        if (!take_picture(m, extra == FILTERED, &filter_seconds, err))
+            return false;
+        c->seconds[i][round] = (seconds + filter_seconds) / m->bench->threads;
         error = reference_error(&m->reference, m->rgb);
         c->error[i] += error;
     }
@@ -227,11 +255,13 @@ static bool measure_round(struct measurement *m, int technique, int round,
         return true;
     if (t->sky_use == SKY_ALONE)
         sky_table_lend(&m->whole_sky, &world);
-    if (t->is_unguided)
+    if (t->extra == FILTERED)
+        world.settings.features |= FEATURE_FILTER;
+    if (t->extra == UNGUIDED)
         path_guide_lend(&(struct path_guide){.cells = NULL}, &world);
     world.settings.direct = t->direct;
     render_set_backend(s->render, m->bench->backends[technique]);
-    return measure_world(m, c, round, &world, t->is_adaptive, err);
+    return measure_world(m, c, round, &world, t->extra, err);
 }
 
 /* Converts sums over rounds to means without the reference's noise. */
