@@ -1,40 +1,56 @@
 // SPDX-License-Identifier: MIT
 #include "render/render_left.h"
 
-#include "render/error_trend.h"
+#include <math.h>
+
 #include "render/pass_plan.h"
 
 /* Samples per pixel beyond which a time is of no interest, and which integers
  * hold. */
 #define SPP_MAX 1e15
 
-/* Finds the time until the film has so many samples, at the mean speed so far.
- * Returns false before the first sample. */
+static double tracing_ns(const struct render_progress *p)
+{
+    return p->render_ns > p->build_ns ? (double)(p->render_ns - p->build_ns)
+                                      : 0;
+}
+
+/* Returns the time of a sample: at the speed of late, or else at the mean one.
+ * It is 0 before the first sample. */
+static double sample_ns(const struct render_progress *p)
+{
+    double late_ns = render_trend_sample_ns(&p->trend);
+
+    if (p->samples == 0)
+        return 0;
+    return late_ns > 0 ? late_ns / (double)p->pixels
+                       : tracing_ns(p) / (double)p->samples;
+}
+
+/* Finds the time until the film has so many samples. Returns false before the
+ * first sample. */
 static bool ns_to_samples(const struct render_progress *p, double samples,
                           double *ns)
 {
     double missing = samples - (double)p->samples;
-    uint64_t tracing_ns =
-        p->render_ns > p->build_ns ? p->render_ns - p->build_ns : 0;
+    double each_ns = sample_ns(p);
 
-    if (p->samples == 0 || tracing_ns == 0)
-        return false;
-    *ns = missing > 0 ? missing * (double)tracing_ns / (double)p->samples : 0;
-    return true;
+    *ns = missing > 0 ? missing * each_ns : 0;
+    return each_ns > 0;
 }
 
 bool render_left_to_error(const struct render_progress *p, double target,
                           double *ns)
 {
     const struct film_error *e = &p->film_error;
-    double spp;
+    double left_ns, spp;
 
-    if (!e->is_known || !e->is_resolved || p->spp_done == 0)
+    if (!e->is_known || !e->is_resolved || p->spp_done == 0 ||
+        sample_ns(p) <= 0)
         return false;
-    spp = error_trend_spp((double)p->spp_done, e->high, target,
-                          p->error_exponent);
-    if (spp < RENDER_ERROR_SPP_MIN)
-        spp = RENDER_ERROR_SPP_MIN;
+    left_ns = render_trend_target_ns(&p->trend, target) - tracing_ns(p);
+    spp = ((double)p->samples + left_ns / sample_ns(p)) / (double)p->pixels;
+    spp = fmax(spp, fmax((double)p->spp_done, RENDER_ERROR_SPP_MIN));
     if (e->high > target && spp < SPP_MAX) /* the error is known after passes */
         spp = (double)pass_plan_end(p->spp_done, (uint64_t)spp + 1,
                                     p->is_adaptive);

@@ -126,7 +126,7 @@ bool render_start(struct render *r, const struct render_job *job,
     r->first_picture_ns = 0;
     r->has_error = true; /* that of no sample is unknown */
     r->film_error = (struct film_error){0};
-    r->error_trend = (struct error_trend){.count = 0};
+    r->trend = (struct render_trend){.count = 0};
     r->build_ns = 0;
     if (job->from != NULL)
         go_on(r, job->from);
@@ -211,7 +211,7 @@ struct render_progress render_progress(struct render *r)
     p.film_error = r->stopped_by == RENDER_LIMIT_TIME && r->cut_error.is_known
                        ? r->cut_error
                        : r->film_error;
-    p.error_exponent = error_trend_exponent(&r->error_trend);
+    p.trend = r->trend;
     p.draft_is_coarse = r->films.draft.width > 0 && r->draft_spp_done == 0;
     if (r->state == RENDER_FAILED)
         p.error = r->error;

@@ -31,6 +31,7 @@
 #include "picture/film_file.h"
 #include "render/backend.h"
 #include "render/render_limits.h"
+#include "render/render_trend.h"
 
 struct rect {
     int x, y, width, height;
@@ -86,7 +87,7 @@ struct render_progress {
     uint64_t first_picture_ns;
     /* at the end of the last pass, or where the limit of time cut one */
     struct film_error film_error;
-    double error_exponent; /* of its course: error_trend.h */
+    struct render_trend trend; /* of the errors after passes */
     struct error error;
 };
 

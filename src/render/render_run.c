@@ -146,6 +146,14 @@ static bool estimate(struct render *r, const struct cancel *cancel,
                       e, &r->error);
 }
 
+/* Returns the time of the picture without halts and build. */
+static double tracing_ns(const struct render *r)
+{
+    uint64_t run_ns = clock_ns() - r->run_begin_ns;
+
+    return (double)(r->run_before_ns + run_ns - r->build_ns);
+}
+
 /* Finds the error at the end of a pass, unless it is known already. */
 static enum pass_result estimate_pass(struct render *r)
 {
@@ -165,7 +173,7 @@ static enum pass_result estimate_pass(struct render *r)
     r->film_error = e;
     r->has_error = true;
     if (e.is_known)
-        error_trend_add(&r->error_trend, r->spp_done, e.high);
+        render_trend_add(&r->trend, tracing_ns(r), (double)r->spp_done, &e);
     pthread_mutex_unlock(&r->lock);
     return PASS_DONE;
 }

@@ -14,7 +14,6 @@
 
 #include <pthread.h>
 
-#include "render/error_trend.h"
 #include "render/render_films.h"
 #include "render/render_loop.h"
 
@@ -44,7 +43,7 @@ struct render {
     bool has_error;  /* film_error is that of the last pass */
     struct film_error film_error;
     struct film_error cut_error; /* of a film that the time has cut */
-    struct error_trend error_trend;
+    struct render_trend trend;   /* over the time without the build */
     struct error error;
     /* set while the render thread is parked */
     struct render_job job;

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "render/error_text.h"
-#include "render/error_trend.h"
 #include "render/pass_plan.h"
 #include "render/render_left.h"
 
@@ -20,53 +19,83 @@
 struct simulation {
     double p;
     double first_error; /* at one sample */
+    /* Each sample after the first 16 has the time of so many, and counts as
+     * many for the error, as adaptive samples do where only a part of the
+     * picture needs them. 0: as one */
+    double slower;
+    /* squared error that few pixels add at one sample, which falls as n^-2 and
+     * widens the interval */
+    double rare;
+    double width; /* of the interval otherwise, as a part of the error */
     uint64_t build_ns;
 };
 
-static double error_of(const struct simulation *s, double spp)
+/* Returns the samples before adaptive ones that are worth `spp`. */
+static double worth(const struct simulation *s, double spp)
 {
-    return s->first_error * pow(spp, -s->p / 2);
+    return s->slower > 0 && spp > 16 ? 16 + s->slower * (spp - 16) : spp;
 }
 
-static double ns_of(const struct simulation *s, double spp)
+static double error_of(const struct simulation *s, double spp)
 {
-    return (double)s->build_ns + spp * PIXELS * 1e3;
+    double square =
+        s->first_error * s->first_error * pow(spp, 1 - s->p) / worth(s, spp);
+
+    return sqrt(square + s->rare / (spp * spp));
+}
+
+static struct film_error stated(const struct simulation *s, double spp)
+{
+    double error = error_of(s, spp);
+    double width = s->width + 0.8 * s->rare / (spp * spp) / (error * error);
+
+    return (struct film_error){true, true, error, error * (1 - width / 2),
+                               error * exp(width)};
+}
+
+static double tracing_ns_of(const struct simulation *s, double spp)
+{
+    return worth(s, spp) * PIXELS * 1e3;
 }
 
 static struct render_progress at(const struct simulation *s, uint64_t spp,
-                                 const struct error_trend *trend)
+                                 struct render_trend trend)
 {
-    double error = error_of(s, (double)spp);
+    struct film_error error = stated(s, (double)spp);
 
+    render_trend_add(&trend, tracing_ns_of(s, (double)spp), (double)spp,
+                     &error);
     return (struct render_progress){
         .state = RENDER_RUNNING,
         .spp_done = spp,
         .samples = spp * PIXELS,
         .pixels = PIXELS,
-        .render_ns = (uint64_t)ns_of(s, (double)spp),
+        .render_ns = s->build_ns + (uint64_t)tracing_ns_of(s, (double)spp),
         .build_ns = s->build_ns,
-        .film_error = {true, true, error, error * 0.97, error * 1.03},
-        .error_exponent = error_trend_exponent(trend),
+        .film_error = error,
+        .trend = trend,
     };
 }
 
 /* Renders until the upper end is at the target, and compares the time left that
  * was shown from a tenth of the way on with the true one. Returns the worst
- * deviation as a part of the true one, but of a second at least. */
+ * deviation beyond one pass, as a part of the true time left, but of a tenth of
+ * the way at least. */
 static double worst_deviation(const struct simulation *s, double target)
 {
     const struct render_limits limits = {.error = target};
-    struct error_trend trend = {.count = 0};
-    double shown_ns[4096], at_ns[4096], worst = 0;
+    bool is_adaptive = s->slower > 0;
+    struct render_trend trend = {.count = 0};
+    double shown_ns[4096], at_ns[4096], pass_ns, worst = 0;
     int count = 0;
 
-    for (uint64_t spp = 1;; spp = pass_plan_next(spp, &limits, false)) {
-        struct render_progress p;
+    for (uint64_t spp = 2;; spp = pass_plan_next(spp, &limits, is_adaptive)) {
+        struct render_progress p = at(s, spp, trend);
         struct render_left left;
 
-        error_trend_add(&trend, spp, 1.03 * error_of(s, (double)spp));
-        p = at(s, spp, &trend);
+        trend = p.trend;
         p.error_limit = target;
+        p.is_adaptive = is_adaptive;
         left = render_left(&p);
         assert_int_equal(left.limit, RENDER_LIMIT_ERROR);
         assert_true(count < 4096);
@@ -75,13 +104,16 @@ static double worst_deviation(const struct simulation *s, double target)
         if (p.film_error.high <= target)
             break;
     }
+    assert_true(count > 1);
+    pass_ns = at_ns[count - 1] - at_ns[count - 2];
     for (int i = 0; i < count; i++) {
         double end_ns = at_ns[count - 1];
         double left_ns = end_ns - at_ns[i];
 
+        double off_ns = fmax(fabs(shown_ns[i] - left_ns) - pass_ns, 0);
+
         if (at_ns[i] >= end_ns / 10)
-            worst = fmax(worst, fabs(shown_ns[i] - left_ns) /
-                                    fmax(left_ns, end_ns / 10));
+            worst = fmax(worst, off_ns / fmax(left_ns, end_ns / 10));
     }
     return worst;
 }
@@ -90,7 +122,9 @@ static void time_to_an_error_is_right_from_a_tenth_on(void **state)
 {
     (void)state;
     for (int i = 0; i <= 2; i++) {
-        struct simulation s = {.p = 1 + 0.05 * i, .first_error = 0.5};
+        struct simulation s = {.p = 1 + 0.05 * i,
+                               .first_error = 0.5,
+                               .width = 0.03};
 
         for (double target = 0.04; target > 0.004; target /= 1.7)
             assert_true(worst_deviation(&s, target) < 0.2);
@@ -99,38 +133,126 @@ static void time_to_an_error_is_right_from_a_tenth_on(void **state)
     }
 }
 
-static void exponents_are_fitted(void **state)
+static void time_to_an_error_is_right_with_adaptive_samples(void **state)
 {
-    struct error_trend t = {.count = 0};
+    (void)state;
+    for (int i = 0; i <= 3; i++) {
+        const struct simulation s = {.p = 1.05,
+                                     .first_error = 0.5,
+                                     .slower = 1 + 0.1 * i,
+                                     .width = 0.02};
+
+        for (double target = 0.07; target > 0.004; target /= 1.7)
+            assert_true(worst_deviation(&s, target) < 0.2);
+    }
+}
+
+/* Four tenths of the way to 100 samples, the speed is that of adaptive samples.
+ */
+static void time_to_samples_is_at_late_speed(void **state)
+{
+    const struct simulation s = {.p = 1, .first_error = 0.5, .slower = 1.4};
+    struct render_progress p = at(&s, 16, (struct render_trend){.count = 0});
 
     (void)state;
-    assert_true(error_trend_exponent(&t) == 1);
-    error_trend_add(&t, 2, 0.1);
-    assert_true(error_trend_exponent(&t) == 1);
-    t = (struct error_trend){.count = 0};
-    for (uint64_t n = 2; n < 1000; n += 2) {
-        error_trend_add(&t, n, pow((double)n, -0.56));
-        if (n >= 4)
-            check_close(error_trend_exponent(&t), 1.084, 1e-9);
+    p = at(&s, 40, p.trend);
+    p.samples_limit = 100 * PIXELS;
+    check_close(render_left(&p).ns, (100 - 40) * 1.4 * PIXELS * 1e3, 1);
+}
+
+/* A pixel that found much light counts less with every sample. */
+static void time_to_an_error_is_right_after_rare_light(void **state)
+{
+    (void)state;
+    for (double rare = 0.1; rare < 10; rare *= 3) {
+        const struct simulation s = {.p = 1.05,
+                                     .first_error = 0.5,
+                                     .rare = rare,
+                                     .width = 0.02};
+
+        for (double target = 0.04; target > 0.004; target /= 1.7)
+            assert_true(worst_deviation(&s, target) < 0.2);
     }
+}
+
+static struct film_error exactly(double error)
+{
+    return (struct film_error){true, true, error, error, error};
+}
+
+/* Returns the time at which the target is reached, of a course from time 1 to
+ * time 16 whose error falls by the factor. */
+static double time_of_course(double factor, double target)
+{
+    const struct film_error first = exactly(0.04 * factor);
+    const struct film_error last = exactly(0.04);
+    struct render_trend t = {.count = 0};
+
+    render_trend_add(&t, 1, 2, &first);
+    render_trend_add(&t, 16, 32, &last);
+    return render_trend_target_ns(&t, target);
+}
+
+static void exponents_are_fitted(void **state)
+{
+    const struct film_error first = exactly(0.04), zero = exactly(0);
+    struct render_trend t = {.count = 0};
+
+    (void)state;
+    render_trend_add(&t, 16, 32, &first);
+    check_close(render_trend_target_ns(&t, 0.01), 256, 1e-6); /* p = 1 */
+    check_close(time_of_course(pow(16, 0.54), 0.01), 16 * pow(16, 1 / 1.04),
+                1e-6);
     /* out of bounds: an error that grows, or that vanishes */
-    t = (struct error_trend){.count = 0};
-    error_trend_add(&t, 2, 0.1);
-    error_trend_add(&t, 4, 0.3);
-    assert_true(error_trend_exponent(&t) == 1);
-    error_trend_add(&t, 8, 1e-9);
-    check_close(error_trend_exponent(&t), 1.14, 1e-9);
-    error_trend_add(&t, 16, 0);
-    assert_true(error_trend_exponent(&t) == 1);
-    check_close(error_trend_spp(16, 0.04, 0.01, 1), 256, 1e-9);
-    check_close(error_trend_spp(16, 0.01, 0.04, 1), 16, 0);
+    check_close(time_of_course(0.5, 0.01), 256, 1e-6);
+    check_close(time_of_course(1e9, 0.01), 16 * pow(16, 1 / 1.1), 1e-6);
+    /* reached already */
+    assert_true(time_of_course(4, 0.04) == 16);
+    assert_true(time_of_course(4, 0.05) == 16);
+    render_trend_add(&t, 32, 64, &zero);
+    assert_true(render_trend_target_ns(&t, 0.01) == 32);
+    t.last.log_high = INFINITY;
+    assert_true(render_trend_target_ns(&t, 0.01) == HUGE_VAL);
+}
+
+/* The interval's width counts 1.3 times and falls as 1 / t. */
+static void wide_intervals_become_narrow(void **state)
+{
+    const struct film_error wide = {true, true, 0.02, 0.01, 0.04};
+    struct render_trend t = {.count = 0};
+    double width = 2 * log(2), ns;
+
+    (void)state;
+    render_trend_add(&t, 10, 32, &wide);
+    ns = render_trend_target_ns(&t, 0.01);
+    assert_true(ns < 160);
+    check_close(2 * log(0.04) - 1.3 * width * (1 - 10 / ns) - log(ns / 10),
+                2 * log(0.01), 1e-6);
+}
+
+static void speed_is_that_of_late(void **state)
+{
+    const struct film_error e = exactly(0.1);
+    struct render_trend t = {.count = 0};
+
+    (void)state;
+    assert_true(render_trend_sample_ns(&t) == 0);
+    render_trend_add(&t, 10, 10, &e);
+    render_trend_add(&t, 19, 16, &e);
+    assert_true(render_trend_sample_ns(&t) == 0);
+    render_trend_add(&t, 20, 16, &e);
+    check_close(render_trend_sample_ns(&t), 10 / 6.0, 1e-12);
+    render_trend_add(&t, 30, 26, &e);
+    check_close(render_trend_sample_ns(&t), 20 / 16.0, 1e-12);
+    render_trend_add(&t, 40, 36, &e);
+    check_close(render_trend_sample_ns(&t), 1, 1e-12);
 }
 
 static void the_nearest_limit_counts(void **state)
 {
-    const struct error_trend none = {.count = 0};
+    const struct render_trend none = {.count = 0};
     const struct simulation s = {.p = 1, .first_error = 0.5};
-    struct render_progress p = at(&s, 100, &none); /* 1 s, 5 % */
+    struct render_progress p = at(&s, 100, none); /* 1 s, 5 % */
     struct render_left left;
 
     (void)state;
@@ -147,7 +269,8 @@ static void the_nearest_limit_counts(void **state)
     assert_int_equal(left.limit, RENDER_LIMIT_TIME);
     check_close(left.ns, 3e9, 1);
     check_close(left.part, 0.25, 1e-9);
-    p.error_limit = 0.0515 / 1.5; /* 225 samples: the pass ends at 228 */
+    p.error_limit =
+        p.film_error.high / 1.5; /* 225 samples: the pass ends at 228 */
     left = render_left(&p);
     assert_int_equal(left.limit, RENDER_LIMIT_ERROR);
     check_close(left.ns, 1.28e9, 1e3);
@@ -162,9 +285,9 @@ static void the_nearest_limit_counts(void **state)
  * an adaptive render at 16 and 24. */
 static void errors_are_known_at_the_ends_of_passes(void **state)
 {
-    const struct error_trend none = {.count = 0};
+    const struct render_trend none = {.count = 0};
     const struct simulation s = {.p = 1, .first_error = 0.5};
-    struct render_progress p = at(&s, 12, &none);
+    struct render_progress p = at(&s, 12, none);
 
     (void)state;
     p.error_limit = p.film_error.high * sqrt(12 / 18.5);
@@ -175,9 +298,9 @@ static void errors_are_known_at_the_ends_of_passes(void **state)
 
 static void unknown_errors_have_no_time(void **state)
 {
-    const struct error_trend none = {.count = 0};
+    const struct render_trend none = {.count = 0};
     const struct simulation s = {.p = 1, .first_error = 0.5};
-    struct render_progress p = at(&s, 100, &none);
+    struct render_progress p = at(&s, 100, none);
     double ns;
 
     (void)state;
@@ -197,7 +320,7 @@ static void unknown_errors_have_no_time(void **state)
     assert_int_equal(render_left(&p).limit, RENDER_LIMIT_ERROR);
     assert_true(render_left(&p).part == 1 && render_left(&p).ns == 0);
     /* errors that no time reaches */
-    p = at(&s, 100, &none);
+    p = at(&s, 100, none);
     assert_true(render_left_to_error(&p, 1e-300, &ns) && ns > 1e18);
     assert_true(render_left_to_error(&p, 1, &ns) && ns == 0);
 }
@@ -273,7 +396,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(time_to_an_error_is_right_from_a_tenth_on),
+        cmocka_unit_test(time_to_an_error_is_right_with_adaptive_samples),
+        cmocka_unit_test(time_to_an_error_is_right_after_rare_light),
+        cmocka_unit_test(time_to_samples_is_at_late_speed),
         cmocka_unit_test(exponents_are_fitted),
+        cmocka_unit_test(wide_intervals_become_narrow),
+        cmocka_unit_test(speed_is_that_of_late),
         cmocka_unit_test(the_nearest_limit_counts),
         cmocka_unit_test(errors_are_known_at_the_ends_of_passes),
         cmocka_unit_test(unknown_errors_have_no_time),
