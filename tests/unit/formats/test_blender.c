@@ -8,12 +8,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/file.h"
 #include "formats/mtl_dialect.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/formats/mtl_texts.h"
+#include "tests/unit/shared.h"
 
 #define ROUGH .25 /* alpha of roughness 0.5 */
 
@@ -98,17 +98,11 @@ static const struct truth truths[] = {
  * text for free(). */
 static char *read_suite(const char *name, size_t *size_bytes)
 {
-    const char *root = getenv("GLIM_SHARED");
-    char *path = xformat("%s/suites/blender/%s.mtl",
-                         root != NULL ? root : "../shared", name);
     struct error err;
-    char *text;
+    char file[64], *path, *text;
 
-    if (access(path, R_OK) != 0) {
-        print_message("skipped: there is no %s\n", path);
-        free(path);
-        skip();
-    }
+    snprintf(file, sizeof file, "suites/blender/%s.mtl", name);
+    path = shared_path(file);
     check_or_say(file_read(path, &text, size_bytes, &err), err.text);
     free(path);
     return text;

@@ -8,13 +8,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/file.h"
 #include "scene/world.h"
 #include "load/scene_load.h"
 #include "terminal/xmalloc.h"
-#include "tests/unit/check.h"
+#include "tests/unit/shared.h"
 
 /* Expectation of a file: one line of expected.json. */
 struct expectation {
@@ -114,9 +113,9 @@ static void check_file(const struct expectation *e)
 }
 
 /* Checks all files of a suite. Returns their number. */
-static int check_suite(const char *suite, const char *root)
+static int check_suite(const char *suite, const char *expected)
 {
-    char *path = xformat("%s/suites/%s/expected.json", root, suite);
+    char *path = shared_path(expected);
     char *start = xformat("\"%s/", suite);
     char *text;
     size_t size_bytes;
@@ -135,8 +134,8 @@ static int check_suite(const char *suite, const char *root)
         assert_non_null(kind);
         e.loads = strncmp(kind, "\"loads\"", 7) == 0;
         e.is_refused = strncmp(kind, "\"refuse\"", 8) == 0;
-        e.path =
-            xformat("%s/suites/%.*s", root, (int)strcspn(name, "\""), name);
+        e.path = xformat("%s/suites/%.*s", shared_folder(),
+                         (int)strcspn(name, "\""), name);
         check_file(&e);
         free(e.path);
         count++;
@@ -147,28 +146,16 @@ static int check_suite(const char *suite, const char *root)
     return count;
 }
 
-static const char *shared_root(void)
-{
-    const char *root = getenv("GLIM_SHARED");
-
-    root = root != NULL ? root : "../shared";
-    if (access(root, R_OK) != 0) {
-        print_message("skipped: there is no %s\n", root);
-        skip();
-    }
-    return root;
-}
-
 static void ply_files_are_as_others_see_them(void **state)
 {
     (void)state;
-    assert_int_equal(check_suite("ply", shared_root()), 73);
+    assert_int_equal(check_suite("ply", "suites/ply/expected.json"), 73);
 }
 
 static void stl_files_are_as_others_see_them(void **state)
 {
     (void)state;
-    assert_int_equal(check_suite("stl", shared_root()), 55);
+    assert_int_equal(check_suite("stl", "suites/stl/expected.json"), 55);
 }
 
 int main(void)

@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/file.h"
 #include "scene/world.h"
@@ -16,7 +15,7 @@
 #include "formats/obj.h"
 #include "load/scene_load.h"
 #include "terminal/xmalloc.h"
-#include "tests/unit/check.h"
+#include "tests/unit/shared.h"
 
 struct loaded {
     struct scene scene;
@@ -40,20 +39,6 @@ static void unload(struct loaded *l)
     world_free(&l->world);
     scene_free(&l->scene);
     warnings_free(&l->report);
-}
-
-/* Returns the path for free(), or skips the test if there is no such file. */
-static char *shared_path(const char *name)
-{
-    const char *root = getenv("GLIM_SHARED");
-    char *path = xformat("%s/%s", root != NULL ? root : "../shared", name);
-
-    if (access(path, R_OK) != 0) {
-        print_message("skipped: there is no %s\n", path);
-        free(path);
-        skip();
-    }
-    return path;
 }
 
 static char *read_text(const char *path)

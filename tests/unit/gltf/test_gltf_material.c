@@ -12,6 +12,7 @@
 #include "formats/mtl_save.h"
 #include "gltf/gltf_material.h"
 #include "tests/unit/files.h"
+#include "tests/unit/shared.h"
 
 /* A document and the scene with its materials. */
 struct loaded {
@@ -180,17 +181,9 @@ static void expect_material(const struct material *m, const json_t *want)
     expect_layers(m, want);
 }
 
-/* Returns the path of a shared file, for free(). */
-static char *shared_path(const char *name)
-{
-    const char *root = getenv("GLIM_SHARED");
-
-    return format_text("%s/suites/%s", root != NULL ? root : "../shared", name);
-}
-
 static void expect_file(const char *file, const json_t *materials)
 {
-    char *path = shared_path(file);
+    char *path = format_text("%s/suites/%s", shared_folder(), file);
     struct loaded l;
 
     load(&l, path);
@@ -220,29 +213,26 @@ static void replace_word(char *text, const char *word)
         memset(memset(p, ' ', length), '0', 1);
 }
 
-/* Returns the expectations of all files, or NULL without them. Some readers
- * found NaN, which is no JSON. */
+/* Returns the expectations of all files. Some readers found NaN, which is no
+ * JSON. */
 static json_t *read_expectations(void)
 {
-    char *path = shared_path("gltf/expected.json");
+    char *path = shared_path("suites/gltf/expected.json"), *text, *copy;
     json_error_t why;
     struct error err;
-    json_t *all = NULL;
-    char *text;
+    json_t *all;
     size_t size_bytes;
 
-    if (file_read(path, &text, &size_bytes, &err)) {
-        char *copy = strndup(text, size_bytes);
-
-        replace_word(copy, "NaN");
-        replace_word(copy, "Infinity");
-        all = json_loads(copy, 0, &why);
-        if (all == NULL)
-            print_error("%s:%d: %s\n", path, why.line, why.text);
-        assert_non_null(all);
-        free(copy);
-        free(text);
-    }
+    check_or_say(file_read(path, &text, &size_bytes, &err), err.text);
+    copy = strndup(text, size_bytes);
+    replace_word(copy, "NaN");
+    replace_word(copy, "Infinity");
+    all = json_loads(copy, 0, &why);
+    if (all == NULL)
+        print_error("%s:%d: %s\n", path, why.line, why.text);
+    assert_non_null(all);
+    free(copy);
+    free(text);
     free(path);
     return all;
 }
@@ -255,10 +245,6 @@ static void values_are_those_of_an_independent_reader(void **state)
     int count = 0;
 
     (void)state;
-    if (all == NULL) {
-        print_message("../shared/suites/gltf is missing: skipped\n");
-        skip();
-    }
     json_object_foreach(all, file, entry)
     {
         const char *expected =

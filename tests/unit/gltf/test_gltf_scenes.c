@@ -5,9 +5,9 @@
  *
  * The scenes are not in this repository; without them the tests are skipped.
  */
-#include <unistd.h>
 
 #include "tests/unit/regions.h"
+#include "tests/unit/shared.h"
 
 #define SEEDS 8
 #define SIDE  64 /* of the pictures, in pixels */
@@ -18,20 +18,14 @@
 
 static void check_scene(const char *name, int spp)
 {
-    const char *root = getenv("GLIM_SHARED");
     struct region_sums sums = {.count = 0};
-    char *scene, *regions;
+    char file[128], *scene, *regions;
     struct region_truth t;
 
-    root = root != NULL ? root : "../shared";
-    scene = xformat("%s/scenes-gltf/%s/%s.glb", root, name, name);
-    regions = xformat("%s/scenes-gltf/%s/regions.json", root, name);
-    if (access(scene, R_OK) != 0) {
-        print_message("skipped: there is no %s\n", scene);
-        free(scene);
-        free(regions);
-        skip();
-    }
+    snprintf(file, sizeof file, "scenes-gltf/%s/%s.glb", name, name);
+    scene = shared_path(file);
+    snprintf(file, sizeof file, "scenes-gltf/%s/regions.json", name);
+    regions = shared_path(file);
     region_truth_read(regions, &t);
     for (uint32_t seed = 1; seed <= SEEDS; seed++)
         region_render(scene, &t, SIDE, spp, seed, &sums);

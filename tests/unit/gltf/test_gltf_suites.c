@@ -16,25 +16,13 @@
 #include "import/draco_child.h"
 #include "load/scene_load.h"
 #include "terminal/xmalloc.h"
-#include "tests/unit/check.h"
+#include "tests/unit/shared.h"
 
 /* Extensions that a file may be refused for, by name. */
 static const char *const optional_extensions[] = {
     "KHR_texture_basisu",
     "EXT_texture_webp",
 };
-
-static const char *shared_root(void)
-{
-    const char *root = getenv("GLIM_SHARED");
-
-    root = root != NULL ? root : "../shared";
-    if (access(root, R_OK) != 0) {
-        print_message("skipped: there is no %s\n", root);
-        skip();
-    }
-    return root;
-}
 
 static bool is_refused_by_name(const struct error *err)
 {
@@ -194,9 +182,9 @@ static void blank(char *text, const char *word)
 }
 
 /* Reads the expectations; those of numbers that are not finite are not used. */
-static json_t *read_expected(const char *root)
+static json_t *read_expected(void)
 {
-    char *path = xformat("%s/suites/gltf/expected.json", root), *text;
+    char *path = shared_path("suites/gltf/expected.json"), *text;
     struct error err;
     size_t size_bytes;
     json_t *files;
@@ -213,15 +201,14 @@ static json_t *read_expected(const char *root)
 
 static void files_are_as_others_see_them(void **state)
 {
-    const char *root = shared_root();
-    json_t *files = read_expected(root), *file;
+    json_t *files = read_expected(), *file;
     const char *name;
     int count = 0;
 
     (void)state;
     json_object_foreach(files, name, file)
     {
-        char *path = xformat("%s/suites/%s", root, name);
+        char *path = xformat("%s/suites/%s", shared_folder(), name);
 
         if (access(path, R_OK) == 0) { /* one line is of no single file */
             check_file(path, file);

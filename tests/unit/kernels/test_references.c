@@ -8,13 +8,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/file.h"
 #include "session/session.h"
 
 #include "base/clock.h"
-#include "tests/unit/check.h"
+#include "tests/unit/shared.h"
 
 #define SEEDS   12
 #define REGIONS 48 /* 4 x 4 regions, 3 channels */
@@ -23,13 +22,6 @@
  * There are 9 scenes of 48 numbers: one false alarm in 2,300 choices of seeds.
  * The seeds are fixed. */
 #define T_LIMIT 9.4
-
-static const char *shared(void)
-{
-    const char *path = getenv("GLIM_SHARED");
-
-    return path != NULL ? path : "../shared";
-}
 
 struct truth {
     double mean[REGIONS];
@@ -165,36 +157,32 @@ static void compare(const char *scene, const struct truth *truth, int width,
 static void real_scene(const char *name, int width, int height, int spp,
                        unsigned without)
 {
-    char scene[512], regions[512];
+    char file[128], *scene, *regions;
     struct truth truth;
 
-    snprintf(scene, sizeof scene, "%s/scenes-real/%s/%s.obj", shared(), name,
-             name);
-    snprintf(regions, sizeof regions, "%s/scenes-real/%s/regions.json",
-             shared(), name);
-    if (access(scene, R_OK) != 0) {
-        print_message("%s is not here\n", scene);
-        skip();
-    }
+    snprintf(file, sizeof file, "scenes-real/%s/%s.obj", name, name);
+    scene = shared_path(file);
+    snprintf(file, sizeof file, "scenes-real/%s/regions.json", name);
+    regions = shared_path(file);
     read_regions(regions, &truth);
     compare(scene, &truth, width, height, spp, without);
+    free(regions);
+    free(scene);
 }
 
 static void bench_scene(const char *name, double mse, int spp)
 {
-    char scene[512], picture[512];
+    char file[128], *scene, *picture;
     struct truth truth;
 
-    snprintf(scene, sizeof scene, "%s/scenes-bench/%s/%s.obj", shared(), name,
-             name);
-    snprintf(picture, sizeof picture, "%s/scenes-bench/%s/reference.pfm",
-             shared(), name);
-    if (access(scene, R_OK) != 0) {
-        print_message("%s is not here\n", scene);
-        skip();
-    }
+    snprintf(file, sizeof file, "scenes-bench/%s/%s.obj", name, name);
+    scene = shared_path(file);
+    snprintf(file, sizeof file, "scenes-bench/%s/reference.pfm", name);
+    picture = shared_path(file);
     read_picture(picture, mse, &truth);
     compare(scene, &truth, 64, 64, spp, 0);
+    free(picture);
+    free(scene);
 }
 
 static void empty_box_agrees_with_the_reference(void **state)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tests/unit/files.h"
+#include "tests/unit/shared.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include "base/error.h"
 #include "picture/stb.h"
@@ -16,10 +16,10 @@ static char png_suite[500];
 /* Finds the suite before the current folder changes. */
 static int enter(void **state)
 {
-    const char *shared = getenv("GLIM_SHARED");
-    char *real = realpath(shared ? shared : "../shared", NULL);
+    char *real = realpath(shared_folder(), NULL);
 
-    snprintf(png_suite, sizeof png_suite, "%s/suites/png", real ? real : "");
+    snprintf(png_suite, sizeof png_suite, "%s/suites/png",
+             real ? real : shared_folder());
     free(real);
     return enter_folder(state);
 }
@@ -444,7 +444,7 @@ static void png_suite_has_the_right_pixels(void **state)
     snprintf(path, sizeof path, "%s/expected.json", png_suite);
     FILE *f = fopen(path, "r");
     if (!f) {
-        print_message("no %s here\n", path);
+        print_message("skipped: there is no %s\n", path);
         skip();
     }
     while (fgets(line, sizeof line, f)) {

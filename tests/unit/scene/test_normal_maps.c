@@ -14,10 +14,9 @@
 #include "load/scene_load.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/files.h"
+#include "tests/unit/shared.h"
 
 #define SIDE 32
-
-static char shared[4096];
 
 enum image {
     FLAT,      /* normals that all point away */
@@ -163,16 +162,11 @@ static void named_normals_are_not_judged(void **state)
 
 static void normals_of_blender_are_normals(void **state)
 {
-    char *path = xformat("%s/suites/blender/b5_0.obj", shared);
+    char *path = shared_path("suites/blender/b5_0.obj");
     uint32_t count = 0;
     struct loaded l;
 
     (void)state;
-    if (access(path, R_OK) != 0) {
-        print_message("skipped: there is no %s\n", path);
-        free(path);
-        skip();
-    }
     l = load(path);
     for (uint32_t i = 0; i < l.world.material_count; i++) {
         assert_int_equal(l.world.materials[i].bump_texture, NO_INDEX);
@@ -183,24 +177,17 @@ static void normals_of_blender_are_normals(void **state)
     free(path);
 }
 
-/* Finds the shared folder, and enters one of its own. */
-static int set_up(void **state)
-{
-    const char *root = getenv("GLIM_SHARED");
-    char *real = realpath(root != NULL ? root : "../shared", NULL);
-
-    snprintf(shared, sizeof shared, "%s", real != NULL ? real : "none");
-    free(real);
-    return enter_folder(state);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(images_of_normals_are_normals),
         cmocka_unit_test(named_normals_are_not_judged),
+    };
+    const struct CMUnitTest shared[] = {
         cmocka_unit_test(normals_of_blender_are_normals),
     };
 
-    return cmocka_run_group_tests(tests, set_up, leave_empty_folder);
+    /* before the folder changes */
+    return cmocka_run_group_tests(shared, NULL, NULL) +
+           cmocka_run_group_tests(tests, enter_folder, leave_empty_folder);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
+#include "tests/unit/shared.h"
 
 #include <glob.h>
 #include <math.h>
@@ -630,15 +631,14 @@ static void copies_own_their_texts(void **state)
 /* The camera files of other programs in the shared folder are read. */
 static void shared_camera_files_are_read(void **state)
 {
-    const char *shared = getenv("GLIM_SHARED");
     char pattern[512];
     glob_t found;
 
     (void)state;
     snprintf(pattern, sizeof pattern, "%s/scenes-*/*/camera.txt",
-             shared ? shared : "../shared");
+             shared_folder());
     if (glob(pattern, 0, NULL, &found) != 0) {
-        print_message("no %s here\n", pattern);
+        print_message("skipped: there is no %s\n", pattern);
         skip();
     }
     for (size_t i = 0; i < found.gl_pathc; i++) {
