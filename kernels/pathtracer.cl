@@ -18,8 +18,8 @@ __kernel void trace_paths(
     __global const struct vec3 *positions, __global const struct vec3 *normals,
     __global const struct vec2 *uvs, __global const struct vec2 *uvs2,
     __global const struct vec3 *colors, __global const float *alphas,
-    __global const struct tangent *tangents,
-    __global const struct tri *tris, __global const struct instance *instances,
+    __global const struct tangent *tangents, __global const struct tri *tris,
+    __global const struct instance *instances,
     __global const struct material *materials,
     __global const struct texture *textures, __global const uint *texels,
     __global const float *linear_of_srgb,
@@ -32,7 +32,7 @@ __kernel void trace_paths(
     __global const float *guide_cdf,
     __global const struct point_light *point_lights,
     __global const struct directional_light *directional_lights,
-    __global const float *profiles, 
+    __global const float *profiles,
     __global const struct caustic_node *caustic_nodes,
     __global const struct caustic_lobe *caustic_lobes)
 {

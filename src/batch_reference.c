@@ -107,8 +107,8 @@ static bool render(struct making *m, struct error *err)
     return true;
 }
 
-/* Writes the file beside the picture. If that fails, an older one, which has the
- * error of another picture, does not stay. */
+/* Writes the file beside the picture. If that fails, an older one, which has
+ * the error of another picture, does not stay. */
 static bool write_info(const struct making *m,
                        const struct reference_info *info,
                        const struct reference_origin *origin, struct error *err)

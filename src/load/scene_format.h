@@ -31,8 +31,8 @@ struct scene_format {
     bool (*matches)(const char *bytes, size_t size_bytes);
     scene_parse *parse;
     bool has_choices; /* it reads what scene->choice says */
-    /* Returns NULL if all of the format can be read, else what is missing. NULL:
-     * formats that need no library. */
+    /* Returns NULL if all of the format can be read, else what is missing.
+     * NULL: formats that need no library. */
     const char *(*missing)(void);
 };
 
