@@ -111,11 +111,11 @@ static bool send_primitive(struct walk *walk, const struct packed *p,
                          "found no bufferView, expected its number");
     data = &walk->document->views[view].data;
     request.size_bytes = data->size_bytes;
-    json_object_foreach(p->ids.json, name, unused) request.attribute_count +=
-        is_wanted(p, name);
+    json_object_foreach (p->ids.json, name, unused) {
+        request.attribute_count += is_wanted(p, name);
+    }
     fwrite(&request, sizeof request, 1, walk->requests);
-    json_object_foreach(p->ids.json, name, unused)
-    {
+    json_object_foreach (p->ids.json, name, unused) {
         uint64_t id = 0;
 
         if (!gltf_integer(&p->ids, name, UINT32_MAX, &id, err))
@@ -288,11 +288,11 @@ static bool take_answer(struct walk *walk, const struct packed *p,
     answer.failure[sizeof answer.failure - 1] = '\0';
     if (answer.failure[0] != '\0')
         return gltf_fail(&p->extension, err, "libdraco: %s", answer.failure);
-    json_object_foreach(p->ids.json, name,
-                        unused) if (is_wanted(p, name) &&
-                                    !take_attribute(walk, p, name,
-                                                    answer.vertex_count,
-                                                    err)) return false;
+    json_object_foreach (p->ids.json, name, unused) {
+        if (is_wanted(p, name) &&
+            !take_attribute(walk, p, name, answer.vertex_count, err))
+            return false;
+    }
     return take_indices(walk, p, answer.tri_count, err);
 }
 

@@ -245,8 +245,7 @@ static void values_are_those_of_an_independent_reader(void **state)
     int count = 0;
 
     (void)state;
-    json_object_foreach(all, file, entry)
-    {
+    json_object_foreach (all, file, entry) {
         const char *expected =
             json_string_value(json_object_get(entry, "expected"));
         const json_t *spec =

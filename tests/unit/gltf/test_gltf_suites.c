@@ -206,8 +206,7 @@ static void files_are_as_others_see_them(void **state)
     int count = 0;
 
     (void)state;
-    json_object_foreach(files, name, file)
-    {
+    json_object_foreach (files, name, file) {
         char *path = xformat("%s/suites/%s", shared_folder(), name);
 
         if (access(path, R_OK) == 0) { /* one line is of no single file */
