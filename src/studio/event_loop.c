@@ -85,7 +85,7 @@ static bool is_urgent(enum action action)
 }
 
 /* Urgent keys always work. Any other key goes to the first of these that is
- * there: a question, the help, a window too small for anything but quitting,
+ * there: a question, a window too small for anything but quitting, the help,
  * the editor panel, the cursor. */
 static void take_key(struct studio *studio, int key)
 {
@@ -99,10 +99,10 @@ static void take_key(struct studio *studio, int key)
         return;
     if (is_urgent(action))
         studio_run(studio, action);
+    else if (workspace->screen.is_too_small)
+        studio_run(studio, action == ACTION_QUIT ? action : ACTION_NONE);
     else if (workspace->help.is_open)
         workspace_help_key(workspace, key);
-    else if (workspace->screen.is_too_small && action != ACTION_QUIT)
-        return;
     else if (!panel_takes(studio, key) &&
              !comparison_takes(&workspace->comparison, action) &&
              !studio_run_at_cursor(studio, action))

@@ -96,12 +96,38 @@ static bool resize_frame(struct workspace *workspace, struct error *err)
                       screen->frame_height, err);
 }
 
+static void draw_help(struct workspace *workspace)
+{
+    const struct frame_pacing *pace = &workspace->screen.pace;
+    char note[64];
+
+    snprintf(note, sizeof note, "%s, %s",
+             palette_name(workspace->screen.display.palette),
+             screen_glyphs_name(&workspace->screen));
+    if (pace->state == FRAME_PACING_ANSWERS)
+        snprintf(note, sizeof note, "%s, %s, %.3g ms away",
+                 palette_name(workspace->screen.display.palette),
+                 screen_glyphs_name(&workspace->screen),
+                 (double)pace->rtt_min_ns * 1e-6);
+    help_draw(&workspace->help, &workspace->control->session->options->keys,
+              workspace->panel.is_open, note, &workspace->screen);
+    workspace_refresh(workspace);
+}
+
+/* Opens the help if a person reads it, and the inspector's table otherwise. */
+static void open_window(struct workspace *workspace)
+{
+    if (!workspace->help.is_open)
+        inspector_open_table(&workspace->inspector);
+    else if (!workspace->screen.is_too_small)
+        draw_help(workspace);
+}
+
 void workspace_layout(struct workspace *workspace)
 {
     const struct film *film = film_of(workspace);
     struct error err;
 
-    workspace->help.is_open = false;
     workspace->layout_ns = clock_ns();
     workspace->width_px = film->width;
     workspace->height_px = film->height;
@@ -115,7 +141,7 @@ void workspace_layout(struct workspace *workspace)
     keys_bar_lay_out(&workspace->keys_bar, &workspace->screen);
     panel_draw(&workspace->panel);
     screen_draft_fit(workspace->control, &workspace->screen);
-    inspector_open_table(&workspace->inspector); /* the layout closed it */
+    open_window(workspace); /* the layout closed it */
 }
 
 void workspace_init(struct workspace *workspace, struct render_control *control,
@@ -191,33 +217,6 @@ void workspace_switch_progress(struct workspace *workspace)
         editor_panel_close(&workspace->panel);
         workspace_layout(workspace);
     }
-    workspace_refresh(workspace);
-}
-
-static void draw_help(struct workspace *workspace)
-{
-    const struct frame_pacing *pace = &workspace->screen.pace;
-    char note[64];
-
-    snprintf(note, sizeof note, "%s, %s",
-             palette_name(workspace->screen.display.palette),
-             screen_glyphs_name(&workspace->screen));
-    if (pace->state == FRAME_PACING_ANSWERS)
-        snprintf(note, sizeof note, "%s, %s, %.3g ms away",
-                 palette_name(workspace->screen.display.palette),
-                 screen_glyphs_name(&workspace->screen),
-                 (double)pace->rtt_min_ns * 1e-6);
-    screen_close_window(&workspace->screen);
-    help_draw(&workspace->help, &workspace->control->session->options->keys,
-              workspace->panel.is_open, note, &workspace->screen);
-    workspace_refresh(workspace);
-}
-
-static void close_help(struct workspace *workspace)
-{
-    screen_close_window(&workspace->screen);
-    inspector_open_table(&workspace->inspector);
-    panel_draw(&workspace->panel);
     workspace_refresh(workspace);
 }
 
@@ -310,6 +309,7 @@ void workspace_open_panel(struct workspace *workspace)
 void workspace_open_help(struct workspace *workspace)
 {
     inspector_close_table(&workspace->inspector);
+    screen_close_window(&workspace->screen); /* of the progress */
     workspace->help = (struct help){.is_open = true};
     draw_help(workspace);
 }
@@ -317,10 +317,9 @@ void workspace_open_help(struct workspace *workspace)
 void workspace_help_key(struct workspace *workspace, int key)
 {
     help_key(&workspace->help, key);
-    if (workspace->help.is_open)
-        draw_help(workspace);
-    else
-        close_help(workspace);
+    screen_close_window(&workspace->screen);
+    open_window(workspace);
+    workspace_refresh(workspace);
 }
 
 /* ---- drawing ---- */

@@ -66,8 +66,8 @@ void workspace_init(struct workspace *workspace, struct render_control *control,
 /* After tty_open(). */
 void workspace_open(struct workspace *workspace);
 
-/* Lays everything out for the present size of the terminal, and closes the
- * help. */
+/* Lays everything out for the present size of the terminal. Windows that are
+ * open stay open. */
 void workspace_layout(struct workspace *workspace);
 
 /* Draws all parts again as soon as possible. */

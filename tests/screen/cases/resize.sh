@@ -21,10 +21,21 @@ done
 mux resize-window -x 60 -y 21
 wait_for_rows 15 "48;2;188;124;0"
 wait_for "LIVE"
+# The help stays open: tmux may tell the program of a size after the key.
 keys '?'
 wait_for "Esc closes"
+raw_keys 'png'
+wait_for "search: png_"
+mux resize-window -x 39 -y 31
+wait_for "window 39x31: at least 40x12 is needed"
+keys x # is not searched for
 mux resize-window -x 80 -y 31
-wait_until_gone "Esc closes"
+wait_for "search: png_"
+expect "save a new PNG"
+keys Escape
+wait_until_gone "search"
 wait_for_rows 20 "48;2;188;124;0"
+mux resize-window -x 39 -y 31
+wait_for "window 39x31"
 keys q
 expect_end 0
