@@ -32,9 +32,9 @@ bool batch_compare_read(struct image *image, const char *path,
         return false;
     if (clamped > 0)
         print_line(stderr,
-                   "glim: warning: %s: %" PRIu64
-                   " values were below 0 or infinite and count as 0 or 1e30",
-                   path, clamped);
+                   "glim: warning: %s: found %" PRIu64
+                   " value%s below 0 or infinite, taken as 0 or 1e30",
+                   path, clamped, print_plural(clamped));
     return true;
 }
 

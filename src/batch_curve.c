@@ -212,8 +212,9 @@ static bool draw(const struct measurement *m, struct error *err)
 
     if (series[0].count < 2)
         return m->o->output_path == NULL ||
-               fail(err, "%s: found %d points to draw, expected at least 2",
-                    m->o->output_path, series[0].count);
+               fail(err, "%s: found %d point%s to draw, expected at least 2",
+                    m->o->output_path, series[0].count,
+                    print_plural((uint64_t)series[0].count));
     series[1] = series_half_slope(&series[0]);
     text_chart_write(stdout, &chart,
                      cols > 0 && cols < CHART_COLS ? cols - 1 : CHART_COLS,

@@ -268,10 +268,12 @@ void batch_say_result(const char *name, int width, int height,
 void batch_say_frames(int done, int count, uint64_t begin_ns)
 {
     if (done < count)
-        print_line(stderr, "stopped by %s after %d of %d pictures",
-                   signal_name(stop_signal), done, count);
+        print_line(stderr, "stopped by %s after %d of %d picture%s",
+                   signal_name(stop_signal), done, count,
+                   print_plural((uint64_t)count));
     else
-        print_line(stderr, "%d picture%s, %.1f s", done, done == 1 ? "" : "s",
+        print_line(stderr, "%d picture%s, %.1f s", done,
+                   print_plural((uint64_t)done),
                    seconds_between(begin_ns, clock_ns()));
 }
 

@@ -102,3 +102,8 @@ void print_lines(FILE *to, const char *text)
         text += length + (text[length] == '\n');
     }
 }
+
+const char *print_plural(uint64_t count)
+{
+    return count == 1 ? "" : "s";
+}

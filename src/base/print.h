@@ -48,4 +48,7 @@ void print_line(FILE *to, const char *format, ...)
  * a blank. */
 void print_lines(FILE *to, const char *text);
 
+/* Returns the ending of a noun after its number: "s", or "" after 1. */
+const char *print_plural(uint64_t count);
+
 #endif

@@ -94,8 +94,8 @@ char *warnings_line(const struct warnings_entry *entry)
 {
     if (entry->count == 1)
         return strdup(entry->text);
-    return format_text("%s (and %" PRIu64 " more %s)", entry->text,
-                       entry->count - 1, entry->kind);
+    return format_text("%s (in all %" PRIu64 " %s)", entry->text, entry->count,
+                       entry->kind);
 }
 
 void warnings_print(const struct warnings *r, FILE *to)

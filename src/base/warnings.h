@@ -42,11 +42,11 @@ void warnings_add_named(struct warnings *r, const char *kind, const char *name,
                         const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Returns "TEXT", or "TEXT (and N more KIND)" if there were more, for free(),
- * or NULL when memory is out. */
+/* Returns "TEXT", or "TEXT (in all N KIND)" if there were more, for free(), or
+ * NULL when memory is out. */
 char *warnings_line(const struct warnings_entry *entry);
 
-/* Writes a line for each kind: "glim: warning: TEXT", followed by " (and N more
+/* Writes a line for each kind: "glim: warning: TEXT", followed by " (in all N
  * KIND)" if there were more. */
 void warnings_print(const struct warnings *r, FILE *to);
 

@@ -10,6 +10,7 @@
 #include <mpi.h>
 
 #include "base/memory.h"
+#include "base/print.h"
 
 /* Time between looks for messages; less while one is on its way, or while
  * nothing is rendered. */
@@ -54,7 +55,8 @@ static bool spawn(int ranks, const char *const *arguments, struct error *err)
     if (MPI_Comm_spawn(program, (char **)(uintptr_t)arguments, ranks - 1,
                        MPI_INFO_NULL, 0, MPI_COMM_SELF, &spawned,
                        MPI_ERRCODES_IGNORE) != MPI_SUCCESS)
-        return fail(err, "--ranks: MPI cannot start %d more ranks", ranks - 1);
+        return fail(err, "--ranks: MPI cannot start %d more rank%s", ranks - 1,
+                    print_plural((uint64_t)(ranks - 1)));
     MPI_Intercomm_merge(spawned, 0, &ranks_of_all);
     return true;
 }

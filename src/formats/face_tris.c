@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/print.h"
 
 /* Largest coordinate that is kept: a larger float has too few digits to address
  * texels. */
@@ -54,9 +55,10 @@ static bool is_usable(const struct face_tris *f, struct file_place place)
 {
     if (f->corner_count < 3) {
         warnings_add(f->report, "faces with too few corners",
-                     "%s%s: found a face with %" PRIu32 " corners, "
+                     "%s%s: found a face with %" PRIu32 " corner%s, "
                      "expected 3 or more: face dropped",
-                     f->path, file_place_text(place).text, f->corner_count);
+                     f->path, file_place_text(place).text, f->corner_count,
+                     print_plural(f->corner_count));
         return false;
     }
     for (size_t i = 0; i < 3 * (size_t)f->corner_count; i++) {

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/print.h"
 #include "formats/mesh_finish.h"
 #include "formats/ply_data.h"
 #include "formats/ply_table.h"
@@ -388,9 +389,11 @@ static bool read_body(struct reader *r)
         return false;
     if (r->tris.face_count == 0)
         return fail(r->err,
-                    "%s: found %" PRIu32 " points and no face, expected faces: "
+                    "%s: found %" PRIu32
+                    " point%s and no face, expected faces: "
                     "glim does not draw clouds of points",
-                    r->path, r->vertices.count);
+                    r->path, r->vertices.count,
+                    print_plural(r->vertices.count));
     r->scene->up_is_z = r->header.is_of_blender;
     return mesh_finish(r->scene, r->face_colors, r->header.texture, r->report,
                        r->err);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/decimal.h"
+#include "base/print.h"
 
 /* Largest whole number that is read: doubles above it skip some. */
 #define WHOLE_MAX ((double)(INT64_C(1) << 53))
@@ -74,10 +75,10 @@ bool ply_data_expect(const struct ply_data *d, const struct ply_header *h,
 
     return row_bytes == 0 || e->count <= left / row_bytes ||
            fail(d->err,
-                "%s:%" PRIu64 ": found element %s %" PRIu64 " times, expected "
+                "%s:%" PRIu64 ": found element %s %" PRIu64 " time%s, expected "
                 "at most %" PRIu64 " in the rest of the file",
                 d->path, e->line, word_cut(e->name).text, e->count,
-                left / row_bytes);
+                print_plural(e->count), left / row_bytes);
 }
 
 /* ---- ascii ---- */
@@ -263,7 +264,8 @@ bool ply_data_count(struct ply_data *d, const struct ply_property *list,
         *count = (uint64_t)n;
         return true;
     }
-    snprintf(found, sizeof found, "a list of %" PRId64 " numbers", n);
+    snprintf(found, sizeof found, "a list of %" PRId64 " number%s", n,
+             print_plural((uint64_t)n));
     snprintf(expected, sizeof expected,
              "at most %" PRIu64 " in the rest of the file", most);
     return ply_data_fail(&before, found, expected);

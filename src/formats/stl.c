@@ -18,6 +18,7 @@
 #include "base/lexer.h"
 #include "base/memory.h"
 #include "base/name_table.h"
+#include "base/print.h"
 #include "kernels/vec.h"
 #include "formats/face_tris.h"
 #include "formats/mesh_finish.h"
@@ -222,9 +223,9 @@ static bool find_count(const struct reader *r, const char *bytes,
 
     if (size_bytes < BEGIN_BYTES)
         return fail(r->err,
-                    "%s: not an STL file: found %zu bytes, expected a text "
+                    "%s: not an STL file: found %zu byte%s, expected a text "
                     "that begins with 'solid' or at least %d bytes",
-                    r->path, size_bytes, BEGIN_BYTES);
+                    r->path, size_bytes, print_plural(size_bytes), BEGIN_BYTES);
     room = size_bytes - BEGIN_BYTES;
     *count = load_u32(bytes + HEADER_BYTES);
     if (*count == 0 && room >= FACET_BYTES && room % FACET_BYTES == 0 &&

@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "base/print.h"
 #include "kernels/types.h"
 
 /* Elements without data that a file may have beside the bytes of its buffers.
@@ -88,10 +89,10 @@ static bool find_elements(const struct gltf_value *v, uint64_t count,
         return true;
     }
     return gltf_fail(v, err,
-                     "found %" PRIu64 " elements from byte %" PRIu64
+                     "found %" PRIu64 " element%s from byte %" PRIu64
                      " on, expected a part of the %" PRIu64
                      " bytes of view %" PRIu32,
-                     count, offset, size_bytes, index);
+                     count, print_plural(count), offset, size_bytes, index);
 }
 
 static uint32_t read_unsigned(const struct gltf_elements *e, uint32_t i)

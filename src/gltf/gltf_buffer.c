@@ -10,6 +10,7 @@
 #include "base/cgroup_quota.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/print.h"
 #include "formats/asset_path.h"
 #include "gltf/gltf_meshopt.h"
 #include "kernels/types.h"
@@ -197,9 +198,9 @@ static bool read_buffer(struct gltf_document *d, size_t i, struct error *err)
     if (b->bytes == NULL)
         return true;
     if (b->size_bytes < length)
-        return gltf_fail(&v, err,
-                         "found %zu bytes, expected the byteLength of %" PRIu64,
-                         b->size_bytes, length);
+        return gltf_fail(
+            &v, err, "found %zu byte%s, expected the byteLength of %" PRIu64,
+            b->size_bytes, print_plural(b->size_bytes), length);
     b->size_bytes = (size_t)length;
     d->buffer_bytes += length;
     return true;

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/print.h"
 #include "gltf/gltf_buffer.h"
 #include "gltf/gltf_extensions.h"
 #include "gltf/gltf_value.h"
@@ -58,9 +59,9 @@ static bool read_chunk(const struct gltf_document *d, const char *bytes,
 
     if (left < CHUNK_HEADER_BYTES)
         return fail(err,
-                    "%s: found %zu bytes at byte %zu, expected a chunk of %d "
+                    "%s: found %zu byte%s at byte %zu, expected a chunk of %d "
                     "bytes or more",
-                    d->path, left, *at, CHUNK_HEADER_BYTES);
+                    d->path, left, print_plural(left), *at, CHUNK_HEADER_BYTES);
     left -= CHUNK_HEADER_BYTES;
     length = read_u32(bytes + *at);
     if (length > left)
@@ -85,8 +86,8 @@ static bool read_container(struct gltf_document *d, const char *bytes,
     uint32_t type = 0;
 
     if (size_bytes < GLB_HEADER_BYTES)
-        return fail(err, "%s: found %zu bytes, expected a .glb file", d->path,
-                    size_bytes);
+        return fail(err, "%s: found %zu byte%s, expected a .glb file", d->path,
+                    size_bytes, print_plural(size_bytes));
     if (read_u32(bytes + 4) != 2)
         return fail(err, "%s: found glTF %" PRIu32 ".0, expected glTF 2.0",
                     d->path, read_u32(bytes + 4));
@@ -110,8 +111,8 @@ static bool read_container(struct gltf_document *d, const char *bytes,
             d->chunk = chunk;
     }
     return at == size_bytes ||
-           fail(err, "%s: found %zu bytes at byte %zu, expected a chunk",
-                d->path, size_bytes - at, at);
+           fail(err, "%s: found %zu byte%s at byte %zu, expected a chunk",
+                d->path, size_bytes - at, print_plural(size_bytes - at), at);
 }
 
 /* ---- the JSON ---- */

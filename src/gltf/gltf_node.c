@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/print.h"
 #include "kernels/types.h"
 
 static bool out_of_memory(const struct gltf_document *d, struct error *err)
@@ -181,8 +182,9 @@ static bool place_all(const struct gltf_document *d, struct gltf_nodes *nodes,
     return placed_count == nodes->count ||
            fail(err,
                 "%s: /nodes: found %" PRIu32
-                " nodes that are their own descendants, expected trees",
-                d->path, nodes->count - placed_count);
+                " node%s in a cycle, expected trees",
+                d->path, nodes->count - placed_count,
+                print_plural(nodes->count - placed_count));
 }
 
 /* Lists the nodes of a tree that are not hidden and not listed yet. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/print.h"
 #include "gltf/gltf_vertices.h"
 
 /* Values of mode. */
@@ -45,9 +46,9 @@ static bool check_attribute(const struct gltf_value *attributes,
                          key, a->component_count, most);
     return a->count == count ||
            gltf_fail(attributes, err,
-                     "found %" PRIu32 " elements in %s, expected %" PRIu32
+                     "found %" PRIu32 " element%s in %s, expected %" PRIu32
                      " as in POSITION",
-                     a->count, key, count);
+                     a->count, print_plural(a->count), key, count);
 }
 
 static bool open_optional(const struct gltf_value *attributes, const char *key,

@@ -9,6 +9,7 @@
 
 #include "base/geometry.h"
 #include "base/memory.h"
+#include "base/print.h"
 #include "kernels/vec.h"
 #include "formats/face_tris.h"
 #include "formats/mesh_finish.h"
@@ -349,10 +350,11 @@ bool import_stream_read(struct scene *scene, const char *bytes,
         return fail_stream(&s, "no vertices");
     if (s.head.skipped_count > 0)
         warnings_add(report, "lights of other kinds",
-                     "%s: found %u lights of no place, or of an area, whose "
+                     "%s: found %u light%s of no place, or of an area, whose "
                      "size is not in the file or not read by libassimp: left "
                      "out",
-                     path, s.head.skipped_count);
+                     path, s.head.skipped_count,
+                     print_plural(s.head.skipped_count));
     return take_vertices(&s) && take_tris(&s) && take_names(&s) &&
            take_cameras(&s) && take_lamps(&s) && take_images(&s) &&
            mesh_add_normals(scene, err) && take_materials(&s, report);

@@ -9,6 +9,7 @@
 
 #include "base/geometry.h"
 #include "base/memory.h"
+#include "base/print.h"
 #include "bvh/instance_trees.h"
 #include "picture/color.h"
 #include "picture/image_read.h"
@@ -276,8 +277,8 @@ static bool read_sky(const struct host_world *host, const char *path,
     if (clamped_count > 0)
         warnings_add(report, "skies with impossible values",
                      "%s: found %" PRIu64
-                     " negative or infinite values: clamped",
-                     path, clamped_count);
+                     " negative or infinite value%s: clamped",
+                     path, clamped_count, print_plural(clamped_count));
     return true;
 }
 

@@ -86,7 +86,7 @@ static bool find_keys(struct frame_series *f, struct error *err)
     return f->key_count >= 2 ||
            fail(err,
                 "--fly: found %d numbered view%s in %s, expected at least 2",
-                f->key_count, f->key_count == 1 ? "" : "s",
+                f->key_count, print_plural((uint64_t)f->key_count),
                 f->session->view_path);
 }
 

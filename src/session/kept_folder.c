@@ -237,7 +237,7 @@ bool kept_print_list(FILE *to, struct error *err)
         print_line(to, "no kept sessions");
     if (removed > 0)
         print_line(to, "removed %d old session%s", removed,
-                   removed == 1 ? "" : "s");
+                   print_plural((uint64_t)removed));
     free_list(&list);
     free(folder);
     return true;

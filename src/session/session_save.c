@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/print.h"
 #include "formats/mtl_save.h"
 #include "formats/view_file.h"
 #include "terminal/xmalloc.h"
@@ -150,7 +151,7 @@ static char *say_written(const struct written *w, const char *view_path)
     if (w->count == 0)
         return xformat("wrote %s", view_path);
     return xformat("wrote %zu material%s to %s%s%s", w->count,
-                   w->count == 1 ? "" : "s", w->files,
+                   print_plural(w->count), w->files,
                    view_path != NULL ? ", and " : "",
                    view_path != NULL ? view_path : "");
 }

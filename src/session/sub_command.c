@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/print.h"
 #include "picture/image_write.h"
 #include "terminal/xmalloc.h"
 
@@ -177,7 +178,7 @@ static bool check_films(const struct options *o, struct error *err)
         return fail(err,
                     "found %d film%s%s, expected: glim%s %s (see glim "
                     "--help)",
-                    o->film_count, o->film_count == 1 ? "" : "s",
+                    o->film_count, print_plural((uint64_t)o->film_count),
                     needs_output && !o->output_path ? " and no -o" : "",
                     rules[o->command].name, rules[o->command].operands);
     return !o->denoise || !o->output_path || !options_output_is_film(o) ||

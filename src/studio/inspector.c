@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/print.h"
 #include "render/projection.h"
 #include "inspect/overlay.h"
 #include "inspect/overlay_text.h"
@@ -105,12 +106,14 @@ static void say_boxes(struct inspector *inspector)
     struct frame nothing = {0};
     struct camera any = {0};
 
+    uint32_t nodes = overlay_boxes(&nothing, &any, &inspector->view_mode.bvh,
+                                   inspector->level);
+
     render_control_say_long(
         inspector->control,
-        "boxes of level %u of %u: %u nodes; %s %s go up and down",
-        inspector->level, inspector->view_mode.bvh.depth,
-        overlay_boxes(&nothing, &any, &inspector->view_mode.bvh,
-                      inspector->level),
+        "boxes of level %u of %u: %u node%s; %s %s go up and down",
+        inspector->level, inspector->view_mode.bvh.depth, nodes,
+        print_plural(nodes),
         render_control_key(inspector->control, ACTION_LESS).text,
         render_control_key(inspector->control, ACTION_MORE).text);
 }

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/print.h"
 #include "render/error_text.h"
 #include "render/render_left.h"
 #include "studio/status_line.h"
@@ -172,7 +173,7 @@ static void format_load_title(char *line, const struct progress_text_facts *f)
         return;
     }
     snprintf(left, sizeof left, "%d thread%s", f->load_count,
-             f->load_count == 1 ? "" : "s");
+             print_plural((uint64_t)f->load_count));
     snprintf(right, sizeof right, "busy %.0f %%",
              100 * mean_load(f->loads, 0, f->load_count));
     put_sides(line, left, right);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/print.h"
 #include "terminal/xmalloc.h"
 
 /* Limit of the wait for the draft's first whole pass: half a frame at 60 Hz, to
@@ -496,7 +497,7 @@ static void say_loaded(struct render_control *control)
         count += r->entries[i].count;
     if (count > 0)
         render_control_say(control, "loaded, %" PRIu64 " warning%s: %s", count,
-                           count == 1 ? "" : "s", r->entries[0].text);
+                           print_plural((uint64_t)count), r->entries[0].text);
     else
         render_control_say(control, "loaded %s", control->session->scene.path);
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/print.h"
 #include "base/text_width.h"
 #include "render/error_text.h"
 #include "render/render_left.h"
@@ -198,7 +199,7 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
         snprintf(text[FIELD_MACHINE], FIELD_BYTES, "OpenCL %.24s", s->device);
     else
         snprintf(text[FIELD_MACHINE], FIELD_BYTES, "%d thread%s",
-                 s->thread_count, s->thread_count == 1 ? "" : "s");
+                 s->thread_count, print_plural((uint64_t)s->thread_count));
     if (s->load_key)
         snprintf(text[FIELD_FILES], FIELD_BYTES, "changed: %.8s loads",
                  s->load_key);

@@ -75,7 +75,7 @@ keys r n n n n
 wait_for "LIVE"
 # boxes
 keys t
-wait_for "boxes of level 0 of [0-9]*: 1 nodes"
+wait_for "boxes of level 0 of [0-9]*: 1 node;"
 keys '>'
 wait_for "boxes of level 1 of"
 keys '<' '<'

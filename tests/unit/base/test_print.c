@@ -102,6 +102,15 @@ static void only_line_ends_of_print_lines_are_kept(void **state)
     free(text);
 }
 
+static void one_has_no_plural(void **state)
+{
+    (void)state;
+    assert_string_equal(print_plural(0), "s");
+    assert_string_equal(print_plural(1), "");
+    assert_string_equal(print_plural(2), "s");
+    assert_string_equal(print_plural(UINT64_MAX), "s");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -109,6 +118,7 @@ int main(void)
         cmocka_unit_test(no_utf8_goes_to_terminals_without_it),
         cmocka_unit_test(no_pair_of_bytes_controls_the_terminal),
         cmocka_unit_test(only_line_ends_of_print_lines_are_kept),
+        cmocka_unit_test(one_has_no_plural),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

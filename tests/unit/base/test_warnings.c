@@ -46,7 +46,7 @@ static void first_of_each_kind_is_printed_then_counts(void **state)
     warnings_add(&r, "unusable textures", "a.mtl:7: no 'wood.png'");
     text = printed(&r);
     assert_string_equal(text,
-                        "glim: warning: a.obj:1: found 0 (and 999 more faces "
+                        "glim: warning: a.obj:1: found 0 (in all 1000 faces "
                         "with a bad index)\n"
                         "glim: warning: a.mtl:7: no 'wood.png'\n");
     free(text);
@@ -89,7 +89,7 @@ static void control_characters_are_replaced(void **state)
     assert_non_null(to);
     warnings_print(&r, to);
     assert_int_equal(fclose(to), 0);
-    assert_string_equal(text, "glim: warning: a?[2Jb?c?? z\xc3\xa4 (and 1 more "
+    assert_string_equal(text, "glim: warning: a?[2Jb?c?? z\xc3\xa4 (in all 2 "
                               "names '?c')\n");
     free(text);
     warnings_free(&r);
