@@ -283,7 +283,7 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
  * terminal. */
 static bool choose_scene(char **path)
 {
-    struct recent recent;
+    struct state_list recent;
     bool wants_one = true;
 
     if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO))
@@ -293,7 +293,7 @@ static bool choose_scene(char **path)
         *path = recent_choose(&recent, stdin, stdout);
         wants_one = *path != NULL;
     }
-    recent_free(&recent);
+    state_list_free(&recent);
     return wants_one;
 }
 

@@ -16,7 +16,6 @@
 /* Returns the remembered choice for a terminal; GLYPH_AUTO if there is none. */
 enum glyph_mode glyph_memory_read(const char *terminal);
 
-/* Remembers a choice; GLYPH_AUTO forgets the one before. */
 void glyph_memory_write(const char *terminal, enum glyph_mode mode);
 
 #endif

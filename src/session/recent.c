@@ -5,103 +5,48 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/error.h"
-#include "base/file.h"
 #include "base/print.h"
-#include "base/xdg.h"
 #include "terminal/xmalloc.h"
 
-static bool has(const struct recent *r, const char *path)
+/* Returns the whole line if it is the absolute path of a file that exists. */
+static const char *existing(const char *line)
 {
-    for (int i = 0; i < r->count; i++) {
-        if (strcmp(r->paths[i], path) == 0)
-            return true;
-    }
-    return false;
+    return *line == '/' && access(line, R_OK) == 0 ? line : NULL;
 }
 
-static void append(struct recent *r, const char *path)
+static const struct state_list_file file = {"recent", RECENT_MAX, existing};
+
+void recent_read(struct state_list *r)
 {
-    if (r->count < RECENT_MAX && *path == '/' && !has(r, path))
-        r->paths[r->count++] = xstrdup(path);
-}
-
-void recent_read(struct recent *r)
-{
-    char *name = xdg_state_path("recent");
-    char *text = NULL;
-    size_t size_bytes;
-    struct error ignored;
-
-    *r = (struct recent){.count = 0};
-    if (name && file_read(name, &text, &size_bytes, &ignored)) {
-        for (char *line = text, *next; *line != '\0'; line = next) {
-            size_t length = strcspn(line, "\n");
-
-            next = line + length + (line[length] == '\n');
-            line[length] = '\0';
-            if (access(line, R_OK) == 0)
-                append(r, line);
-        }
-    }
-    free(text);
-    free(name);
-}
-
-static void write_list(const struct recent *r)
-{
-    char *name = xdg_state_path("recent");
-    char *text = xstrdup("");
-    struct error ignored;
-
-    for (int i = 0; i < r->count; i++) {
-        char *longer = xformat("%s%s\n", text, r->paths[i]);
-
-        free(text);
-        text = longer;
-    }
-    if (name)
-        file_write(name, text, strlen(text), false, NULL, &ignored);
-    free(text);
-    free(name);
+    state_list_read(r, &file);
 }
 
 void recent_add(const char *path)
 {
     char *whole = realpath(path, NULL);
-    struct recent before, now = {.count = 0};
 
-    if (!whole || strchr(whole, '\n')) {
-        free(whole);
-        return;
-    }
-    recent_read(&before);
-    append(&now, whole);
-    for (int i = 0; i < before.count; i++)
-        append(&now, before.paths[i]);
-    write_list(&now);
-    recent_free(&before);
-    recent_free(&now);
+    if (whole && !strchr(whole, '\n'))
+        state_list_put(&file, whole);
     free(whole);
 }
 
-static char *path_of_answer(const struct recent *r, const char *answer)
+static char *path_of_answer(const struct state_list *r, const char *answer)
 {
     char *end;
     unsigned long number = strtoul(answer, &end, 10);
 
     if (*end == '\0' && number >= 1 && number <= (unsigned long)r->count)
-        return xstrdup(r->paths[number - 1]);
+        return xstrdup(r->lines[number - 1]);
     return access(answer, F_OK) == 0 ? xstrdup(answer) : NULL;
 }
 
-char *recent_choose(const struct recent *r, FILE *in, FILE *out)
+char *recent_choose(const struct state_list *r, FILE *in, FILE *out)
 {
     char *answer = NULL, *path = NULL;
     size_t capacity = 0;
 
     for (int i = 0; i < r->count; i++)
-        print_line(out, "%3d  %s", i + 1, r->paths[i]);
+        print_line(out, "%3d  %s", i + 1, r->lines[i]);
     while (!path) {
         print_text(out, "number or file of a scene (Enter: 1, q: quit): ");
         fflush(out);
@@ -116,11 +61,4 @@ char *recent_choose(const struct recent *r, FILE *in, FILE *out)
     }
     free(answer);
     return path;
-}
-
-void recent_free(struct recent *r)
-{
-    for (int i = 0; i < r->count; i++)
-        free(r->paths[i]);
-    *r = (struct recent){.count = 0};
 }

@@ -26,13 +26,13 @@ static void make_scene(int number)
 }
 
 /* Checks whether entry i is N.obj in the folder. */
-static void is_scene(const struct recent *r, int i, int number)
+static void is_scene(const struct state_list *r, int i, int number)
 {
     char path[256];
 
     assert_true(i < r->count);
     snprintf(path, sizeof path, "%s/%d.obj", folder, number);
-    assert_string_equal(r->paths[i], path);
+    assert_string_equal(r->lines[i], path);
 }
 
 static void forget(void)
@@ -45,7 +45,7 @@ static void forget(void)
 
 static void most_recent_scene_is_first_and_once(void **state)
 {
-    struct recent r;
+    struct state_list r;
 
     (void)state;
     forget();
@@ -59,17 +59,17 @@ static void most_recent_scene_is_first_and_once(void **state)
     is_scene(&r, 0, 1);
     is_scene(&r, 1, 2);
     is_scene(&r, 2, 0);
-    recent_free(&r);
+    state_list_free(&r);
     unlink("2.obj");
     recent_read(&r);
     assert_int_equal(r.count, 2);
     is_scene(&r, 1, 0);
-    recent_free(&r);
+    state_list_free(&r);
 }
 
 static void the_oldest_are_forgotten(void **state)
 {
-    struct recent r;
+    struct state_list r;
 
     (void)state;
     forget();
@@ -79,12 +79,12 @@ static void the_oldest_are_forgotten(void **state)
     assert_int_equal(r.count, RECENT_MAX);
     is_scene(&r, 0, RECENT_MAX + 4);
     is_scene(&r, RECENT_MAX - 1, 5);
-    recent_free(&r);
+    state_list_free(&r);
 }
 
 static void unusable_names_are_left_out(void **state)
 {
-    struct recent r;
+    struct state_list r;
     FILE *to = fopen("a\nb.obj", "w");
 
     (void)state;
@@ -99,7 +99,7 @@ static void unusable_names_are_left_out(void **state)
 
 static void without_a_folder_nothing_is_remembered(void **state)
 {
-    struct recent r;
+    struct state_list r;
 
     (void)state;
     setenv("XDG_STATE_HOME", "/dev/null/no", 1);
@@ -116,7 +116,7 @@ static void without_a_folder_nothing_is_remembered(void **state)
 static void check_answer(const char *answer, const char *expected)
 {
     static char first[] = "/tmp/a\033.obj", second[] = "/tmp/b.obj";
-    const struct recent r = {{first, second}, 2};
+    const struct state_list r = {.lines = {first, second}, .count = 2};
     char copy[64], shown[512] = "";
     FILE *in, *out = fmemopen(shown, sizeof shown, "w");
     char *path;
