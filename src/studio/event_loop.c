@@ -151,7 +151,7 @@ static void take_event(struct studio *studio, const struct event *event)
         bool is_other = screen_answer(&workspace->screen, event);
 
         if ((event->kind == EVENT_ATTRIBUTES || event->kind == EVENT_KITTY) &&
-            workspace_recall_glyphs(workspace))
+            glyph_choice_recall(&workspace->glyph_choice))
             is_other = true;
         if (is_other)
             workspace_layout(workspace);

@@ -6,7 +6,6 @@
 
 #include "base/clock.h"
 #include "filter/screen_filter.h"
-#include "session/glyph_memory.h"
 #include "studio/panel_draw.h"
 #include "studio/progress_text.h"
 #include "studio/screen_draft.h"
@@ -45,9 +44,6 @@
 /* A picture counts as moving until this time after a restart: keys that are
  * held come again within it. */
 #define REST_NS (400 * MS_NS)
-
-/* A terminal that has not answered within this time shows no pixels. */
-#define LACK_NS S_NS
 
 /* Frames take at most 1/FRAME_SHARE of a core while only new samples arrive:
  * the rest is for the render. */
@@ -158,7 +154,8 @@ void workspace_open(struct workspace *workspace)
                 &workspace->control->session->options->display);
     inspector_init(&workspace->inspector, workspace->control,
                    &workspace->screen, &workspace->camera->cursor);
-    workspace->lack_ns = clock_ns() + LACK_NS;
+    glyph_choice_init(&workspace->glyph_choice, workspace->control,
+                      &workspace->screen);
     workspace_layout(workspace);
 }
 
@@ -237,57 +234,20 @@ void workspace_next_colors(struct workspace *workspace)
     workspace_layout(workspace);
 }
 
-/* Returns true while the message is shown that the last change of the glyphs
- * can be taken back. */
-static bool may_take_back(const struct workspace *workspace)
-{
-    uint64_t until_ns = workspace->control->message.until_ns;
-
-    return until_ns != 0 && until_ns == workspace->glyphs_until_ns;
-}
-
-/* Lays out for the present glyphs and remembers them. */
-static void use_glyphs(struct workspace *workspace)
-{
-    const struct term_caps *display = &workspace->screen.display;
-
-    glyph_memory_write(display->name, display->glyph_mode);
-    workspace_layout(workspace);
-}
-
 void workspace_next_glyphs(struct workspace *workspace)
 {
-    struct term_caps *display = &workspace->screen.display;
-    struct render_control *control = workspace->control;
-
-    if (!may_take_back(workspace))
-        workspace->glyphs_before = display->glyph_mode;
-    term_caps_next_glyphs(display);
-    use_glyphs(workspace);
-    render_control_say(control, "%s from now on; %s goes back",
-                       screen_glyphs_name(&workspace->screen),
-                       render_control_key(control, ACTION_CANCEL).text);
-    workspace->glyphs_until_ns = control->message.until_ns;
+    glyph_choice_next(&workspace->glyph_choice);
+    workspace_layout(workspace);
+    glyph_choice_say(&workspace->glyph_choice);
 }
 
 bool workspace_take_back_glyphs(struct workspace *workspace)
 {
-    if (!may_take_back(workspace))
+    if (!glyph_choice_take_back(&workspace->glyph_choice))
         return false;
-    term_caps_use_glyphs(&workspace->screen.display, workspace->glyphs_before);
-    use_glyphs(workspace);
-    render_control_say(workspace->control, "%s again",
-                       screen_glyphs_name(&workspace->screen));
+    workspace_layout(workspace);
+    glyph_choice_say(&workspace->glyph_choice);
     return true;
-}
-
-bool workspace_recall_glyphs(struct workspace *workspace)
-{
-    struct term_caps *display = &workspace->screen.display;
-    enum glyph_mode mode = glyph_memory_read(display->name);
-
-    return !workspace->control->session->options->display.has_glyph &&
-           mode != display->glyph_mode && term_caps_use_glyphs(display, mode);
 }
 
 void workspace_switch_status(struct workspace *workspace)
@@ -416,32 +376,9 @@ static int frame_step(const struct workspace *workspace)
     return workspace->control->progress.render_ns > SETTLING_NS ? STEP : 0;
 }
 
-/* Says once why the pixels that the person has asked for are not shown. */
-static void say_lack(struct workspace *workspace, uint64_t now_ns)
-{
-    const struct screen *screen = &workspace->screen;
-    const char *lack = term_caps_lack(&screen->display);
-    bool is_known = (screen->has_all_answers && !tty_is_in_tmux()) ||
-                    now_ns >= workspace->lack_ns;
-
-    if (workspace->lack_ns == 0 || !is_known ||
-        workspace->control->message.until_ns != 0)
-        return;
-    workspace->lack_ns = 0;
-    if (tty_is_in_tmux() && !workspace->has_asked_again) {
-        workspace->has_asked_again = true;
-        workspace->lack_ns = now_ns + LACK_NS;
-        tty_ask_through_tmux();
-        return;
-    }
-    if (lack && screen->graphics.shape.kind == PIXEL_GRAPHICS_NONE)
-        render_control_say(workspace->control, "%s: %s",
-                           screen_glyphs_name(screen), lack);
-}
-
 static void show_messages(struct workspace *workspace, uint64_t now_ns)
 {
-    say_lack(workspace, now_ns);
+    glyph_choice_say_lack(&workspace->glyph_choice, now_ns);
     if (workspace->control->message.until_ns != 0 &&
         now_ns >= workspace->control->message.until_ns) {
         workspace->control->message.until_ns = 0;
@@ -674,8 +611,8 @@ uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns)
                                                     control));
     if (control->message.until_ns != 0)
         next = earlier(next, control->message.until_ns);
-    else if (workspace->lack_ns != 0)
-        next = earlier(next, workspace->lack_ns);
+    else if (workspace->glyph_choice.lack_ns != 0)
+        next = earlier(next, workspace->glyph_choice.lack_ns);
     return earlier(next, frame_pacing_deadline_ns(&workspace->screen.pace));
 }
 

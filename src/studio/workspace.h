@@ -23,6 +23,7 @@
 #include "studio/camera_control.h"
 #include "studio/comparison.h"
 #include "studio/editor_panel.h"
+#include "studio/glyph_choice.h"
 #include "studio/help.h"
 #include "studio/inspector.h"
 #include "studio/keys_bar.h"
@@ -40,15 +41,9 @@ struct workspace {
     struct progress_panel progress_panel; /* hidden while the help is open */
     struct help help;
     struct keys_bar keys_bar;
-    enum glyph_mode glyphs_before; /* those that Esc brings back */
-    uint64_t glyphs_until_ns;      /* the end of the message that says so */
-    const char *prompt;            /* a question in the last line; NULL: none */
-
-    uint64_t lack_ns; /* when the terminal's answers count as lost, and a
-                         message says why no pixels are shown; 0: never */
-
-    bool has_asked_again; /* see tty_ask_through_tmux() */
-    bool is_settled;      /* the screen shows the final picture */
+    struct glyph_choice glyph_choice;
+    const char *prompt; /* a question in the last line; NULL: none */
+    bool is_settled;    /* the screen shows the final picture */
     uint64_t layout_ns; /* when a layout was made that no frame has; 0: none */
     uint64_t frame_ns;  /* when the next frame is due */
     uint64_t status_ns; /* when the status line is formatted next */
@@ -81,17 +76,11 @@ void workspace_open_panel(struct workspace *workspace);
 void workspace_next_drawing(struct workspace *workspace);
 void workspace_next_colors(struct workspace *workspace);
 
-/* Selects the next glyphs and remembers them for this terminal. */
 void workspace_next_glyphs(struct workspace *workspace);
 
 /* Goes back to the glyphs before while the message of workspace_next_glyphs()
  * is shown. Returns false if it is not. */
 bool workspace_take_back_glyphs(struct workspace *workspace);
-
-/* Takes the glyphs that are remembered for this terminal, unless others were
- * requested. Call it when the terminal has answered. Returns true if
- * workspace_layout() has to be called. */
-bool workspace_recall_glyphs(struct workspace *workspace);
 
 /* Shows the status line, or lets the picture have its row. */
 void workspace_switch_status(struct workspace *workspace);
