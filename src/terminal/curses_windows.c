@@ -205,7 +205,7 @@ static struct window_rect window_size(const char *title,
         r.cols = cols > r.cols ? cols : r.cols;
     }
     r.cols = r.cols > COLS ? COLS : r.cols;
-    r.rows = r.rows > LINES ? LINES : r.rows;
+    r.rows = r.rows > LINES - 1 ? LINES - 1 : r.rows;
     return r;
 }
 
@@ -223,12 +223,12 @@ struct window_rect windows_open(enum window_place place, const char *title,
 {
     struct window_rect r = window_size(title, texts, text_count);
 
-    if (place == WINDOW_MIDDLE)
+    if (place == WINDOW_MIDDLE) {
         r.col = (COLS - r.cols) / 2;
-    if (place == WINDOW_MIDDLE)
         r.row = (LINES - r.rows) / 2;
+    }
     if (place == WINDOW_BOTTOM_LEFT)
-        r.row = r.rows < LINES ? LINES - 1 - r.rows : 0;
+        r.row = LINES - 1 - r.rows;
     if (place == WINDOW_TOP_RIGHT)
         r.col = COLS - r.cols;
     window = newwin(r.rows, r.cols, r.row, r.col);

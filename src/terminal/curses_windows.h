@@ -64,8 +64,8 @@ enum window_place {
     WINDOW_TOP_RIGHT
 };
 
-/* Opens a window with these lines and a title and returns where it is. One
- * window is open at a time. */
+/* Opens a window with these lines and a title and returns where it is. It takes
+ * no more than all rows but the last. One window is open at a time. */
 struct window_rect windows_open(enum window_place place, const char *title,
                                 const char *const *texts, int text_count);
 

@@ -9,13 +9,13 @@ struct role_colors {
 };
 
 #define BLACK   0
+#define BLUE    4
 #define CYAN    6
 #define WHITE   7
 #define GREY    8
 #define B_RED   9
 #define B_GREEN 10
 #define B_YEL   11
-#define B_BLUE  12
 #define B_WHITE 15
 
 static const struct role_colors dark[ROLES] = {
@@ -28,9 +28,9 @@ static const struct role_colors dark[ROLES] = {
     [ROLE_FRAME] = {0x5f6d80, 0x161b22, CYAN, BLACK, false},
     [ROLE_STATUS] = {0xd3d9e2, 0x222a35, BLACK, WHITE, false},
     [ROLE_STATUS_FAINT] = {0x98a3b3, 0x222a35, BLACK, WHITE, false},
-    [ROLE_STATUS_KEY] = {0xf0c060, 0x222a35, BLACK, WHITE, true},
+    [ROLE_STATUS_KEY] = {0xf0c060, 0x222a35, BLUE, WHITE, true},
     [ROLE_LIVE] = {0x06210f, 0x57c785, BLACK, B_GREEN, true},
-    [ROLE_NORMAL] = {0x07182c, 0x77b0f2, BLACK, B_BLUE, true},
+    [ROLE_NORMAL] = {0x07182c, 0x77b0f2, B_WHITE, BLUE, true},
     [ROLE_PAUSED] = {0x241a00, 0xe8bb4e, BLACK, B_YEL, true},
     [ROLE_FAILED] = {0x2c0505, 0xf07878, BLACK, B_RED, true},
     [ROLE_MESSAGE] = {0xffe3a3, 0x222a35, BLACK, WHITE, true},
@@ -41,13 +41,13 @@ static const struct role_colors light[ROLES] = {
     [ROLE_TEXT] = {0x22272e, 0xf6f4ee, BLACK, B_WHITE, false},
     [ROLE_FAINT] = {0x5f6875, 0xf6f4ee, BLACK, B_WHITE, false},
     [ROLE_TITLE] = {0x000000, 0xf6f4ee, BLACK, B_WHITE, true},
-    [ROLE_KEY] = {0x8a4a00, 0xf6f4ee, BLACK, B_WHITE, true},
+    [ROLE_KEY] = {0x8a4a00, 0xf6f4ee, BLUE, B_WHITE, true},
     [ROLE_SELECTED] = {0x000000, 0xb5d3f2, BLACK, CYAN, true},
     [ROLE_PICKED] = {0x000000, 0xdfe3e6, BLACK, WHITE, true},
     [ROLE_FRAME] = {0x7c8591, 0xf6f4ee, BLACK, B_WHITE, false},
     [ROLE_STATUS] = {0x22272e, 0xdcdfe3, BLACK, WHITE, false},
     [ROLE_STATUS_FAINT] = {0x525b68, 0xdcdfe3, BLACK, WHITE, false},
-    [ROLE_STATUS_KEY] = {0x7a4000, 0xdcdfe3, BLACK, WHITE, true},
+    [ROLE_STATUS_KEY] = {0x7a4000, 0xdcdfe3, BLUE, WHITE, true},
     [ROLE_LIVE] = {0xffffff, 0x1b7a43, B_WHITE, BLACK, true},
     [ROLE_NORMAL] = {0xffffff, 0x1f5fa8, B_WHITE, BLACK, true},
     [ROLE_PAUSED] = {0x241a00, 0xe8bb4e, BLACK, B_YEL, true},
@@ -87,8 +87,9 @@ struct text_style theme_style(enum theme theme, enum palette palette,
 
     if (theme == THEME_PLAIN || palette == PALETTE_MONO || role == ROLE_OUTSIDE)
         return (struct text_style){CELL_DEFAULT, CELL_DEFAULT, plain[role]};
-    if (palette == PALETTE_16)
-        return (struct text_style){c->fg_16, c->bg_16, bold};
+    if (palette == PALETTE_16) /* bold would turn black to grey on many */
+        return (struct text_style){c->fg_16, c->bg_16,
+                                   c->fg_16 < GREY ? 0 : bold};
     if (palette == PALETTE_256)
         return (struct text_style){dither_nearest_256(channels(c->fg)),
                                    dither_nearest_256(channels(c->bg)), bold};

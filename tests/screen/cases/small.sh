@@ -17,6 +17,10 @@ wait_for "keys 9/9"
 expect "q *quit"
 keys Enter
 wait_until_gone "keys 9/9"
+keys g # the window leaves the status line
+wait_for "progress"
+expect "LIVE .*q quit"
+keys g
 keys v
 wait_for "\[+\]"
 wait_for "nothing but the sky"
