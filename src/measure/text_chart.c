@@ -170,7 +170,11 @@ void text_chart_write(FILE *to, const struct chart *chart, int cols, int rows,
                      (size_t)c.across * (size_t)c.down);
     for (int i = 0; i < chart->series_count; i++)
         put_series(&c, &chart->series[i], &x, &y);
-    print_line(to, "%s over %s", chart->y_label, chart->x_label);
+    print_text(to, "%s over %s", chart->y_label, chart->x_label);
+    for (int i = 0; i < chart->series_count; i++)
+        if (chart->series[i].is_guide)
+            print_text(to, "; dotted: %s", chart->series[i].name);
+    print_line(to, "%s", "");
     for (int row = 0; row < c.rows; row++) {
         char label[AXIS_LABEL_BYTES];
 

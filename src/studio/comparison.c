@@ -81,27 +81,26 @@ static void drop_others(struct comparison *c)
 static void format_legend(struct comparison *c)
 {
     const struct kept_render *k = &c->kept[c->chosen];
-    char noise[ERROR_TEXT_BYTES];
+    char noise[ERROR_TEXT_BYTES], share[16] = "";
 
     c->legend[0] = '\0';
     if (c->mode == COMPARISON_OFF)
         return;
     error_text_noise(noise, &k->error);
+    if (c->blocks.blocks)
+        snprintf(share, sizeof share, " in %.1f %%",
+                 100.0 * c->blocks.significant_count /
+                     (c->blocks.cols * c->blocks.rows));
     if (c->mode == COMPARISON_WIPE)
         snprintf(c->legend, sizeof c->legend,
                  "COMPARE  left: kept %d of %d, %" PRIu64
                  " spp, %.40s; right: now",
                  c->chosen + 1, c->count, k->spp, noise);
-    else if (c->blocks.blocks == NULL)
-        snprintf(c->legend, sizeof c->legend, "DIFFERENCES");
     else
         snprintf(
             c->legend, sizeof c->legend,
-            "DIFFERENCES  to kept %d of %d in %.1f %%: red is brighter, blue "
-            "darker",
-            c->chosen + 1, c->count,
-            100.0 * c->blocks.significant_count /
-                (c->blocks.cols * c->blocks.rows));
+            "DIFFERENCES  to kept %d of %d%s: red is brighter, blue darker",
+            c->chosen + 1, c->count, share);
 }
 
 /* Shows what has changed. */

@@ -24,6 +24,7 @@ enum keys_state {
     KEYS_NORMAL,
     KEYS_CURSOR,
     KEYS_PANEL, /* its own keys are at its foot */
+    KEYS_PANEL_NORMAL,
     KEYS_ORBIT,
     KEYS_VIEW,    /* a view other than light */
     KEYS_DRAWING, /* over the picture */

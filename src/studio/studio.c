@@ -4,6 +4,7 @@
 #include <assert.h>
 #include <signal.h>
 
+#include "studio/panel_draw.h"
 #include "studio/save_commands.h"
 
 /* ---- commands that concern several parts ---- */
@@ -27,6 +28,7 @@ void studio_set_live(struct studio *studio, bool is_live)
     camera_control_stop(&studio->camera);
     inspector_leave(&studio->workspace.inspector);
     render_control_set_live(&studio->control, is_live);
+    panel_draw(&studio->workspace.panel); /* only live mode edits */
 }
 
 /* Returns true if a render of normal mode has not been saved. Waits for a save

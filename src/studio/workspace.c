@@ -502,7 +502,7 @@ static enum keys_state keys_state(const struct workspace *workspace)
     if (workspace->screen.has_cursor)
         return KEYS_CURSOR;
     if (workspace->panel.is_open)
-        return KEYS_PANEL;
+        return control->is_live ? KEYS_PANEL : KEYS_PANEL_NORMAL;
     if (workspace->comparison.mode != COMPARISON_OFF)
         return KEYS_COMPARE;
     if (workspace->inspector.drawing != INSPECTOR_NOTHING)

@@ -51,7 +51,7 @@ sh -c 'echo $$ >pid; exec glim "$@"' glim curve -s 1000000000 --csv early.csv \
 echo "exit $?"
 wait
 rm pid
-grep -c slope early
+grep -c '^slope' early
 head -2 early.csv | cut -d, -f1
 
 # wrong calls

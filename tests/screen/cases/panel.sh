@@ -183,3 +183,16 @@ keys Escape Escape
 wait_until_gone "│"
 keys q
 expect_end 0
+# in normal mode nothing moves or is edited; the row of keys knows
+fresh
+size=80x30
+start --cell-aspect 2 lamp.obj
+wait_for "LIVE .* spp"
+keys Tab
+wait_for "^ wasdqe move"
+keys Space
+wait_for "^ space live mode"
+expect "│ space live mode, to edit"
+reject "wasdqe"
+keys q
+expect_end 0
