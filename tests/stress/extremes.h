@@ -5,7 +5,8 @@
  * Scene n is a function of n. It is written as text into the current folder,
  * loaded like any file, and rendered on the CPU with each instruction set, and
  * perhaps on a device. No finite numbers in a file may cause a crash, a sample
- * that is not finite, or pictures with different bits.
+ * that is not finite, or pictures with different bits. Nor may they cause a
+ * filtered picture or a stated error that is not finite.
  *
  * Units:     file units, radiance
  * Ownership: extremes_close() frees all and removes the files
@@ -20,6 +21,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "picture/film_error.h"
+#include "filter/film_filter.h"
 #include "scene/world.h"
 #include "render/cpu_dispatch.h"
 #include "opencl/backend_cl.h"
@@ -322,6 +325,62 @@ static inline bool extremes_render(struct extremes *x, struct session *s,
     return false;
 }
 
+static inline bool are_finite(const float *numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!(numbers[i] >= 0 && isfinite(numbers[i])))
+            return false;
+    return true;
+}
+
+/* Filters the film and estimates its error. Returns false, with a line, if a
+ * number is not finite. */
+static inline bool extremes_conclude(struct film *film, uint32_t number)
+{
+    float rgb[EXTREMES_NUMBERS] = {0}, map[EXTREMES_NUMBERS / 3];
+    struct film_error e;
+    struct film filtered;
+    struct error err;
+
+    if (!film_filter_applies(film) ||
+        !film_filter_copy(film, 1, &filtered, &err) ||
+        !film_error(film, 0, NULL, NULL, &e, &err) ||
+        !film_error_map(film, 0, NULL, map)) {
+        printf("scene %u: is not filtered\n", number);
+        return false;
+    }
+    film_linear(&filtered, rgb);
+    film_free(&filtered);
+    if (are_finite(rgb, EXTREMES_NUMBERS) &&
+        are_finite(map, EXTREMES_NUMBERS / 3) && isfinite(e.error) &&
+        isfinite(e.low) && isfinite(e.high))
+        return true;
+    printf("scene %u: a filtered pixel or the error is not finite\n", number);
+    return false;
+}
+
+/* Renders with the features of the filter, filters, and estimates the error.
+ * Returns false, with a line, if something is wrong. */
+static inline bool extremes_filter(struct extremes *x, struct session *s,
+                                   uint32_t number)
+{
+    struct render_job job = {.host = &s->world,
+                             .crop = s->crop,
+                             .limits.spp = EXTREMES_SPP};
+    struct error err;
+
+    if (!world_lend(&s->world, &s->scene, &s->edit.now.view, number, &job.world,
+                    &err))
+        return true; /* the camera is out of the world's range */
+    job.world.settings.features |= FEATURE_FILTER;
+    if (!render_start(x->renders[0], &job, &err) ||
+        !render_wait(x->renders[0], 60000)) {
+        printf("scene %u: does not end\n", number);
+        exit(2);
+    }
+    return extremes_conclude(render_film(x->renders[0]), number);
+}
+
 /* Checks scene `number`, with on_device also on the device. Returns false, with
  * a line, if something is wrong. */
 static inline bool extremes_check(struct extremes *x, uint32_t number,
@@ -345,6 +404,7 @@ static inline bool extremes_check(struct extremes *x, uint32_t number,
         x->on_device += x->has_device && on_device;
         for (int i = 0; i < count; i++)
             ok = extremes_render(x, &s, i, number, first) && ok;
+        ok = extremes_filter(x, &s, number) && ok;
     } else {
         x->refused++;
     }

@@ -50,6 +50,7 @@ static void facing_lamps_are_finite(void **state)
     assert_int_equal(x->saturated, x->samples);
     for (size_t i = 0; i < EXTREMES_NUMBERS; i++)
         assert_true(first[i] == 0x1p62f);
+    assert_true(extremes_filter(x, &s, 0));
     session_close(&s);
 }
 
