@@ -18,7 +18,7 @@ bool batch_filter_check(const struct session *s, struct error *err)
 void batch_filter_warn(void)
 {
     print_line(stderr, "glim: warning: --denoise: a pixel has fewer than two "
-                       "samples; the picture is not filtered");
+                       "samples or no features; the picture is not filtered");
 }
 
 void batch_filter_say(const char *path)

@@ -17,9 +17,11 @@ same raw.pfm beside.pfm
 run_untimed $b --denoise -o a.png box.obj
 head -c 900 a.png | LC_ALL=C tr '\0' '=' |
     LC_ALL=C grep -a -o 'glim:denoised=true'
-run_untimed $b --denoise=b.png -o raw.png box.obj
-head -c 900 raw.png | LC_ALL=C grep -a -c denoised
-head -c 900 b.png | LC_ALL=C grep -a -c denoised
+for stats in '' '--stats run.json'; do
+    run_untimed $b $stats --denoise=b.png -o raw.png box.obj
+    head -c 900 raw.png | LC_ALL=C grep -a -c denoised
+    head -c 900 b.png | LC_ALL=C grep -a -c denoised
+done
 run_untimed $b --denoise --ansi 10x2 --color mono --glyph ascii box.obj
 # relMSE against a converged picture falls
 run_untimed $b -s 4000 -o true.pfm box.obj >/dev/null

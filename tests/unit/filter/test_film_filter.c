@@ -330,6 +330,15 @@ static void few_samples_are_not_filtered(void **state)
     assert_true(film_filter_applies(&f));
     add_samples(&bare, 0, 4, smooth_light);
     assert_false(film_filter_applies(&bare));
+    /* a late share has no features */
+    film_clear(&f);
+    f.first_sample = SURFACE_SAMPLES_MAX - 1;
+    add_samples(&f, 0, 4, smooth_light);
+    assert_true(film_filter_applies(&f));
+    film_clear(&f);
+    f.first_sample = SURFACE_SAMPLES_MAX;
+    add_samples(&f, 0, 4, smooth_light);
+    assert_false(film_filter_applies(&f));
     film_free(&bare);
     film_free(&f);
 }
