@@ -25,7 +25,7 @@ awk -F '[:,]' '/"error/ { e[$1] = $2 }
     END {
         low = e["  \"error_low\""]; high = e["  \"error_high\""]
         error = e["  \"error\""]
-        if (low <= error && error <= high && high <= .1 && low > .02)
+        if (low < error && error < high && high <= .1 && low > .02)
             print "the error is plausible"
         else
             print "found " low " " error " " high

@@ -193,6 +193,25 @@ static void fireflies_are_unresolved(void **state)
     film_free(&film);
 }
 
+/* Of pixels with equal errors, the largest thousandth, five of 4,900, has half
+ * of the error if there are ten. */
+static void half_of_the_error_in_a_thousandth_is_unresolved(void **state)
+{
+    struct path_sample flash = {.radiance = {2, 2, 2}};
+    struct film film;
+
+    (void)state;
+    make(&film);
+    for (int count = 9; count <= 11; count += 2) {
+        fill(&film, &(struct noise){1, 1, 0}, 16);
+        for (int i = 0; i < count; i++)
+            film_add_row(&film, 5 + 6 * i, 31, 1, 1, &flash, NULL,
+                         (const int[]){1});
+        assert_int_equal(error_of(&film, 0).is_resolved, count > 10);
+    }
+    film_free(&film);
+}
+
 /* Maps show where the noise is, and their root mean square is the error. */
 static void maps_show_where_the_noise_is(void **state)
 {
@@ -300,6 +319,7 @@ int main(void)
         cmocka_unit_test(the_error_is_relative_to_white),
         cmocka_unit_test(one_sample_says_nothing),
         cmocka_unit_test(fireflies_are_unresolved),
+        cmocka_unit_test(half_of_the_error_in_a_thousandth_is_unresolved),
         cmocka_unit_test(maps_show_where_the_noise_is),
         cmocka_unit_test(odd_pictures_have_numbers),
         cmocka_unit_test(threads_give_the_same_bits),
