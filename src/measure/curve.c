@@ -76,19 +76,32 @@ void curve_write_head(FILE *to)
                "efficiency", "error", "stated");
 }
 
+/* Formats a number. A quotient by a black reference or by no error is none. */
+static const char *number_text(char text[32], int digits, double number,
+                               const char *none)
+{
+    if (!isfinite(number))
+        return none;
+    snprintf(text, 32, "%.*g", digits, number);
+    return text;
+}
+
 void curve_write_row(FILE *to, const struct curve_point *p)
 {
     const struct film_error *stated = &p->render.stated;
-    char text[32] = "unknown";
+    const char *none = "unknown";
+    double known = stated->is_known ? stated->error : NAN;
+    char bias[32] = "unknown", efficiency[32], error[32];
 
-    if (stated->is_known)
-        snprintf(text, sizeof text, "%.4g", stated->error);
+    if (isfinite(p->bias))
+        snprintf(bias, sizeof bias, "%+7.2f %%", 100 * p->bias);
     print_line(to,
-               "%10" PRIu64
-               " %9.4g %9.4g %9.4g %9.4g %+7.2f %% %9.4g %10.4g %9.4g %9s%s",
+               "%10" PRIu64 " %9.4g %9.4g %9.4g %9.4g %9s %9.4g %10s %9.4g "
+               "%9s%s",
                p->render.spp, p->render.seconds, p->render.cpu_seconds,
-               sqrt(p->mse), p->relmse, 100 * p->bias, p->percentile,
-               curve_efficiency(p), p->error, text,
+               sqrt(p->mse), p->relmse, bias, p->percentile,
+               number_text(efficiency, 4, curve_efficiency(p), none), p->error,
+               number_text(error, 4, known, none),
                p->is_drowned ? " (reference too noisy)" : "");
 }
 
@@ -187,14 +200,15 @@ char *curve_csv(const struct curve *c)
 
     for (int i = 0; text != NULL && i < c->count; i++) {
         const struct curve_point *p = &c->points[i];
-        char stated[64];
+        char bias[32], efficiency[32], stated[64];
         char *longer =
             format_text("%s%" PRIu64
-                        ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%s\n",
+                        ",%.6g,%.6g,%.6g,%.6g,%s,%.6g,%s,%.6g,%s\n",
                         text, p->render.spp, p->render.seconds,
-                        p->render.cpu_seconds, sqrt(p->mse), p->relmse, p->bias,
-                        p->percentile, curve_efficiency(p), p->error,
-                        stated_values(stated, &p->render.stated));
+                        p->render.cpu_seconds, sqrt(p->mse), p->relmse,
+                        number_text(bias, 6, p->bias, ""), p->percentile,
+                        number_text(efficiency, 6, curve_efficiency(p), ""),
+                        p->error, stated_values(stated, &p->render.stated));
 
         free(text);
         text = longer;

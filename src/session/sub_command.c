@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/sub_command.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 #include "base/print.h"
@@ -109,6 +110,19 @@ bool sub_command_takes(enum sub_command command, enum option_id id)
     }
 }
 
+/* Checks that the seeds of a reference do not begin again at 0, where those of
+ * measurements are. */
+static bool check_seeds(const struct options *o, struct error *err)
+{
+    uint32_t last = UINT32_MAX - ((uint32_t)o->seed_count - 1);
+
+    return o->command != COMMAND_REFERENCE || o->seed <= last ||
+           fail(err,
+                "--seed: found %" PRIu32 ", expected at most %" PRIu32
+                " as the first of %d",
+                o->seed, last, o->seed_count);
+}
+
 /* Returns the operands of a sub-command in their order; NULL: no second one. */
 static void operands_of(struct options *o, const char **operands[2])
 {
@@ -200,5 +214,5 @@ bool sub_command_check(struct options *o, struct error *err)
                     rules[o->command].name, rules[o->command].operands);
     if (o->csv_path && strcmp(o->csv_path, "-") == 0)
         return fail(err, "--csv: found -, expected the name of a file");
-    return check_output(o, err);
+    return check_output(o, err) && check_seeds(o, err);
 }

@@ -48,6 +48,7 @@ run reference - box.obj
 run reference -o ref.pfm box.obj
 run reference --seeds 3 ref.pfm box.obj
 run reference --seeds 65 ref.pfm box.obj
+run reference --seeds 4 --seed 4294967293 ref.pfm box.obj
 run reference none/ref.pfm box.obj
 run reference ref.pfm none.obj
 mkdir folder.json

@@ -116,8 +116,8 @@ static void table_has_a_line_for_each_point(void **state)
     assert_string_equal(
         csv, "spp,seconds,cpu_seconds,rmse,relmse,bias,percentile_999,"
              "efficiency,error,stated,stated_low,stated_high\n"
-             "1,0.5,0.75,0.5,25,inf,0.5,0.08,5,,,\n"
-             "2,1,2,0.5,25,inf,0.5,0.04,5,0.25,0.125,0.5\n");
+             "1,0.5,0.75,0.5,25,,0.5,0.08,5,,,\n"
+             "2,1,2,0.5,25,,0.5,0.04,5,0.25,0.125,0.5\n");
     free(csv);
 }
 
