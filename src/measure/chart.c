@@ -161,7 +161,7 @@ static int right_border(const struct chart *chart)
     for (int i = 0; i < chart->series_count; i++)
         widest =
             fmax(widest, drawing_text_width(TEXT_PX, chart->series[i].name));
-    return (int)fmax(WIDTH - MARGIN - widest - KEY_PX - 32, WIDTH / 2);
+    return (int)fmax(WIDTH - MARGIN - widest - KEY_PX - 32, 0.5 * WIDTH);
 }
 
 static void draw(struct sheet *s, const struct chart *chart)
@@ -177,7 +177,7 @@ static void draw(struct sheet *s, const struct chart *chart)
                  BLACK);
     drawing_text(&s->frame, MARGIN, TOP - 10, TEXT_PX, DRAWING_LEFT,
                  chart->y_label, BLACK);
-    drawing_text(&s->frame, (LEFT + s->right) / 2, BOTTOM + 50, TEXT_PX,
+    drawing_text(&s->frame, 0.5 * (LEFT + s->right), BOTTOM + 50, TEXT_PX,
                  DRAWING_CENTRE, chart->x_label, BLACK);
     for (int i = 0; i < chart->series_count; i++) {
         put_series(s, &chart->series[i], number);

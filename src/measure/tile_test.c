@@ -142,10 +142,11 @@ static double bound_of(const struct picture_pair *p,
                        const struct tile_test *test, double false_alarms)
 {
     double tests = 3.0 * (test->cols * test->rows + 1);
-    double pixels =
-        (double)(p->width / test->cols) * (double)(p->height / test->rows);
+    int64_t pixels =
+        (int64_t)(p->width / test->cols) * (p->height / test->rows);
 
-    return student_t_bound(false_alarms / tests, fmax(pixels - 1, 1));
+    return student_t_bound(false_alarms / tests,
+                           (double)(pixels > 1 ? pixels - 1 : 1));
 }
 
 bool tile_test_init(struct tile_test *test, const struct picture_pair *p,

@@ -24,7 +24,9 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$results" "$cache"
 
-shipped='cornell materials glass_mirror interior skylit lights200'
+shipped='cornell.obj materials.obj glass_mirror.obj interior.obj skylit.obj'
+shipped="$shipped lights200.obj principled.obj bottles.glb bubbles.glb"
+shipped="$shipped chess.glb forest.glb jellyfish.glb knot.glb"
 sections='samples cores frames triangles features convergence peers oidn stress'
 sections="$sections calibration filter adaptive blender surfaces"
 
@@ -155,7 +157,7 @@ measure_adaptive() {
     local name scene all=''
 
     for name in $shipped; do
-        all="$all scenes/$name.obj"
+        all="$all scenes/$name"
     done
     for name in scenes-bench/sky scenes-bench/many_lights scenes-real/bunny \
         scenes-real/spot scenes-real/teapot scenes-real/CornellBox-Glossy; do
@@ -164,7 +166,7 @@ measure_adaptive() {
     done
     for scene in $all; do
         name=${scene##*/}
-        echo "${name%.obj},$(compare_adaptive "$scene")"
+        echo "${name%.*},$(compare_adaptive "$scene")"
     done | save adaptive 'scene,squared error lower by,rays more by,processor time more by,gain by rays,gain by time'
 }
 
@@ -191,10 +193,10 @@ measure_features() {
 }
 
 # Makes a reference once; delete build/results after a change of pictures.
-reference() { # SCENE.obj SAMPLES SIZE...
+reference() { # SCENE SAMPLES SIZE...
     local path=$cache/${1##*/}
 
-    path=${path%.obj}.pfm
+    path=${path%.*}.pfm
     [ -e "$path" ] || "$build/glim" reference -s "$2" --seeds 16 "${@:3}" \
         "$path" "$1" 2>"$work/said"
     echo "$path"
@@ -202,13 +204,14 @@ reference() { # SCENE.obj SAMPLES SIZE...
 
 # Error at doubling samples against processor time, and the slope.
 measure_convergence() {
-    local scene path
+    local file path scene
 
     : >"$work/slopes"
-    for scene in $shipped; do
-        path=$(reference "scenes/$scene.obj" 16384 -w 64 -h 36)
+    for file in $shipped; do
+        scene=${file%.*}
+        path=$(reference "scenes/$file" 16384 -w 64 -h 36)
         "$build/glim" curve -s 1024 --csv "$work/curve" "$path" \
-            "scenes/$scene.obj" >"$work/said" 2>/dev/null
+            "scenes/$file" >"$work/said" 2>/dev/null
         sed -n "1d; s/^/$scene,/p" "$work/curve" | cut -d , -f 1-4,6
         {
             printf '%s,' "$scene"
