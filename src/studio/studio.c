@@ -91,9 +91,8 @@ static void switch_mouse(struct studio *studio)
 /* ---- table ---- */
 
 /* Command of an action: a function of one part of the studio, or one of the
- * values below. Functions and numbered views first end a move of the camera.
- * Functions of other parts than camera and cursor first restart the render if
- * the view has changed. */
+ * values below. Functions first end a move of the camera. Those of other parts
+ * than camera and cursor then restart the render if the view has changed. */
 struct command {
     void (*camera)(struct camera_control *camera);
     void (*camera_by)(struct camera_control *camera, int by);
@@ -105,10 +104,9 @@ struct command {
     void (*workspace)(struct workspace *workspace);
     void (*studio)(struct studio *studio);
 
-    int by;          /* for functions that take it: 1 or -1 */
+    int by;          /* for functions that take it */
     int end_signal;  /* the program ends as by this signal */
     int right, down; /* cells by which the cursor moves */
-    int number;      /* number of the view to go to, from 1 */
 
     /* the camera moves along the axis while the key is held: sign is 1 or -1,
      * or 0 for no move */
@@ -144,15 +142,15 @@ static const struct command commands[ACTIONS] = {
     [ACTION_REDO] = {.camera_by = camera_control_step_history, .by = 1},
     [ACTION_RESET] = {.camera = camera_control_reset},
     [ACTION_KEEP] = {.studio = keep_view},
-    [ACTION_VIEW_1] = {.number = 1},
-    [ACTION_VIEW_2] = {.number = 2},
-    [ACTION_VIEW_3] = {.number = 3},
-    [ACTION_VIEW_4] = {.number = 4},
-    [ACTION_VIEW_5] = {.number = 5},
-    [ACTION_VIEW_6] = {.number = 6},
-    [ACTION_VIEW_7] = {.number = 7},
-    [ACTION_VIEW_8] = {.number = 8},
-    [ACTION_VIEW_9] = {.number = 9},
+    [ACTION_VIEW_1] = {.camera_by = camera_control_go_to_view, .by = 1},
+    [ACTION_VIEW_2] = {.camera_by = camera_control_go_to_view, .by = 2},
+    [ACTION_VIEW_3] = {.camera_by = camera_control_go_to_view, .by = 3},
+    [ACTION_VIEW_4] = {.camera_by = camera_control_go_to_view, .by = 4},
+    [ACTION_VIEW_5] = {.camera_by = camera_control_go_to_view, .by = 5},
+    [ACTION_VIEW_6] = {.camera_by = camera_control_go_to_view, .by = 6},
+    [ACTION_VIEW_7] = {.camera_by = camera_control_go_to_view, .by = 7},
+    [ACTION_VIEW_8] = {.camera_by = camera_control_go_to_view, .by = 8},
+    [ACTION_VIEW_9] = {.camera_by = camera_control_go_to_view, .by = 9},
     [ACTION_SAVE_VIEW] = {.control = save_view},
     [ACTION_VIEW_NEXT] = {.inspector_by = inspector_turn_view, .by = 1},
     [ACTION_VIEW_BACK] = {.inspector_by = inspector_turn_view, .by = -1},
@@ -232,8 +230,6 @@ static void run(struct studio *studio, const struct command *c)
     camera_control_end_move(camera);
     if (c->end_signal != 0)
         studio_end(studio, 128 + c->end_signal);
-    else if (c->number != 0)
-        camera_control_go_to_view(camera, c->number);
     else if (c->cursor)
         c->cursor(&camera->cursor);
     else if (c->camera)

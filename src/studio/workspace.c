@@ -95,16 +95,14 @@ static bool resize_frame(struct workspace *workspace, struct error *err)
 static void draw_help(struct workspace *workspace)
 {
     const struct frame_pacing *pace = &workspace->screen.pace;
-    char note[64];
+    char note[64], away[32] = "";
 
-    snprintf(note, sizeof note, "%s, %s",
-             palette_name(workspace->screen.display.palette),
-             screen_glyphs_name(&workspace->screen));
     if (pace->state == FRAME_PACING_ANSWERS)
-        snprintf(note, sizeof note, "%s, %s, %.3g ms away",
-                 palette_name(workspace->screen.display.palette),
-                 screen_glyphs_name(&workspace->screen),
+        snprintf(away, sizeof away, ", %.3g ms away",
                  (double)pace->rtt_min_ns * 1e-6);
+    snprintf(note, sizeof note, "%s, %s%s",
+             palette_name(workspace->screen.display.palette),
+             screen_glyphs_name(&workspace->screen), away);
     help_draw(&workspace->help, &workspace->control->session->options->keys,
               workspace->panel.is_open, note, &workspace->screen);
     workspace_refresh(workspace);
