@@ -87,6 +87,7 @@ void keys_bar_lay_out(struct keys_bar *bar, struct screen *screen)
     int cols = size.cols - screen->panel_cols, rows = size.rows - 1;
 
     *bar = (struct keys_bar){.state = KEYS_NONE};
+    screen->foot_rows = 1;
     if (screen->is_too_small || !screen->has_status_row || cols <= 0)
         return;
     if (cols - fit->cols >= BESIDE_MIN) {
@@ -100,6 +101,7 @@ void keys_bar_lay_out(struct keys_bar *bar, struct screen *screen)
         fit->row = 0;
         bar->area = (struct window_rect){0, fit->rows, cols, rows - fit->rows};
         bar->key_rows = 1;
+        screen->foot_rows = 2;
     }
 }
 

@@ -205,7 +205,6 @@ static struct window_rect window_size(const char *title,
         r.cols = cols > r.cols ? cols : r.cols;
     }
     r.cols = r.cols > COLS ? COLS : r.cols;
-    r.rows = r.rows > LINES - 1 ? LINES - 1 : r.rows;
     return r;
 }
 
@@ -218,17 +217,21 @@ static void fill(enum window_part part)
         windows_text(part, row, 0, getmaxx(w), ROLE_TEXT, "");
 }
 
-struct window_rect windows_open(enum window_place place, const char *title,
-                                const char *const *texts, int text_count)
+struct window_rect windows_open(enum window_place place, int foot_rows,
+                                const char *title, const char *const *texts,
+                                int text_count)
 {
     struct window_rect r = window_size(title, texts, text_count);
+    int rows = LINES - (place == WINDOW_BOTTOM_LEFT ? foot_rows : 1);
+
+    r.rows = r.rows > rows ? rows : r.rows;
 
     if (place == WINDOW_MIDDLE) {
         r.col = (COLS - r.cols) / 2;
-        r.row = (LINES - r.rows) / 2;
+        r.row = (rows - r.rows) / 2;
     }
     if (place == WINDOW_BOTTOM_LEFT)
-        r.row = LINES - 1 - r.rows;
+        r.row = rows - r.rows;
     if (place == WINDOW_TOP_RIGHT)
         r.col = COLS - r.cols;
     window = newwin(r.rows, r.cols, r.row, r.col);

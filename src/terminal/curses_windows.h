@@ -60,14 +60,16 @@ void windows_hide_status(void);
 /* Places of the window over the picture. */
 enum window_place {
     WINDOW_MIDDLE,
-    WINDOW_BOTTOM_LEFT, /* above the last row */
+    WINDOW_BOTTOM_LEFT, /* above the last rows */
     WINDOW_TOP_RIGHT
 };
 
-/* Opens a window with these lines and a title and returns where it is. It takes
- * no more than all rows but the last. One window is open at a time. */
-struct window_rect windows_open(enum window_place place, const char *title,
-                                const char *const *texts, int text_count);
+/* Opens a window with these lines and a title and returns where it is. One at
+ * the bottom leaves the last `foot_rows` free, others the last one. One window
+ * is open at a time. */
+struct window_rect windows_open(enum window_place place, int foot_rows,
+                                const char *title, const char *const *texts,
+                                int text_count);
 
 /* Replaces the lines of the window; its size stays. */
 void windows_set(const char *const *texts, int text_count);

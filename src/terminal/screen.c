@@ -278,7 +278,8 @@ void screen_open_window(struct screen *screen, enum window_place place,
                         const char *title, const char *const *texts,
                         int text_count)
 {
-    cover(screen, windows_open(place, title, texts, text_count));
+    cover(screen,
+          windows_open(place, screen->foot_rows, title, texts, text_count));
 }
 
 void screen_set_window(struct screen *screen, const char *const *texts,

@@ -63,6 +63,7 @@ struct screen {
     struct ansi_diff_rect window; /* in the picture's cells; 0 cols: closed */
     bool must_update;  /* text has changed since screen_draw_text() */
     size_t text_bytes; /* of the text that screen_draw() has to end */
+    int foot_rows;     /* last rows, below a window at the bottom */
     bool has_panel;    /* the next layout leaves room for the panel */
     int panel_cols;    /* columns at the right edge; 0: none */
     bool has_cursor;

@@ -86,6 +86,7 @@ cmp -s walls.png walls-2.png && die "boxes are not in the file"
 # what is in the middle, until something is picked
 keys t
 wait_for "directions from pixel 50 25"
+expect "^ t next drawing, none" # the window is above the row of keys
 expect "green, seen [01].[0-9] degrees off n"
 expect "n normal, green .* 0.000  *0.000  *1.000"
 keys v Left Left Left Left Left Left Enter
