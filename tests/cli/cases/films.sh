@@ -51,6 +51,25 @@ run_untimed develop --denoise=n.png b.film -o b.png
 same n.png m.png
 run merge --denoise b.film -o n.film
 
+# what films say of themselves: the error of the render, whether they can be
+# filtered, and the limit that they have reached
+render=$(glim $b --film a.film -o a.png box.obj 2>&1 | sed 's/.*error //')
+merge=$(glim merge -o m.png a.film 2>&1 | sed 's/.*error //')
+info=$(glim info a.film | sed -n 's/^  error *//p')
+case $render in
+*%*to*%*) ;;
+*) echo "found $render" ;;
+esac
+[ "$render" = "$merge" ] && [ "$render" = "$info" ] && echo "one error"
+same a.png m.png
+glim info a.film b.film | grep denoising
+glim merge -o half.png half.film 2>/dev/null
+for picture in n b half; do
+    head -c 900 $picture.png | LC_ALL=C tr '\0' '=' | LC_ALL=C grep -a -o \
+        -e 'glim:denoised=true' -e 'glim:stopped_by=samples'
+    echo "of $picture"
+done
+
 # the limit of the error ends a resumed render where it ends the other one
 e="-b -w 48 -h 36 -e 20%"
 glim $e -o whole.png box.obj 2>/dev/null

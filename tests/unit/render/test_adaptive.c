@@ -411,6 +411,28 @@ static void pictures_without_error_end(void **state)
     mesh_free(&m);
 }
 
+/* The light before the decision is the same, so only its measure can give a
+ * film with the filter's sums other shares. */
+static void filtered_pictures_have_their_own_shares(void **state)
+{
+    uint16_t shares[2][PIXELS];
+    struct mesh m;
+    struct render *r = open_render(2);
+
+    (void)state;
+    make_scene(&m);
+    for (int k = 0; k < 2; k++) {
+        filter_feature = k == 1 ? FEATURE_FILTER : 0;
+        start(r, &m, 48, true, 0);
+        assert_true(render_wait(r, 60000));
+        memcpy(shares[k], render_shares(r), sizeof shares[k]);
+    }
+    assert_memory_not_equal(shares[0], shares[1], sizeof shares[0]);
+    filter_feature = 0;
+    close_render(r);
+    mesh_free(&m);
+}
+
 static int with_filter(void **state)
 {
     (void)state;
@@ -441,6 +463,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(the_bits_are_the_same, with_filter,
                                         without_filter),
         cmocka_unit_test(pictures_without_error_end),
+        cmocka_unit_test(filtered_pictures_have_their_own_shares),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
