@@ -21,7 +21,8 @@
 
 #define SPP_DEFAULT 256
 
-/* Size of the diagram unless the terminal is narrower. */
+/* Size of the diagram unless the terminal is smaller, which needs a row for the
+ * prompt. */
 #define CHART_COLS 76
 #define CHART_ROWS 20
 
@@ -208,7 +209,11 @@ static bool draw(const struct measurement *m, struct error *err)
                           .series = series,
                           .series_count = 2};
     bool ignored;
-    int cols = term_size().cols;
+    struct tty_size size = term_size();
+    int cols =
+        size.cols > 0 && size.cols <= CHART_COLS ? size.cols - 1 : CHART_COLS;
+    int rows = size.rows > 0 && size.rows < CHART_ROWS + 2 ? size.rows - 2
+                                                           : CHART_ROWS;
 
     if (series[0].count < 2)
         return m->o->output_path == NULL ||
@@ -216,9 +221,7 @@ static bool draw(const struct measurement *m, struct error *err)
                     m->o->output_path, series[0].count,
                     print_plural((uint64_t)series[0].count));
     series[1] = series_half_slope(&series[0]);
-    text_chart_write(stdout, &chart,
-                     cols > 0 && cols < CHART_COLS ? cols - 1 : CHART_COLS,
-                     CHART_ROWS, tty_is_utf8(&ignored));
+    text_chart_write(stdout, &chart, cols, rows, tty_is_utf8(&ignored));
     return m->o->output_path == NULL ||
            chart_write(&chart, m->o->output_path, err);
 }

@@ -150,6 +150,20 @@ static void write_x_labels(FILE *to, const struct canvas *c,
     free(line);
 }
 
+/* Writes what the axes are, and what a guide is if there is room. */
+static void write_title(FILE *to, const struct chart *chart, int cols)
+{
+    char axes[80], guide[80] = "";
+
+    snprintf(axes, sizeof axes, "%s over %s", chart->y_label, chart->x_label);
+    for (int i = 0; i < chart->series_count; i++)
+        if (chart->series[i].is_guide)
+            snprintf(guide, sizeof guide, "; dotted: %s",
+                     chart->series[i].name);
+    print_line(to, "%s%s", axes,
+               (int)(strlen(axes) + strlen(guide)) <= cols ? guide : "");
+}
+
 void text_chart_write(FILE *to, const struct chart *chart, int cols, int rows,
                       bool has_braille)
 {
@@ -170,11 +184,7 @@ void text_chart_write(FILE *to, const struct chart *chart, int cols, int rows,
                      (size_t)c.across * (size_t)c.down);
     for (int i = 0; i < chart->series_count; i++)
         put_series(&c, &chart->series[i], &x, &y);
-    print_text(to, "%s over %s", chart->y_label, chart->x_label);
-    for (int i = 0; i < chart->series_count; i++)
-        if (chart->series[i].is_guide)
-            print_text(to, "; dotted: %s", chart->series[i].name);
-    print_line(to, "%s", "");
+    write_title(to, chart, c.cols + LABEL_COLS);
     for (int row = 0; row < c.rows; row++) {
         char label[AXIS_LABEL_BYTES];
 
