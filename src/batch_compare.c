@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "batch_compare.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/file.h"
 #include "base/memory.h"
@@ -233,9 +231,7 @@ static bool compare(const struct options *o, const struct picture_pair *p,
         print_whole(&test);
         print_tiles(&test);
         *status = test.whole.differs || test.differing > 0;
-        ok = fflush(stdout) == 0 && !ferror(stdout);
-        if (!ok)
-            fail(err, "standard output: %s", strerror(errno));
+        ok = print_finish(stdout, err);
     }
     tile_test_free(&test);
     return ok;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "batch_curve.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -138,13 +137,6 @@ static bool warm_up(struct measurement *m, bool *is_complete, struct error *err)
     return true;
 }
 
-/* Writes the text so far. A reader that has gone ends the measurement. */
-static bool flush(struct error *err)
-{
-    return (fflush(stdout) == 0 && !ferror(stdout)) ||
-           fail(err, "standard output: %s", strerror(errno));
-}
-
 /* Measures the picture so far and prints its row. */
 static bool add_point(struct measurement *m, struct error *err)
 {
@@ -166,7 +158,7 @@ static bool add_point(struct measurement *m, struct error *err)
         return batch_fail_as(err, &why);
     curve_add(&m->curve, &render, &pair, &m->own);
     curve_write_row(stdout, &m->curve.points[m->curve.count - 1]);
-    return flush(err);
+    return print_finish(stdout, err); /* a reader that has gone ends the measurement */
 }
 
 static bool measure(struct measurement *m, struct error *err)
@@ -246,7 +238,7 @@ static bool report(const struct measurement *m, struct error *err)
     curve_write_slopes(stdout, &m->curve);
     if (!write_csv(m, err) || !draw(m, err))
         return false;
-    return flush(err);
+    return print_finish(stdout, err);
 }
 
 static bool run(struct measurement *m, struct error *err)

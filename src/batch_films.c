@@ -105,7 +105,7 @@ bool batch_films_info(const struct options *o, struct error *err)
     for (int i = 0; i < o->film_count; i++)
         if (!info(o->films[i], o, err))
             return false;
-    return true;
+    return print_finish(stdout, err);
 }
 
 /* ---- merge ---- */

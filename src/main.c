@@ -83,10 +83,7 @@ static int print_out(const char *text)
     struct error err;
 
     print_lines(stdout, text);
-    if (fflush(stdout) == 0 && !ferror(stdout))
-        return EXIT_DONE;
-    fail(&err, "standard output: %s", strerror(errno));
-    return complain(EXIT_FAILED, &err);
+    return print_finish(stdout, &err) ? EXIT_DONE : complain(EXIT_FAILED, &err);
 }
 
 static int print_help(void)

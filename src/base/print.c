@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/print.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -101,6 +102,12 @@ void print_lines(FILE *to, const char *text)
         free(line);
         text += length + (text[length] == '\n');
     }
+}
+
+bool print_finish(FILE *to, struct error *err)
+{
+    return (fflush(to) == 0 && !ferror(to)) ||
+           fail(err, "standard output: %s", strerror(errno));
 }
 
 const char *print_plural(uint64_t count)

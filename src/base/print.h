@@ -20,6 +20,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "base/error.h"
+
 /* Returns true if the character with this code point is shown as it is. */
 bool print_shows(uint32_t code);
 
@@ -47,6 +49,10 @@ void print_line(FILE *to, const char *format, ...)
 /* Writes a text of several lines with unsafe characters replaced. A tab becomes
  * a blank. */
 void print_lines(FILE *to, const char *text);
+
+/* Writes what the stream of standard output still holds. Returns false if that
+ * or an earlier write failed, such as on a full disk. */
+bool print_finish(FILE *to, struct error *err);
 
 /* Returns the ending of a noun after its number: "s", or "" after 1. */
 const char *print_plural(uint64_t count);

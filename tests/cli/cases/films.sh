@@ -63,6 +63,10 @@ esac
 [ "$render" = "$merge" ] && [ "$render" = "$info" ] && echo "one error"
 same a.png m.png
 glim info a.film b.film | grep denoising
+if [ -e /dev/full ]; then
+    glim info a.film 2>&1 >/dev/full
+    echo "exit $?"
+fi
 glim merge -o half.png half.film 2>/dev/null
 for picture in n b half; do
     head -c 900 $picture.png | LC_ALL=C tr '\0' '=' | LC_ALL=C grep -a -o \
