@@ -73,7 +73,8 @@ bool film_init(struct film *f, int width, int height, struct error *err)
         free(f->counts);
         free(f->has_row);
         *f = (struct film){0};
-        return lacks_memory(width, height, size_bytes, err);
+        lacks_memory(width, height, size_bytes, err);
+        return false;
     }
     for (int i = 0; i < FILM_LOCKS; i++)
         pthread_mutex_init(&f->locks[i], NULL);

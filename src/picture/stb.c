@@ -229,10 +229,14 @@ bool stb_encode(const struct stb_picture *picture, stbi_write_func *write,
                 void *context)
 {
     bool ok = try_encode(picture, write, context);
+    struct block *next;
 
     failed = NULL;
-    while (blocks.next)
-        encoder_free(blocks.next + 1);
+    for (struct block *b = blocks.next; b != NULL; b = next) {
+        next = b->next;
+        free(b);
+    }
+    blocks.next = NULL;
     return ok;
 }
 
