@@ -48,7 +48,7 @@ static void find_offer(struct session_keeper *k)
     } else if (strcmp(k->offer.scene, k->scene) == 0) {
         kept_describe(what, &k->offer);
         snprintf(k->question, sizeof k->question,
-                 "%s kept: Enter goes on, r starts anew", what);
+                 "Enter goes on, r starts anew: %s kept", what);
         k->has_offer = true;
     }
 }

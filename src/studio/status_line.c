@@ -44,10 +44,6 @@ static const enum field dispensable[] = {FIELD_MACHINE, FIELD_SIZE,
 
 #define GAUGE_COLS 8
 
-/* Windows with fewer columns have the short name of the mode beside a message.
- */
-#define WIDE_COLS 60
-
 void status_line_duration(char *text, size_t size_bytes, uint64_t ns)
 {
     uint64_t s = ns / 1000000000u;
@@ -320,14 +316,20 @@ void status_line_message(struct status_row *row, int cols,
                          enum text_role role)
 {
     const char *mode = mode_word(s);
-    int length = cols < WIDE_COLS ? (int)strcspn(mode, " ") : (int)strlen(mode);
     int room = begin_row(row, cols, role);
-    int begin = length + 3;
+    int rest = room - text_width_of(message);
+    int length = (int)strlen(mode);
+    int begin = 1;
 
+    if (length + 3 > rest)
+        length = (int)strcspn(mode, " ");
+    if (length + 3 <= rest) {
+        memcpy(row->text + 1, mode, (size_t)length);
+        mark_mode(row, s, length, room);
+        begin = length + 3;
+    }
     if (begin >= room)
         return;
-    memcpy(row->text + 1, mode, (size_t)length);
-    mark_mode(row, s, length, room);
     text_width_cut(row->text + begin, sizeof row->text - (size_t)begin, message,
                    room - begin);
 }

@@ -54,8 +54,8 @@ void status_line_duration(char *text, size_t size_bytes, uint64_t ns);
 bool status_line_left(char *text, size_t size_bytes,
                       const struct render_progress *p);
 
-/* Formats a message beside the mode, without its control characters and cut at
- * `cols` columns. */
+/* Formats a message, without its control characters and cut at `cols` columns,
+ * beside the mode, or beside the mode's first word, or alone: as it fits. */
 void status_line_message(struct status_row *row, int cols,
                          const struct status_line *s, const char *message,
                          enum text_role role);

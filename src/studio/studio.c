@@ -286,7 +286,8 @@ static void save_and_quit(struct studio *studio)
 }
 
 /* Table of the questions. The key y runs `yes`, the save key runs `save`, and
- * any other key means no. */
+ * any other key means no. The narrowest window shows 39 columns of a text, so
+ * that both keys are among them. */
 static const struct {
     const char *text;
     void (*yes)(struct studio *studio);
@@ -294,20 +295,16 @@ static const struct {
     void (*save)(struct studio *studio);
 } questions[] = {
     [QUESTION_NONE] = {0},
-    [QUESTION_QUIT] = {"The render is not saved. Quit? y: yes, p: save it, "
-                       "other: no",
-                       end, 'p', save_render},
-    [QUESTION_EDIT] = {"Materials or light are not saved. Quit? "
-                       "y: yes, s: save, other: no",
-                       end, 's', save_and_quit},
-    [QUESTION_LIVE] = {"The render is not saved. Leave it? y: yes, p: save "
-                       "it, other: no",
+    [QUESTION_QUIT] = {"Unsaved render. Quit? y: yes, p: save, other: no", end,
+                       'p', save_render},
+    [QUESTION_EDIT] = {"Unsaved changes. Quit? y: yes, s: save, other: no", end,
+                       's', save_and_quit},
+    [QUESTION_LIVE] = {"Unsaved render. Leave it? y: yes, p: save, other: no",
                        go_live, 'p', save_render},
-    [QUESTION_RESTART] = {"The render is not saved. Restart it? y: yes, p: "
-                          "save it, other: no",
+    [QUESTION_RESTART] = {"Unsaved render. Restart it? y: yes, p: save, "
+                          "other: no",
                           restart_unasked, 'p', save_render},
-    [QUESTION_NUMBER] = {.text = "Which number for this view? 1 to 9, other: "
-                                 "none"},
+    [QUESTION_NUMBER] = {.text = "Number for this view? 1 to 9, other: none"},
     [QUESTION_KEPT] = {0}, /* its text is that of the session keeper */
 };
 

@@ -57,6 +57,6 @@ wait_for "COMPARE  left: kept 1 of 2"
 keys y y
 wait_for "LIVE .* spp"
 keys q n q
-wait_for "are not saved. Quit?"
+wait_for "Unsaved changes. Quit?"
 keys y
 expect_end 0

@@ -41,7 +41,7 @@ shows() # a colour of the picture, as R;G;B
     wait_until eval "screen_colors | sed 's,│.*,,' | grep -q '[34]8;2;$1m'"
 }
 worth="LIVE .*  \([5-9]\|[1-9][0-9]\) s  "
-asks="  [1-9][0-9]* s of render kept: Enter goes on, r starts anew"
+asks=" Enter goes on, r starts anew: [1-9][0-9]* s of render kept"
 mkdir scenes
 lamp_scene
 mv lamp.* scenes
@@ -122,7 +122,7 @@ kill -KILL "$(program_pid)"
 wait_for " exit 137"
 fresh
 start scenes/lamp.obj
-wait_for "  \(unsaved changes\|.* s of render and unsaved changes\) kept: Enter goes on"
+wait_for "Enter goes on, r starts anew: \(unsaved changes\|.* s of render and unsaved changes\) kept"
 shows '255;255;255'
 keys Enter
 wait_for "restored: view"
@@ -181,7 +181,7 @@ wait_for "$asks"
 keys Enter
 wait_for "NORMAL  [1-9][0-9][0-9][0-9]*/1000000000 spp"
 keys q
-wait_for "The render is not saved. Quit?"
+wait_for "Unsaved render. Quit?"
 keys y
 expect_end 0
 is_tidy 0

@@ -21,11 +21,11 @@ wait_until rests
 keys Enter
 wait_for "the render is done"
 keys q
-wait_for "The render is not saved. Quit?"
+wait_for "Unsaved render. Quit?"
 keys n
 wait_for "NORMAL done"
 keys Space
-wait_for "The render is not saved. Leave it?"
+wait_for "Unsaved render. Leave it?"
 keys n
 wait_for "NORMAL done"
 keys p
@@ -47,7 +47,7 @@ expect "NORMAL paused"
 keys Enter
 wait_for "NORMAL  [1-9]"
 keys q
-wait_for "The render is not saved. Quit?"
+wait_for "Unsaved render. Quit?"
 keys y
 expect_end 0
 

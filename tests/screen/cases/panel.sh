@@ -70,7 +70,7 @@ keys x
 shows '255;0;0'
 # quitting asks, saving changes only what was changed
 keys q
-wait_for "Materials or light are not saved. Quit?"
+wait_for "Unsaved changes. Quit?"
 keys n
 wait_for LIVE
 keys C-s
@@ -127,7 +127,7 @@ wait_for "found '1x', expected a number from -100 to 100"
 keys Escape Escape
 wait_until_gone "│"
 keys q
-wait_for "are not saved. Quit?"
+wait_for "Unsaved changes. Quit?"
 keys s
 expect_end 0
 grep -q '^exposure -1$' lamp.view || die "lamp.view: $(cat lamp.view)"

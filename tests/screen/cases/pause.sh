@@ -32,13 +32,13 @@ wait_for "NORMAL paused  1/16 spp"
 keys .
 wait_for "NORMAL paused  2/16 spp  12 %"
 keys 0
-wait_for "The render is not saved. Restart it?"
+wait_for "Unsaved render. Restart it?"
 keys y
 wait_for "NORMAL done  16/16 spp"
 wait_until rests
 keys .
 wait_for "the render is done"
 keys q
-wait_for "not saved. Quit?"
+wait_for "Unsaved render. Quit?"
 keys y
 expect_end 0

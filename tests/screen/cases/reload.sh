@@ -132,7 +132,7 @@ keys l
 wait_for "files are loaded only in live mode"
 wait_for_rows 20 "$GREEN"
 keys Space
-wait_for "not saved. Leave it?"
+wait_for "Unsaved render. Leave it?"
 keys y
 wait_for_rows 20 "$ORANGE"
 keys q

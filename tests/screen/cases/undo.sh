@@ -41,9 +41,9 @@ wait_for "view 3 is not set"
 keys Enter
 wait_for "LIVE paused"
 keys k
-wait_for "Which number"
+wait_for "Number for this view"
 wait_until rests # the question has no time limit
-expect "Which number"
+expect "Number for this view"
 keys 3
 wait_for "stored as view 3"
 keys k x 4 # the x is no number: nothing is kept

@@ -101,8 +101,8 @@ static void edits_are_kept_until_they_are_declined(void **state)
     assert_int_equal(count_sessions(), 1);
     begin(&w);
     assert_true(w.keeper.has_offer);
-    assert_string_equal(w.keeper.question, "unsaved changes kept: Enter goes "
-                                           "on, r starts anew");
+    assert_string_equal(w.keeper.question, "Enter goes on, r starts anew: "
+                                           "unsaved changes kept");
     end(&w, false); /* without an answer */
     begin(&w);
     assert_true(w.keeper.has_offer);
@@ -137,8 +137,8 @@ static void films_go_on(void **state)
     for (int i = 0; i < 2; i++) {
         begin(&w);
         assert_string_equal(w.keeper.question,
-                            "5 s of render and unsaved changes kept: Enter "
-                            "goes on, r starts anew");
+                            "Enter goes on, r starts anew: 5 s of render and "
+                            "unsaved changes kept");
         session_keeper_go_on(&w.keeper);
         assert_true(w.control.is_live);
         assert_true(w.control.has_gone_on);

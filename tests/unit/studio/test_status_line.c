@@ -280,8 +280,15 @@ static void messages_have_no_control_characters(void **state)
     status_line_message(&row, 80, &s, "abcdef", ROLE_MESSAGE);
     assert_string_equal(row.text, " LIVE paused  abcdef");
     assert_int_equal(row.spans[0].role, ROLE_PAUSED);
-    status_line_message(&row, 10, &s, "abcdef", ROLE_MESSAGE);
-    assert_string_equal(row.text, " LIVE  abc");
+    status_line_message(&row, 19, &s, "abcdef", ROLE_MESSAGE);
+    assert_string_equal(row.text, " LIVE  abcdef");
+    status_line_message(&row, 13, &s, "abcdef", ROLE_MESSAGE);
+    assert_string_equal(row.text, " LIVE  abcdef");
+    status_line_message(&row, 12, &s, "abcdef", ROLE_MESSAGE);
+    assert_string_equal(row.text, " abcdef");
+    assert_int_equal(row.span_count, 0);
+    status_line_message(&row, 5, &s, "abcdef", ROLE_MESSAGE);
+    assert_string_equal(row.text, " abcd");
     status_line_message(&row, 0, &s, "abcdef", ROLE_MESSAGE);
     assert_string_equal(row.text, "");
 }
