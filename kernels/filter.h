@@ -18,6 +18,15 @@
  * All are the same for q and p. Pixels outside of the picture have weight 0.
  * Variances and squared differences are sums over three channels.
  *
+ * Light that changes evenly over a surface differs by more than its noise,
+ * although the mean of the pixels q and r on opposite sides of p is that of p.
+ * So both get a weight in common as well, from second differences,
+ * u(q) + u(r) - 2 u(p), of light and of features: filter_opposite_distance(),
+ * summed in the same way, and filter_opposite_features().
+ * filter_joined_weight() is the weight of q from both. First-order regression
+ * (Bitterli et al. 2016, "Nonlinearly weighted first-order regression for
+ * denoising Monte Carlo renderings") has the same aim.
+ *
  * Units: light scaled by a power of two so that its greatest number is about
  *        2^FILTER_TOP; features divided by the differences that are edges
  */
@@ -37,6 +46,14 @@
 
 /* Squared number of standard deviations that count as noise. */
 #define FILTER_NOISE (1.6f * 1.6f)
+
+/* The same for second differences: glass needs less than 1.5, and even light
+ * more than 1. */
+#define FILTER_OPPOSITE_NOISE 1.25f
+
+/* Factor of second differences of features: with 1 they stop too late where
+ * surfaces bend, with 16 too early. */
+#define FILTER_BEND_SCALE 4.0f
 
 /* Weight of the pixel itself. Its eight neighbours have 1/8 and 1/16. */
 #define FILTER_CENTRE 0.25f
@@ -81,6 +98,27 @@ static inline float filter_feature_distance(float square, float np, float nq)
     return f_max((square - 2.0f * f_min(np, nq)) / (1.0f + (np + nq)), 0.0f);
 }
 
+/* Returns the distance of light at p to the mean of opposite pixels, from the
+ * square of its second difference, u(q) + u(q') - 2 u(p). If all three have the
+ * same variance, noise explains six times of it. */
+static inline float filter_opposite_distance(float square, float vp, float vq,
+                                             float vr)
+{
+    return (square - 6.0f * f_min(f_min(vq, vr), vp)) /
+           (FILTER_VARIANCE_MIN +
+            FILTER_OPPOSITE_NOISE * (vq + vr + 4.0f * vp));
+}
+
+/* Returns the distance of features in the same way. */
+static inline float filter_opposite_features(float square, float np, float nq,
+                                             float nr)
+{
+    return FILTER_BEND_SCALE *
+           f_max((square - 6.0f * f_min(f_min(nq, nr), np)) /
+                     (1.0f + (nq + nr + 4.0f * np)),
+                 0.0f);
+}
+
 /* Returns the weight of q: tap * exp(-distance), nearly, and 0 from a distance
  * of 16 on. */
 static inline float filter_weight(float tap, float light, float features)
@@ -91,6 +129,15 @@ static inline float filter_weight(float tap, float light, float features)
     w *= w;
     w *= w;
     return tap * (w * w);
+}
+
+/* Returns the weight of q from the one in common with the opposite pixel and
+ * its own, which counts where the other is small: q and r have nearly the same
+ * weight where light is even. */
+static inline float filter_joined_weight(float opposite, float own,
+                                         float inverse_tap)
+{
+    return opposite + (1.0f - opposite * inverse_tap) * own;
 }
 
 #endif

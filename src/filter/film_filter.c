@@ -141,7 +141,7 @@ bool film_filter(struct film *f, struct pool *pool, struct film *filtered,
                          f->width, f->height);
 
     if (ok) {
-        filter_run(&filter, &source, FILTER_LEVELS, pool, rgb, NULL);
+        filter_run(&filter, &source, FILTER_FULL, pool, rgb, NULL);
         filter_free(&filter);
         for (int y = 0; y < f->height; y++) {
             add_seen(f, y, rgb + 3 * row_index(f, y));
@@ -224,7 +224,7 @@ bool film_filter_squares(struct film *f, float exposure, int colour,
                          f->width, f->height);
 
     if (ok) {
-        filter_run(&filter, &source, FILTER_LEVELS, pool, e.rgb, e.variance);
+        filter_run(&filter, &source, FILTER_FULL, pool, e.rgb, e.variance);
         filter_free(&filter);
         pool_each(pool, (uint32_t)f->height, estimate_row, &e);
         *is_known = cancel == NULL || !cancel_requested(cancel);

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "filter/filter.h"
 
-#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "filter/filter_dispatch.h"
 
-/* Planes of two copies of two halves, weights, features with their noise,
- * samples, and counts. */
-#define PLANES (2 * 8 + 2 * FILTER_PAIRS + FILTER_FEATURES + 1 + 1 + 2)
+/* Planes of two copies of two halves, weights of pairs and of opposite pixels,
+ * features with their noise, samples, and counts. */
+#define PLANES (2 * 8 + 4 * FILTER_PAIRS + FILTER_FEATURES + 1 + 1 + 2)
 
 /* Least sum of weights from which the missing half of a pixel is taken. */
 #define GAP_WEIGHT_MIN 1e-3f
@@ -23,8 +22,7 @@ struct job {
     float depth_scale;
     float mean_samples;
     float light_scale;
-    int from, step; /* of a level */
-    bool is_last;
+    struct filter_level level;
     float *rgb, *variance;
 };
 
@@ -79,6 +77,9 @@ bool filter_init(struct filter *f, int width, int height, struct error *err)
     for (int h = 0; h < 2; h++)
         for (int k = 0; k < FILTER_PAIRS; k++)
             p->weights[h][k] = take(p, &next);
+    for (int h = 0; h < 2; h++)
+        for (int k = 0; k < FILTER_PAIRS; k++)
+            p->opposite[h][k] = take(p, &next);
     for (int i = 0; i < FILTER_FEATURES; i++)
         p->features[i] = take(p, &next);
     p->feature_noise = take(p, &next);
@@ -388,8 +389,7 @@ static void run_weights(void *context, uint32_t item, int worker)
 
     (void)worker;
     if (!is_cancelled(j))
-        f->loops->weigh(&f->planes, tile_at(&f->planes, item), j->from,
-                        j->step);
+        f->loops->weigh(&f->planes, tile_at(&f->planes, item), &j->level);
 }
 
 static void run_average(void *context, uint32_t item, int worker)
@@ -399,8 +399,7 @@ static void run_average(void *context, uint32_t item, int worker)
 
     (void)worker;
     if (!is_cancelled(j))
-        f->loops->average(&f->planes, tile_at(&f->planes, item), j->from,
-                          j->step, j->is_last && j->variance == NULL);
+        f->loops->average(&f->planes, tile_at(&f->planes, item), &j->level);
 }
 
 /* Runs a level in this thread, row of tiles after row of tiles, while weights
@@ -424,7 +423,7 @@ static void add_variance(const struct job *j, float a, float b, ptrdiff_t at,
                          float *to)
 {
     const struct filter_planes *p = &j->filter->planes;
-    const struct filter_halves *halves = &p->halves[j->from];
+    const struct filter_halves *halves = &p->halves[j->level.from];
     float inverse = 1.0f / (j->light_scale * (a + b));
     float sum = halves->variance[0][at] * (a * inverse) * (a * inverse) +
                 halves->variance[1][at] * (b * inverse) * (b * inverse);
@@ -439,7 +438,7 @@ static void add_row(void *context, uint32_t item, int worker)
     struct job *j = context;
     const struct filter *f = j->filter;
     const struct filter_planes *p = &f->planes;
-    const struct filter_halves *halves = &p->halves[j->from];
+    const struct filter_halves *halves = &p->halves[j->level.from];
     ptrdiff_t at = (int)item * p->pitch;
     float *rgb = j->rgb + 3 * (size_t)item * (size_t)p->width;
     float unit = 1.0f / j->light_scale;
@@ -464,7 +463,13 @@ static void add_row(void *context, uint32_t item, int worker)
     }
 }
 
-static void run_component(struct job *j, int levels, struct pool *pool)
+static const struct {
+    int levels;
+    bool has_opposite;
+} forms[] = {[FILTER_FULL] = {FILTER_LEVELS, true}, [FILTER_FAST] = {4, false}};
+
+static void run_component(struct job *j, enum filter_form form,
+                          struct pool *pool)
 {
     const struct filter_planes *p = &j->filter->planes;
     uint32_t rows = (uint32_t)p->height;
@@ -475,10 +480,13 @@ static void run_component(struct job *j, int levels, struct pool *pool)
     j->light_scale = light_scale(j->filter);
     pool_each(pool, rows, scale_light, j);
     pool_each(pool, tile_count(p), run_variance, j);
-    j->from = 0;
-    for (int l = 0; l < levels; l++, j->from = 1 - j->from) {
-        j->step = 1 << l;
-        j->is_last = l == levels - 1;
+    for (int l = 0; l < forms[form].levels; l++) {
+        j->level =
+            (struct filter_level){.from = l & 1,
+                                  .step = 1 << l,
+                                  .has_opposite = forms[form].has_opposite,
+                                  .is_last = l == forms[form].levels - 1 &&
+                                             j->variance == NULL};
         if (pool == NULL) {
             run_level(j);
             continue;
@@ -486,11 +494,13 @@ static void run_component(struct job *j, int levels, struct pool *pool)
         pool_each(pool, tile_count(p), run_weights, j);
         pool_each(pool, tile_count(p), run_average, j);
     }
+    j->level.from = forms[form].levels & 1;
     pool_each(pool, rows, add_row, j);
 }
 
 void filter_run(struct filter *f, const struct filter_source *source,
-                int levels, struct pool *pool, float *rgb, float *variance)
+                enum filter_form form, struct pool *pool, float *rgb,
+                float *variance)
 {
     const struct filter_planes *p = &f->planes;
     uint32_t rows = (uint32_t)p->height;
@@ -500,7 +510,6 @@ void filter_run(struct filter *f, const struct filter_source *source,
                     .rgb = rgb,
                     .variance = variance};
 
-    assert(levels <= FILTER_LEVELS);
     memset(rgb, 0, size_bytes);
     if (variance != NULL)
         memset(variance, 0, size_bytes);
@@ -510,5 +519,5 @@ void filter_run(struct filter *f, const struct filter_source *source,
     pool_each(pool, rows, scale_features, &j);
     for (; j.component < source->component_count && !is_cancelled(&j);
          j.component++)
-        run_component(&j, levels, pool);
+        run_component(&j, form, pool);
 }

@@ -57,14 +57,20 @@ struct filter {
     const struct filter_loops *loops;
 };
 
+enum filter_form {
+    FILTER_FULL,
+    FILTER_FAST, /* four levels without weights of opposite pixels, for a
+                    picture that moves */
+};
+
 bool filter_init(struct filter *f, int width, int height, struct error *err);
 void filter_free(struct filter *f);
 
-/* Filters a picture in `levels` levels, FILTER_LEVELS or fewer. Writes the sum
- * of the components to rgb, 3 floats for each pixel, and to variance, unless it
- * is NULL, the variance that noise leaves in it. The pool may be NULL. Blocks.
- */
+/* Filters a picture. Writes the sum of the components to rgb, 3 floats for each
+ * pixel, and to variance, unless it is NULL, the variance that noise leaves in
+ * it. The pool may be NULL. Blocks. */
 void filter_run(struct filter *f, const struct filter_source *source,
-                int levels, struct pool *pool, float *rgb, float *variance);
+                enum filter_form form, struct pool *pool, float *rgb,
+                float *variance);
 
 #endif

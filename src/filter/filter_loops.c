@@ -60,6 +60,24 @@ pixel_distances(const float *restrict r, const float *restrict g,
     }
 }
 
+/* Computes the distances of the pixels at x - 1 to x + width and the opposite
+ * ones `away` from them. */
+VECTORISED static void
+opposite_distances(const float *restrict r, const float *restrict g,
+                   const float *restrict b, const float *restrict variance,
+                   ptrdiff_t away, int width, float *restrict distance)
+{
+    for (int x = -1; x <= width; x++) {
+        float dr = r[x + away] + r[x - away] - 2.0f * r[x];
+        float dg = g[x + away] + g[x - away] - 2.0f * g[x];
+        float db = b[x + away] + b[x - away] - 2.0f * b[x];
+
+        distance[x + 1] =
+            filter_opposite_distance(dr * dr + dg * dg + db * db, variance[x],
+                                     variance[x + away], variance[x - away]);
+    }
+}
+
 VECTORISED static void add_three(const float *restrict from, int width,
                                  float *restrict to)
 {
@@ -70,15 +88,18 @@ VECTORISED static void add_three(const float *restrict from, int width,
 /* Computes distances of light of half h, summed over three pixels of a row, for
  * all rows of the tile and their neighbours. */
 static void row_distances(const struct tile *t, int h, ptrdiff_t away,
-                          tile_rows rows)
+                          bool is_opposite, tile_rows rows)
 {
     for (int y = -1; y <= t->at.height; y++) {
         ptrdiff_t at = index_of(t->planes, t->at.x, t->at.y + y);
         float distance[WIDTH + 2];
 
-        pixel_distances(t->from->light[h][0] + at, t->from->light[h][1] + at,
-                        t->from->light[h][2] + at, t->from->variance[h] + at,
-                        away, t->at.width, distance);
+        (is_opposite ? opposite_distances
+                     : pixel_distances)(t->from->light[h][0] + at,
+                                        t->from->light[h][1] + at,
+                                        t->from->light[h][2] + at,
+                                        t->from->variance[h] + at, away,
+                                        t->at.width, distance);
         add_three(distance, t->at.width, rows[y + 1]);
     }
 }
@@ -103,6 +124,30 @@ VECTORISED static void feature_distances(float *const features[FILTER_FEATURES],
     }
 }
 
+/* Computes the distances of features of a row and the opposite rows `away`. */
+VECTORISED static void opposite_features(float *const features[FILTER_FEATURES],
+                                         const float *restrict noise,
+                                         ptrdiff_t at, ptrdiff_t away,
+                                         int width, float *restrict distance)
+{
+    const float *restrict f[FILTER_FEATURES];
+
+    for (int i = 0; i < FILTER_FEATURES; i++)
+        f[i] = features[i] + at;
+    noise += at;
+    for (int x = 0; x < width; x++) {
+        float sum = 0.0f;
+
+        for (int i = 0; i < FILTER_FEATURES; i++) {
+            float d = f[i][x + away] + f[i][x - away] - 2.0f * f[i][x];
+
+            sum += d * d;
+        }
+        distance[x] = filter_opposite_features(sum, noise[x], noise[x + away],
+                                               noise[x - away]);
+    }
+}
+
 VECTORISED static void weight_row(const float *restrict above,
                                   const float *restrict row,
                                   const float *restrict below,
@@ -116,35 +161,33 @@ VECTORISED static void weight_row(const float *restrict above,
                           features[x]);
 }
 
-/* Computes the weights of pair k, both pixels of which are in the picture. */
-static void weigh_pairs(const struct tile *t, int k, ptrdiff_t away)
+/* Computes the weights of the pixels of a tile in pair k, or of their opposite
+ * pixels. All of these are in the picture. */
+static void weigh_part(const struct tile *t, int k, ptrdiff_t away,
+                       bool is_opposite)
 {
     tile_rows distances[2];
 
     for (int h = 0; h < 2; h++)
-        row_distances(t, h, away, distances[h]);
+        row_distances(t, h, away, is_opposite, distances[h]);
     for (int y = 0; y < t->at.height; y++) {
         ptrdiff_t at = index_of(t->planes, t->at.x, t->at.y + y);
         float features[WIDTH];
 
-        feature_distances(t->planes->features, t->planes->feature_noise, at,
-                          away, t->at.width, features);
+        (is_opposite ? opposite_features
+                     : feature_distances)(t->planes->features,
+                                          t->planes->feature_noise, at, away,
+                                          t->at.width, features);
         for (int h = 0; h < 2; h++) {
             float(*rows)[WIDTH] = distances[h] + y;
 
             weight_row(rows[0], rows[1], rows[2], features, pairs[k].tap,
-                       t->at.width, t->planes->weights[h][k] + at);
+                       t->at.width,
+                       (is_opposite ? t->planes->opposite
+                                    : t->planes->weights)[h][k] +
+                           at);
         }
     }
-}
-
-/* Sets the weights of a tile to 0. */
-static void clear(const struct filter_planes *p, struct filter_tile t, int k)
-{
-    for (int y = t.y; y < t.y + t.height; y++)
-        for (int h = 0; h < 2; h++)
-            memset(p->weights[h][k] + index_of(p, t.x, y), 0,
-                   (size_t)t.width * sizeof(float));
 }
 
 static int smaller(int a, int b)
@@ -157,22 +200,48 @@ static int larger(int a, int b)
     return a > b ? a : b;
 }
 
-static void weigh(const struct filter_planes *p, struct filter_tile at,
-                  int from, int step)
+/* Sets weights of a tile to 0. */
+static void clear(const struct filter_planes *p, struct filter_tile t,
+                  float *const weights[FILTER_PAIRS], int k)
 {
-    for (int k = 0; k < PAIRS; k++) {
-        int dx = pairs[k].x * step, dy = pairs[k].y * step;
-        int left = larger(at.x, -dx);
-        int right = smaller(at.x + at.width, p->width - larger(dx, 0));
-        int bottom = smaller(at.y + at.height, p->height - dy);
-        struct tile t = {p,
-                         &p->halves[from],
-                         {left, at.y, right - left, bottom - at.y}};
+    for (int y = t.y; y < t.y + t.height; y++)
+        memset(weights[k] + index_of(p, t.x, y), 0,
+               (size_t)t.width * sizeof(float));
+}
 
-        if (t.at.width < at.width || t.at.height < at.height)
-            clear(p, at, k);
-        if (t.at.width > 0 && t.at.height > 0)
-            weigh_pairs(&t, k, index_of(p, dx, dy));
+/* Computes the weights of a tile in pair k. Those with pixels outside of the
+ * picture are 0. */
+static void weigh_pair(const struct tile *whole, int k, int step,
+                       bool is_opposite)
+{
+    const struct filter_planes *p = whole->planes;
+    struct filter_tile at = whole->at;
+    float *const(*weights)[FILTER_PAIRS] =
+        is_opposite ? p->opposite : p->weights;
+    int dx = pairs[k].x * step, dy = pairs[k].y * step;
+    int before = is_opposite ? larger(dx, -dx) : larger(-dx, 0);
+    int after = is_opposite ? before : larger(dx, 0);
+    int left = larger(at.x, before), top = larger(at.y, is_opposite ? dy : 0);
+    int right = smaller(at.x + at.width, p->width - after);
+    int bottom = smaller(at.y + at.height, p->height - dy);
+    struct tile t = {p, whole->from, {left, top, right - left, bottom - top}};
+
+    if (t.at.width < at.width || t.at.height < at.height)
+        for (int h = 0; h < 2; h++)
+            clear(p, at, weights[h], k);
+    if (t.at.width > 0 && t.at.height > 0)
+        weigh_part(&t, k, index_of(p, dx, dy), is_opposite);
+}
+
+static void weigh(const struct filter_planes *p, struct filter_tile at,
+                  const struct filter_level *level)
+{
+    struct tile t = {p, &p->halves[level->from], at};
+
+    for (int k = 0; k < PAIRS; k++) {
+        weigh_pair(&t, k, level->step, false);
+        if (level->has_opposite)
+            weigh_pair(&t, k, level->step, true);
     }
 }
 
@@ -249,24 +318,56 @@ static struct taps taps_of(const struct filter_planes *p, int h, ptrdiff_t at,
     return t;
 }
 
-/* Averages half h with the weights of the other half. */
-static void average_half(const struct tile *t, int h, int step, bool is_last,
-                         const struct filter_halves *to)
+/* Computes the weights of both pixels of opposite ones. */
+VECTORISED static void join(const float *restrict opposite,
+                            const float *restrict ahead,
+                            const float *restrict behind, float inverse_tap,
+                            int width, float *restrict joined_ahead,
+                            float *restrict joined_behind)
 {
+    for (int x = 0; x < width; x++) {
+        joined_ahead[x] =
+            filter_joined_weight(opposite[x], ahead[x], inverse_tap);
+        joined_behind[x] =
+            filter_joined_weight(opposite[x], behind[x], inverse_tap);
+    }
+}
+
+/* Joins the weights of a row, from half h, with those of opposite pixels. */
+static void join_taps(const struct tile *t, int h, ptrdiff_t at,
+                      float joined[TAPS][WIDTH], struct taps *taps)
+{
+    for (int k = 0; k < PAIRS; k++) {
+        join(t->planes->opposite[h][k] + at, taps->weights[k],
+             taps->weights[PAIRS + k], 1.0f / pairs[k].tap, t->at.width,
+             joined[k], joined[PAIRS + k]);
+        taps->weights[k] = joined[k];
+        taps->weights[PAIRS + k] = joined[PAIRS + k];
+    }
+}
+
+/* Averages half h with the weights of the other half. */
+static void average_half(const struct tile *t, int h,
+                         const struct filter_level *level)
+{
+    const struct filter_halves *to = &t->planes->halves[1 - level->from];
+
     for (int y = 0; y < t->at.height; y++) {
         ptrdiff_t at = index_of(t->planes, t->at.x, t->at.y + y);
-        struct taps taps = taps_of(t->planes, 1 - h, at, step);
-        float inverse[WIDTH];
+        struct taps taps = taps_of(t->planes, 1 - h, at, level->step);
+        float inverse[WIDTH], joined[TAPS][WIDTH];
 
+        if (level->has_opposite)
+            join_taps(t, 1 - h, at, joined, &taps);
         inverse_sums(&taps, t->at.width, inverse);
         for (int c = 0; c < 3; c++)
             average_light(&taps, t->from->light[h][c] + at, inverse,
                           t->at.width, to->light[h][c] + at);
-        if (!is_last)
+        if (!level->is_last)
             average_variance(&taps, t->from->variance[h] + at, inverse,
                              t->at.width, to->variance[h] + at);
     }
-    if (is_last)
+    if (level->is_last)
         return;
     for (int c = 0; c < 3; c++)
         filter_extend(t->planes, to->light[h][c], t->at);
@@ -274,12 +375,12 @@ static void average_half(const struct tile *t, int h, int step, bool is_last,
 }
 
 static void average(const struct filter_planes *p, struct filter_tile at,
-                    int from, int step, bool is_last)
+                    const struct filter_level *level)
 {
-    struct tile t = {p, &p->halves[from], at};
+    struct tile t = {p, &p->halves[level->from], at};
 
     for (int h = 0; h < 2; h++)
-        average_half(&t, h, step, is_last, &p->halves[1 - from]);
+        average_half(&t, h, level);
 }
 
 /* ---- variance ---- */

@@ -12,22 +12,31 @@
 #ifndef GLIM_FILTER_LOOPS_H
 #define GLIM_FILTER_LOOPS_H
 
+#include <stdbool.h>
+
 #include "filter/filter_planes.h"
 #include "kernels/sum.h"
+
+/* A level of the filter. */
+struct filter_level {
+    int from; /* index of the halves that it reads; it writes the others */
+    int step;
+    bool has_opposite; /* opposite pixels have weights of their own */
+    bool is_last;      /* no later level reads the result, and its variance is
+                          of no use */
+};
 
 struct filter_loops {
     /* Computes the variances of halves[0] from its light. */
     void (*variance)(const struct filter_planes *p, struct filter_tile t);
 
-    /* Computes the weights of the pixels of halves[from] with those at a
-     * distance of `step`. */
-    void (*weigh)(const struct filter_planes *p, struct filter_tile t, int from,
-                  int step);
+    /* Computes the weights of the pixels of a tile. */
+    void (*weigh)(const struct filter_planes *p, struct filter_tile t,
+                  const struct filter_level *level);
 
-    /* Filters halves[from] into halves[1 - from] with the weights of all
-     * tiles. The last level needs no variance. */
+    /* Filters a tile with the weights of all tiles. */
     void (*average)(const struct filter_planes *p, struct filter_tile t,
-                    int from, int step, bool is_last);
+                    const struct filter_level *level);
 
     /* Converts sums to floats. */
     void (*convert)(const struct sum *sums, int count, float *to);

@@ -52,6 +52,7 @@ struct filter_planes {
     struct filter_halves halves[2]; /* a level reads one, writes the other */
     /* of a level, from the light of each half */
     float *weights[2][FILTER_PAIRS];
+    float *opposite[2][FILTER_PAIRS];
     float *features[FILTER_FEATURES]; /* scaled by FILTER_x_SCALE */
     float *feature_noise; /* variance of the mean, summed over features */
     float *samples;       /* of each pixel, over the mean of all */

@@ -378,7 +378,8 @@ static void put_row(const struct target *t, int y)
 
 bool screen_filter_show(struct screen_filter *f, struct film *film,
                         struct film *draft, struct film *surfaces,
-                        struct develop how, int levels, struct frame *frame)
+                        struct develop how, enum filter_form form,
+                        struct frame *frame)
 {
     struct films context = {
         f, film, draft, surfaces, atomic_load(&film->samples) == 0, 0.0f};
@@ -390,7 +391,7 @@ bool screen_filter_show(struct screen_filter *f, struct film *film,
         return false;
     screen_halves_begin(&f->halves);
     context.far = film_features_far(surfaces, FAR_STRIDE);
-    filter_run(&f->filter, &source, levels, NULL, f->rgb, NULL);
+    filter_run(&f->filter, &source, form, NULL, f->rgb, NULL);
     if (has_detail(f))
         screen_detail_find(&f->detail, film, f->rgb, f->seen);
     for (int y = 0; y < f->height; y++)

@@ -53,10 +53,6 @@ struct screen_filter {
 void screen_filter_draft_size(int frame_width, int frame_height, int *width,
                               int *height);
 
-/* Levels for a film without a sample in each pixel: the camera may be moving.
- */
-#define SCREEN_FILTER_LEVELS_FAST 4
-
 /* Fills a frame as film_preview() does from film and draft, but filtered.
  * `surfaces` is the draft with surfaces, each pixel of which has a sample; its
  * light counts in the filtered picture. `draft` is that or NULL, as for
@@ -65,7 +61,8 @@ void screen_filter_draft_size(int frame_width, int frame_height, int *width,
  * if the frame enlarges it. Blocks. */
 bool screen_filter_show(struct screen_filter *f, struct film *film,
                         struct film *draft, struct film *surfaces,
-                        struct develop how, int levels, struct frame *frame);
+                        struct develop how, enum filter_form form,
+                        struct frame *frame);
 
 void screen_filter_free(struct screen_filter *f);
 

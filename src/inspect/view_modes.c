@@ -343,19 +343,19 @@ static bool paint_costs(struct view_mode *s, struct frame *frame)
     return true;
 }
 
-/* Returns true if the light in the frame is filtered. */
+/* Returns true if the light in the frame is filtered: fast before the film has
+ * a sample in each pixel, since the camera may be moving. */
 static bool paint_filtered(struct view_mode *s, struct film *film,
                            struct film *draft, struct film *surfaces,
                            struct frame *frame)
 {
     uint64_t pixels = (uint64_t)film->width * (uint64_t)film->height;
-    int levels = atomic_load(&film->samples) < pixels
-                     ? SCREEN_FILTER_LEVELS_FAST
-                     : FILTER_LEVELS;
+    enum filter_form form =
+        atomic_load(&film->samples) < pixels ? FILTER_FAST : FILTER_FULL;
 
     return s->kind == SHOW_LIGHT && surfaces != NULL &&
            screen_filter_show(&s->filter, film, draft, surfaces, develop_of(s),
-                              levels, frame);
+                              form, frame);
 }
 
 /* Without a draft or memory for its numbers the film is shown as light. */

@@ -80,7 +80,7 @@ static void show(struct film *young)
     film_preview(&film, young, develop_linear(0), &raw);
     film_preview(&film, young, develop_linear(0), &clean);
     assert_true(screen_filter_show(&filter, &film, young, &draft,
-                                   develop_linear(0), FILTER_LEVELS, &clean));
+                                   develop_linear(0), FILTER_FULL, &clean));
 }
 
 static float constant_light(float x, float y, uint64_t index)
@@ -286,7 +286,7 @@ static void other_frames_stay(void **state)
     assert_true(frame_init(&other, WIDTH - 1, HEIGHT, &err));
     memset(other.rgb, 77, BYTES - 3 * HEIGHT);
     assert_false(screen_filter_show(&filter, &film, &draft, &draft,
-                                    develop_linear(0), FILTER_LEVELS, &other));
+                                    develop_linear(0), FILTER_FULL, &other));
     for (int i = 0; i < BYTES - 3 * HEIGHT; i++)
         assert_int_equal(other.rgb[i], 77);
     frame_free(&other);
