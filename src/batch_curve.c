@@ -158,7 +158,7 @@ static bool add_point(struct measurement *m, struct error *err)
         return batch_fail_as(err, &why);
     curve_add(&m->curve, &render, &pair, &m->own);
     curve_write_row(stdout, &m->curve.points[m->curve.count - 1]);
-    return print_finish(stdout, err); /* a reader that has gone ends the measurement */
+    return print_finish(stdout, err); /* the reader may have gone */
 }
 
 static bool measure(struct measurement *m, struct error *err)
