@@ -17,6 +17,19 @@ kind map.hdr
 run_untimed -b -w 20 -h 10 -s 2 --ansi 8x4 -o box.ans --error-map text.png \
     box.obj
 kind text.png
+# The root mean square of the map is the error of the picture, but for means at
+# the sides of the picture. Both are relative to the exposed white.
+for exposure in -5 0 5; do
+    glim -b -w 40 -h 30 -s 16 --exposure $exposure --error-map map.pfm \
+        --stats run.json -o box.png box.obj 2>/dev/null
+    error=$(sed -n 's/.*"error": \(.*\),/\1/p' run.json)
+    floats map.pfm 40 30 | awk -v error="$error" '{ squares += $1 * $1 }
+        END { map = sqrt(squares / NR)
+            if (map < 1.1 * error && error < 1.1 * map) print "the same error"
+            else print "found " map " and " error }'
+    echo "$error" >>errors
+done
+awk '$1 > 1.3 * last { more++ } { last = $1 } END { print more, "rise" }' errors
 b="-b -w 8 -h 4 -s 1000000000"
 run --error-map map.png box.obj
 run $b --error-map map.jpg box.obj

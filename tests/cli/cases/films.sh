@@ -53,7 +53,8 @@ run merge --denoise b.film -o n.film
 
 # what films say of themselves: the error of the render, whether they can be
 # filtered, and the limit that they have reached
-render=$(glim $b --film a.film -o a.png box.obj 2>&1 | sed 's/.*error //')
+render=$(glim $b --exposure 3 --film a.film -o a.png box.obj 2>&1 |
+    sed 's/.*error //')
 merge=$(glim merge -o m.png a.film 2>&1 | sed 's/.*error //')
 info=$(glim info a.film | sed -n 's/^  error *//p')
 case $render in
