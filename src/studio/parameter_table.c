@@ -343,7 +343,7 @@ static const struct parameter_row lamp_rows[] = {
     {"angle", OF_DIRECTIONAL, VALUE_NUMBER, &scale_disc, LAMP(angle_deg)},
 };
 
-#define COUNT(rows) ((int)(sizeof rows / sizeof rows[0]))
+#define COUNT(rows) ((int)(sizeof(rows) / sizeof(rows)[0]))
 
 static const struct {
     const struct parameter_row *rows;
