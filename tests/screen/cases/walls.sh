@@ -40,7 +40,7 @@ until awk "BEGIN { exit !($(eye_z) > 6.1) }"; do
     keys s s s
 done
 keys r
-wait_for "  the view as it was opened"
+wait_for " the view as it was opened"
 reject "through walls"
 z=$(eye_z)
 [ "$z" = 5.7 ] || die "r came to $z, expected 5.7"
