@@ -11,3 +11,9 @@ tr '\r' '\n' <log | grep -c '^ *0 % \[-*\] [0-9]* of' |
 tr '\r' '\n' <log | grep spp | awk 'length > 59 && !/stopped/ { print "too wide: " $0 }'
 grep 'stopped by' log | tr '\r' '\n' | grep 'stopped' |
     sed 's/ at [0-9]* of/ at N of/' | untimed
+# the noise, and the time left of the nearest limit
+script -q -c 'stty cols 100; glim -b -w 40 -h 30 --time 1.5 -e 1e-9% \
+    -s 1000000000 -o out.png box.obj' log >/dev/null 2>&1
+bar='^ *[0-9]* % \[#*-*\] [0-9]* of 1000000000 spp, [0-9.]* Msamples/s, 0:0[01]'
+tr '\r' '\n' <log | grep -c "$bar, left 0:0[012], noise [0-9.]* %\$" |
+    awk '{ print ($1 >= 2 ? "noise and time left" : $1 " bars") }'
