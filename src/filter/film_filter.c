@@ -157,8 +157,19 @@ struct estimate {
     struct source source;
     float *rgb, *variance;
     float *squares; /* of all pixels of the film */
-    float floor;    /* added to the square of the light */
+    float factor;   /* of the exposure */
 };
+
+/* Square of the light, relative to white, that is black on the screen, and the
+ * limit of squares that are added. */
+#define FLOOR   0.01f
+#define LARGEST 1e34f
+
+/* Returns a square of light, relative to white. */
+static float white_square(const struct estimate *e, float square)
+{
+    return f_min(square * e->factor * e->factor, LARGEST);
+}
 
 /* Returns the squared relative error of pixel `at` of the film, from its
  * filtered light and its variance. Seen light, which is not filtered, has that
@@ -177,8 +188,8 @@ static float relative_square(const struct estimate *e, size_t at,
         float light = rgb[c] + seen / (even_count + odd_count);
         float difference = 0.5f * ((seen - odd) / even_count - odd / odd_count);
 
-        sum += (variance[c] + difference * difference) /
-               (light * light + e->floor);
+        sum += white_square(e, variance[c] + difference * difference) /
+               (white_square(e, light * light) + FLOOR);
     }
     return sum * (1.0f / 3.0f);
 }
@@ -209,12 +220,11 @@ bool film_filter_squares(struct film *f, float exposure, int colour,
                          float *squares, bool *is_known, struct error *err)
 {
     size_t floats = 3 * (size_t)(f->width / 2) * (size_t)f->height;
-    float black = 0.1f / develop_factor(develop_linear(exposure));
     struct estimate e = {.source = {f, film_features_far(f, 1), colour},
                          .rgb = alloc_array(floats, sizeof *e.rgb),
                          .variance = alloc_array(floats, sizeof *e.variance),
                          .squares = squares,
-                         .floor = black * black};
+                         .factor = develop_factor(develop_linear(exposure))};
     const struct filter_source source = {&e.source, 2, give_features,
                                          give_light, cancel};
     struct filter filter;

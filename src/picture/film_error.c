@@ -19,8 +19,13 @@
 /* Instead of a colour of a chess board: the pixels of both. */
 #define ALL (-1)
 
-/* Limit of means and differences, below which sums of squares are finite. */
-#define LARGEST 1e18f
+/* Limits of means and differences, below which sums of squares are finite, and
+ * of weighted differences, below which sums of third powers are. */
+#define LARGEST          1e18f
+#define LARGEST_WEIGHTED 1e12f
+
+/* Square of the light, relative to white, that is black on the screen. */
+#define FLOOR 0.01f
 
 /* Deviations from the mean to the ends of the 95 % interval of the normal
  * distribution. */
@@ -36,8 +41,10 @@
 #define BINS 1024
 
 /* Means x and half differences e of a tile and the pixels around it, for each
- * channel. Pixels beyond the film are 0 and have is_inside 0. */
+ * channel, relative to white. Pixels beyond the film are 0 and have is_inside
+ * 0. */
 struct tile {
+    float factor;              /* of the exposure */
     int x0, y0, width, height; /* without the pixels around */
     int colour; /* of a chess board, whose other pixels are left out; or ALL */
     bool is_known;
@@ -81,8 +88,9 @@ static bool read_pixel(struct tile *t, int row, int column,
     if (!film_pixel_error(f, at, mean, e))
         return false;
     for (int c = 0; c < 3; c++) {
-        t->mean[c][row][column] = mean[c];
-        t->e[c][row][column] = e[c];
+        t->mean[c][row][column] = f_min(mean[c] * t->factor, LARGEST);
+        t->e[c][row][column] =
+            f_max(f_min(e[c] * t->factor, LARGEST), -LARGEST);
     }
     t->is_inside[row][column] = 1.0f;
     return true;
@@ -105,10 +113,11 @@ static void read_row(struct tile *t, struct film *f, int row)
     film_unlock_row(f, y);
 }
 
-static void read_tile(struct tile *t, struct film *f, int colour, int x0,
-                      int y0)
+static void read_tile(struct tile *t, struct film *f, float exposure,
+                      int colour, int x0, int y0)
 {
     memset(t, 0, sizeof *t);
+    t->factor = develop_factor(develop_linear(exposure));
     t->colour = colour;
     t->x0 = x0;
     t->y0 = y0;
@@ -141,10 +150,10 @@ static void sum_around(float values[WIDE][WIDE], int y, float sums[SIDE])
  * halves. */
 #define OWN_SHARE 0.25f
 
-/* Weighs a channel by the roots of 1 / (m^2 + floor). The weights are corrected
+/* Weighs a channel by the roots of 1 / (m^2 + FLOOR). The weights are corrected
  * for the noise of m, which enlarges their mean by a few per cent at a few
  * samples: that is the second term of Taylor's series. */
-static void weigh(struct tile *t, int c, float floor, float to[SIDE][SIDE])
+static void weigh(struct tile *t, int c, float to[SIDE][SIDE])
 {
     float squares[WIDE][WIDE];
     float count[SIDE], mean[SIDE], square[SIDE];
@@ -164,12 +173,13 @@ static void weigh(struct tile *t, int c, float floor, float to[SIDE][SIDE])
             float e = t->e[c][y + HALO][x + HALO];
             float m = f_max(around, OWN_SHARE * (own - fabsf(e)));
             float variance = (square[x] - own_square) / (others * others);
-            float w = 1.0f / (m * m + floor);
-            float curve = (3.0f * m * m - floor) * w * w;
+            float w = 1.0f / (m * m + FLOOR);
+            float curve = (3.0f * m * m - FLOOR) * w * w;
             float change = m > around ? 0.0f : -curve * variance;
 
             change = f_max(f_min(change, 0.5f), -0.5f);
-            to[y][x] = e * sqrtf(w * (1.0f + change));
+            e *= sqrtf(w * (1.0f + change));
+            to[y][x] = f_max(f_min(e, LARGEST_WEIGHTED), -LARGEST_WEIGHTED);
         }
     }
 }
@@ -333,14 +343,12 @@ struct job {
 static bool take_tile(struct job *j, int x0, int y0, struct tile *t,
                       struct weighted *weighted)
 {
-    double black = 0.1 * exp2(-(double)j->exposure);
-
     if (atomic_load(&j->is_unknown) ||
         (j->cancel != NULL && cancel_requested(j->cancel)))
         return false;
-    read_tile(t, j->film, j->colour, x0, y0);
+    read_tile(t, j->film, j->exposure, j->colour, x0, y0);
     for (int c = 0; c < 3; c++)
-        weigh(t, c, (float)(black * black), weighted->e[c]);
+        weigh(t, c, weighted->e[c]);
     if (!t->is_known)
         atomic_store(&j->is_unknown, true);
     return t->is_known;

@@ -53,8 +53,13 @@ static void check_film(struct film_file *f)
     char *bytes;
 
     check_picture(&f->film);
-    require(film_error(&f->film, 0, NULL, NULL, &e, &err), err.text);
-    require(!e.is_known || isfinite(e.error), "the error");
+    for (int exposure = -100; exposure <= 100; exposure += 100) {
+        require(film_error(&f->film, (float)exposure, NULL, NULL, &e, &err),
+                err.text);
+        require(!e.is_known || (e.low >= 0 && e.low <= e.error &&
+                                e.error <= e.high && isfinite(e.high)),
+                "the error");
+    }
     bytes =
         film_file_bytes(&f->header, &f->film, lend, f->shares, &written, &err);
     require(bytes != NULL, err.text);

@@ -145,12 +145,13 @@ static float spread_light(int x, int y, uint64_t index)
     return ((uint32_t)(x + y) & 1) == changed_colour ? change * l : l;
 }
 
-static void take_squares(struct film *f, int colour, float *squares)
+static void take_squares(struct film *f, float exposure, int colour,
+                         float *squares)
 {
     struct error err;
     bool is_known = false;
 
-    check_or_say(film_filter_squares(f, 0, colour, NULL, NULL, squares,
+    check_or_say(film_filter_squares(f, exposure, colour, NULL, NULL, squares,
                                      &is_known, &err),
                  err.text);
     assert_true(is_known);
@@ -177,7 +178,7 @@ static void errors_are_those_of_a_colour(void **state)
                 assert_true(film_init(&f, width, HEIGHT, &err));
                 assert_true(film_init_surfaces(&f, &err));
                 add_samples(&f, 0, 16, spread_light);
-                take_squares(&f, (int)colour, squares[k]);
+                take_squares(&f, 0, (int)colour, squares[k]);
                 film_free(&f);
             }
             for (int i = 0; i < width * HEIGHT; i++) {
@@ -211,12 +212,36 @@ static void errors_follow_the_noise(void **state)
         deviation = deviations[k];
         film_clear(&f);
         add_samples(&f, 0, 16, spread_light);
-        take_squares(&f, 0, squares);
+        take_squares(&f, 0, 0, squares);
         for (int i = 0; i < WIDTH * HEIGHT; i++)
             sums[k] += (double)squares[i];
     }
     check_close(sums[1] / sums[0], 1, 0.02);
     check_close(sums[2] / sums[0], 4, 0.3);
+    film_free(&f);
+}
+
+/* The light of black pixels is divided by that of white, whose square would
+ * underflow and overflow. */
+static void extreme_exposures_have_numbers(void **state)
+{
+    static float squares[WIDTH * HEIGHT];
+    struct film f;
+
+    (void)state;
+    open_film(&f);
+    changed_colour = 2;
+    level = deviation = 0;
+    for (int k = 0; k < 3; k++) {
+        add_samples(&f, (uint64_t)(16 * k), 16, spread_light);
+        for (int exposure = -100; exposure <= 100; exposure += 50) {
+            take_squares(&f, (float)exposure, 0, squares);
+            for (int i = 0; i < WIDTH * HEIGHT; i++)
+                assert_true(squares[i] >= 0 && isfinite(squares[i]));
+        }
+        level = k == 0 ? 1 : 1e15f;
+        deviation = level;
+    }
     film_free(&f);
 }
 
@@ -235,7 +260,7 @@ static void seen_light_has_its_own_error(void **state)
     seen_share = 1;
     open_film(&f);
     add_samples(&f, 0, 16, striped_light);
-    take_squares(&f, 1, squares);
+    take_squares(&f, 0, 1, squares);
     for (int x = 1; x < WIDTH; x += 2) {
         check_at_most((red + green) / 3, (double)squares[x]);
         check_at_most((double)squares[x], (red + green + rest / 20) / 3);
@@ -427,6 +452,7 @@ int main(void)
         cmocka_unit_test(halves_count_as_their_samples),
         cmocka_unit_test(errors_are_those_of_a_colour),
         cmocka_unit_test(errors_follow_the_noise),
+        cmocka_unit_test(extreme_exposures_have_numbers),
         cmocka_unit_test(seen_light_has_its_own_error),
         cmocka_unit_test(noise_falls_on_each_surface),
         cmocka_unit_test(lamps_stay_sharp),

@@ -246,6 +246,20 @@ static void maps_show_where_the_noise_is(void **state)
     film_free(&film);
 }
 
+static void assert_has_numbers(struct film *film, float exposure)
+{
+    struct film_error e = error_of(film, exposure);
+    float map[64];
+
+    assert_true(e.is_known && isfinite(e.error) && isfinite(e.high));
+    assert_true(e.low >= 0 && e.low <= e.error && e.error <= e.high);
+    assert_true(film_error_map(film, exposure, NULL, map));
+    for (int k = 0; k < film->width * film->height; k++)
+        assert_true(isfinite(map[k]));
+}
+
+/* Small ones, black channels, light near the largest float in one half only,
+ * and extreme exposures. */
 static void odd_pictures_have_numbers(void **state)
 {
     const int sides[][2] = {{1, 1}, {1, 5}, {33, 1}, {3, 2}};
@@ -256,22 +270,20 @@ static void odd_pictures_have_numbers(void **state)
                                          {.radiance = {0, 0, 0}},
                                          {.radiance = {1, 0, 1e30f}},
                                          {.radiance = {1, 0, 1}}};
-        float map[64];
         struct film film;
-        struct film_error e;
         struct error err;
 
         assert_true(film_init(&film, sides[i][0], sides[i][1], &err));
-        for (int y = 0; y < sides[i][1]; y++)
-            for (int x = 0; x < sides[i][0]; x++)
-                film_add_row(&film, x, y, 1, 1, samples, NULL,
-                             (const int[]){4});
-        e = error_of(&film, 0);
-        assert_true(e.is_known && isfinite(e.error) && isfinite(e.high));
-        assert_true(e.low >= 0 && e.low <= e.error && e.error <= e.high);
-        assert_true(film_error_map(&film, 0, NULL, map));
-        for (int k = 0; k < sides[i][0] * sides[i][1]; k++)
-            assert_true(isfinite(map[k]));
+        for (int pass = 0; pass < 2; pass++) {
+            for (int y = 0; y < sides[i][1]; y++)
+                for (int x = 0; x < sides[i][0]; x++)
+                    film_add_row(&film, x, y, 1, 1, samples, NULL,
+                                 (const int[]){4});
+            for (int exposure = -100; exposure <= 100; exposure += 50)
+                assert_has_numbers(&film, (float)exposure);
+            samples[0].radiance = v3(3e38f, 3e38f, 3e38f);
+            samples[2].radiance = v3(3e38f, 3e38f, 3e38f);
+        }
         film_free(&film);
     }
 }
