@@ -98,6 +98,10 @@ geometry|slivers, huge and tiny triangles, coplanar faces, far origins, edges
 light|lamps and skies of extreme size, brightness and distance
 error|whether the stated error is true, over 200 renders of each scene
 filter|whether filtered pictures have less error, at 4 to 4,096 samples
+gltf|regions of glTF scenes beside the pictures of Cycles and Mitsuba
+blender|materials that Blender exports, beside its own pictures
+films|renders that stop, move, are killed and cut in pieces: the same bytes
+schedulers|the recipes for clusters
 extremes|random scenes of extreme numbers: not one value that is not finite
 sizes|pictures of 1x1 to 65536x65536 pixels under a limit of memory
 keys|random keys on the screen
