@@ -25,7 +25,7 @@
 #include "base/error.h"
 
 /* Limits on each side of an image and on its pixels. */
-#define IMAGE_SIDE_MAX   32768
+#define IMAGE_SIDE_MAX   65536
 #define IMAGE_PIXELS_MAX (256u << 20)
 
 enum image_kind {

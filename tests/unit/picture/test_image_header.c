@@ -194,21 +194,21 @@ static void hdr_files_too_short_for_their_size_are_refused(void **state)
 {
     static const char head[] =
         "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16384 +X 16384\n123456789";
-    char whole[100] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 32768\n";
+    char whole[100] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 65536\n";
     size_t length = strlen(whole);
 
     (void)state;
     put_bytes("a.hdr", head, sizeof head - 1);
     fails("a.hdr", "a.hdr: found 9 bytes of pixels, expected more for "
                    "16384x16384");
-    /* The fewest bytes of the longest row: a pixel, and runs of 255 and of 127
-     * * 256 pixels, 32768 in all. */
-    memcpy(whole + length, "abcd\1\1\1\xff\1\1\1\x7f", 12);
+    /* The fewest bytes of the longest row: a pixel, and runs of 255 and of 255
+     * * 256 pixels, 65536 in all. */
+    memcpy(whole + length, "abcd\1\1\1\xff\1\1\1\xff", 12);
     put_bytes("a.hdr", whole, length + 12);
-    reads("a.hdr", 32768, 1);
+    reads("a.hdr", 65536, 1);
     put_bytes("a.hdr", whole, length + 11);
     fails("a.hdr", "a.hdr: found 11 bytes of pixels, expected more for "
-                   "32768x1");
+                   "65536x1");
 }
 
 /* An image that does not fit into the budget is refused before it is

@@ -162,7 +162,7 @@ static void broken_files_have_their_message(void **state)
           "a.img: found 16 bytes, expected more for 2x1 pixels");
     fails("P2 2 1 9\n9 x", 12, "a.img: found a bad value, expected 2 up to 9");
     fails("P2 2 1 9\n9 10", 13, "a.img: found a bad value, expected 2 up to 9");
-    fails(sample, 6, "a.img: found 0x0 pixels, expected sides of 1 to 32768");
+    fails(sample, 6, "a.img: found 0x0 pixels, expected sides of 1 to 65536");
     fails(sample, sizeof sample - 6, "a.img: found a broken GIF image");
     fails(sample, 20, "a.img: found a broken GIF image");
     fails("GIF89a\xff\x7f\xff\x7f", 10,

@@ -278,8 +278,8 @@ static void pfm_values_are_exact(void **state)
               "head.pfm: expected width, height and scale after 'PF'");
     put_text("huge.pfm", "PF\n99999999999 1\n-1\n");
     both_fail("huge.pfm", "huge.pfm: found a side of 1e+11 pixels");
-    put_text("wide.pfm", "PF\n40000 1\n-1\n");
-    both_fail("wide.pfm", "expected sides of 1 to 32768");
+    put_text("wide.pfm", "PF\n70000 1\n-1\n");
+    both_fail("wide.pfm", "expected sides of 1 to 65536");
 }
 
 /* Writes a signature and an IHDR whose CRC stb ignores. */
@@ -305,8 +305,8 @@ static void unreadable_files_have_their_message(void **state)
     both_fail("empty.png", "empty.png: found no image that can be read");
     put_text("text.png", "This is not a picture at all, it is text.\n");
     both_fail("text.png", "text.png: found no image that can be read");
-    put_png_header("wide.png", 65535, 65535);
-    both_fail("wide.png", "wide.png: found 65535x65535 pixels, expected sides");
+    put_png_header("wide.png", 65537, 65535);
+    both_fail("wide.png", "wide.png: found 65537x65535 pixels, expected sides");
     put_png_header("large.png", 32768, 32767);
     both_fail("large.png", "large.png: found 32768x32767 pixels, expected");
     put_png_header("cut.png", 16, 16);
