@@ -288,6 +288,23 @@ static void odd_pictures_have_numbers(void **state)
     }
 }
 
+/* Films from files can have halves that cancel each other. */
+static void halves_of_unequal_signs_have_numbers(void **state)
+{
+    struct film film;
+    struct error err;
+
+    (void)state;
+    assert_true(film_init(&film, 3, 2, &err));
+    for (int i = 0; i < 6; i++) {
+        film.counts[i] = 2;
+        for (int c = 0; c < 3; c++)
+            film.odd_sums[3 * i + c].hi = UINT64_C(1) << 62;
+    }
+    assert_has_numbers(&film, 0);
+    film_free(&film);
+}
+
 static void assert_same_error(struct film_error a, struct film_error b)
 {
     assert_true(a.is_known == b.is_known && a.is_resolved == b.is_resolved);
@@ -334,6 +351,7 @@ int main(void)
         cmocka_unit_test(half_of_the_error_in_a_thousandth_is_unresolved),
         cmocka_unit_test(maps_show_where_the_noise_is),
         cmocka_unit_test(odd_pictures_have_numbers),
+        cmocka_unit_test(halves_of_unequal_signs_have_numbers),
         cmocka_unit_test(threads_give_the_same_bits),
     };
 
