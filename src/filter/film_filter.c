@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "filter/film_features.h"
 #include "filter/filter.h"
+#include "picture/film_error.h"
 
 struct source {
     struct film *film;
@@ -160,9 +161,7 @@ struct estimate {
     float factor;   /* of the exposure */
 };
 
-/* Square of the light, relative to white, that is black on the screen, and the
- * limit of squares that are added. */
-#define FLOOR   0.01f
+/* Limit of squares that are added. */
 #define LARGEST 1e34f
 
 /* Returns a square of light, relative to white. */
@@ -189,7 +188,7 @@ static float relative_square(const struct estimate *e, size_t at,
         float difference = 0.5f * ((seen - odd) / even_count - odd / odd_count);
 
         sum += white_square(e, variance[c] + difference * difference) /
-               (white_square(e, light * light) + FLOOR);
+               (white_square(e, light * light) + FILM_ERROR_BLACK);
     }
     return sum * (1.0f / 3.0f);
 }

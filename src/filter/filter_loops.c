@@ -104,47 +104,61 @@ static void row_distances(const struct tile *t, int h, ptrdiff_t away,
     }
 }
 
-/* Computes the distances of features of a row and the row `away`. */
-VECTORISED static void feature_distances(float *const features[FILTER_FEATURES],
-                                         const float *restrict noise,
-                                         ptrdiff_t at, ptrdiff_t away,
-                                         int width, float *restrict distance)
+/* Features of a row, and their noise. */
+struct feature_row {
+    const float *features[FILTER_FEATURES];
+    const float *noise;
+};
+
+static struct feature_row features_at(const struct filter_planes *p,
+                                      ptrdiff_t at)
 {
-    const float *restrict f[FILTER_FEATURES];
+    struct feature_row row = {.noise = p->feature_noise + at};
 
     for (int i = 0; i < FILTER_FEATURES; i++)
-        f[i] = features[i] + at;
-    noise += at;
-    for (int x = 0; x < width; x++) {
-        float sum = 0.0f;
-
-        for (int i = 0; i < FILTER_FEATURES; i++)
-            sum += (f[i][x] - f[i][x + away]) * (f[i][x] - f[i][x + away]);
-        distance[x] = filter_feature_distance(sum, noise[x], noise[x + away]);
-    }
+        row.features[i] = p->features[i] + at;
+    return row;
 }
 
-/* Computes the distances of features of a row and the opposite rows `away`. */
-VECTORISED static void opposite_features(float *const features[FILTER_FEATURES],
-                                         const float *restrict noise,
-                                         ptrdiff_t at, ptrdiff_t away,
-                                         int width, float *restrict distance)
+/* Computes the distances of features of a row and the row `away`. */
+VECTORISED static void feature_distances(const struct feature_row *row,
+                                         ptrdiff_t away, int width,
+                                         float *restrict distance)
 {
-    const float *restrict f[FILTER_FEATURES];
+    const struct feature_row r = *row;
 
-    for (int i = 0; i < FILTER_FEATURES; i++)
-        f[i] = features[i] + at;
-    noise += at;
     for (int x = 0; x < width; x++) {
         float sum = 0.0f;
 
         for (int i = 0; i < FILTER_FEATURES; i++) {
-            float d = f[i][x + away] + f[i][x - away] - 2.0f * f[i][x];
+            float d = r.features[i][x] - r.features[i][x + away];
 
             sum += d * d;
         }
-        distance[x] = filter_opposite_features(sum, noise[x], noise[x + away],
-                                               noise[x - away]);
+        distance[x] =
+            filter_feature_distance(sum, r.noise[x], r.noise[x + away]);
+    }
+}
+
+/* Computes the distances of features of a row and the opposite rows `away`. */
+VECTORISED static void opposite_features(const struct feature_row *row,
+                                         ptrdiff_t away, int width,
+                                         float *restrict distance)
+{
+    const struct feature_row r = *row;
+
+    for (int x = 0; x < width; x++) {
+        float sum = 0.0f;
+
+        for (int i = 0; i < FILTER_FEATURES; i++) {
+            float d = r.features[i][x + away] + r.features[i][x - away] -
+                      2.0f * r.features[i][x];
+
+            sum += d * d;
+        }
+        distance[x] =
+            filter_opposite_features(sum, r.noise[x], r.noise[x + away],
+                                     r.noise[x - away]);
     }
 }
 
@@ -172,12 +186,11 @@ static void weigh_part(const struct tile *t, int k, ptrdiff_t away,
         row_distances(t, h, away, is_opposite, distances[h]);
     for (int y = 0; y < t->at.height; y++) {
         ptrdiff_t at = index_of(t->planes, t->at.x, t->at.y + y);
+        struct feature_row row = features_at(t->planes, at);
         float features[WIDTH];
 
         (is_opposite ? opposite_features
-                     : feature_distances)(t->planes->features,
-                                          t->planes->feature_noise, at, away,
-                                          t->at.width, features);
+                     : feature_distances)(&row, away, t->at.width, features);
         for (int h = 0; h < 2; h++) {
             float(*rows)[WIDTH] = distances[h] + y;
 

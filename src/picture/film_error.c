@@ -24,9 +24,6 @@
 #define LARGEST          1e18f
 #define LARGEST_WEIGHTED 1e12f
 
-/* Square of the light, relative to white, that is black on the screen. */
-#define FLOOR 0.01f
-
 /* Deviations from the mean to the ends of the 95 % interval of the normal
  * distribution. */
 #define DEVIATIONS 1.96
@@ -154,9 +151,9 @@ static void sum_around(float values[WIDE][WIDE], int y, float sums[SIDE])
  * halves. */
 #define OWN_SHARE 0.25f
 
-/* Weighs a channel by the roots of 1 / (m^2 + FLOOR). The weights are corrected
- * for the noise of m, which enlarges their mean by a few per cent at a few
- * samples: that is the second term of Taylor's series. */
+/* Weighs a channel by the roots of 1 / (m^2 + FILM_ERROR_BLACK). The weights
+ * are corrected for the noise of m, which enlarges their mean by a few per cent
+ * at a few samples: that is the second term of Taylor's series. */
 static void weigh(struct tile *t, int c, float to[SIDE][SIDE])
 {
     float squares[WIDE][WIDE];
@@ -177,8 +174,8 @@ static void weigh(struct tile *t, int c, float to[SIDE][SIDE])
             float e = t->e[c][y + HALO][x + HALO];
             float m = f_max(around, OWN_SHARE * (own - fabsf(e)));
             float variance = (square[x] - own_square) / (others * others);
-            float w = 1.0f / (m * m + FLOOR);
-            float curve = (3.0f * m * m - FLOOR) * w * w;
+            float w = 1.0f / (m * m + FILM_ERROR_BLACK);
+            float curve = (3.0f * m * m - FILM_ERROR_BLACK) * w * w;
             float change = m > around ? 0.0f : -curve * variance;
 
             change = f_max(f_min(change, 0.5f), -0.5f);

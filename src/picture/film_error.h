@@ -31,6 +31,9 @@
 #include "base/thread_pool.h"
 #include "picture/film.h"
 
+/* Square of the light, relative to white, that is black on the screen. */
+#define FILM_ERROR_BLACK 0.01f
+
 struct film_error {
     bool is_known; /* every pixel has a sample in each half */
     /* Few pixels do not carry most of the error. Otherwise light that few

@@ -15,8 +15,8 @@ static double tracing_ns(const struct render_progress *p)
                                       : 0;
 }
 
-/* Returns the time of a sample: at the speed of late, or else at the mean one.
- * It is 0 before the first sample. */
+/* Returns the time of a sample, of the latter part of the render if that is
+ * known, else the mean one. It is 0 before the first sample. */
 static double sample_ns(const struct render_progress *p)
 {
     double late_ns = render_trend_sample_ns(&p->trend);

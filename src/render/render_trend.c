@@ -10,8 +10,8 @@
  * adaptive renders of the 13 scenes of scenes/ that ended at 24 to 504 samples,
  * 10 % were wrong by more than 20 %, near the end by 20 % of a tenth of the
  * way: most of chess, where rare light goes on to be found, and 1 to 4 % in
- * half of the scenes.
- * Without the exponential it was 17 %, over samples instead of time 20 %. */
+ * half of the scenes. Without the exponential it was 17 %, over samples instead
+ * of time 20 %. */
 #define FIT_MAX     1.2
 #define FIT_SHARE   0.5
 #define WIDTH_SHARE 1.3
