@@ -106,8 +106,6 @@ static double alpha(const struct mtl_source *s,
 
         return pr * pr;
     }
-    if (mtl_source_map(s, MTL_MAP_PR) != NO_INDEX)
-        return 1;
     if (is_of_blender(s) && s->ns.line != 0) {
         double roughness = 1 - sqrt(fmin(ns, NS_SMOOTH) / NS_SMOOTH);
 
@@ -170,11 +168,6 @@ static bool is_thin(const struct mtl_source *s,
     return statement_unit(&s->tf_thin, "Tf_thin", at) > 0;
 }
 
-static bool has_roughness(const struct mtl_source *s)
-{
-    return s->pr.line != 0 || mtl_source_map(s, MTL_MAP_PR) != NO_INDEX;
-}
-
 /* Sets the absorption of a solid with the colour tf, or Tf_attenuation if that
  * is present, after Tf_distance. Returns false if the distance is absent or
  * 0. */
@@ -194,6 +187,11 @@ static bool attenuate(struct material *m, struct vec3 tf,
     return true;
 }
 
+static bool is_black(const struct vec3 *c)
+{
+    return c->x == 0 && c->y == 0 && c->z == 0;
+}
+
 static void make_glass(struct material *m, uint32_t kind,
                        const struct mtl_source *s,
                        const struct statement_place *at)
@@ -204,7 +202,9 @@ static void make_glass(struct material *m, uint32_t kind,
     if (kind == MATERIAL_GLASS && attenuate(m, m->color, s, at) &&
         s->tf_attenuation.line == 0)
         m->color = (struct vec3){1, 1, 1};
-    if (kind == MATERIAL_GLASS || has_roughness(s))
+    if (is_black(&m->color) && m->color_texture != NO_INDEX)
+        m->color = (struct vec3){1, 1, 1}; /* a factor of map_Kd, as Kd is */
+    if (kind == MATERIAL_GLASS || s->pr.line != 0)
         roughen(m, s, at);
     m->ior = index_of(s, at);
 }
@@ -230,8 +230,7 @@ static bool is_white_or_absent(const struct mtl_color *c)
  * materials of partial opacity. */
 static bool is_sheet(const struct mtl_source *s, int illum)
 {
-    bool has_surface = s->tf.line != 0 || s->kd.line != 0 || s->ks.line != 0 ||
-                       mtl_source_map(s, MTL_MAP_KD) != NO_INDEX;
+    bool has_surface = s->tf.line != 0 || s->kd.line != 0 || s->ks.line != 0;
 
     if (illum != 4 && illum != 9)
         return false;
@@ -247,11 +246,6 @@ static bool is_sheet(const struct mtl_source *s, int illum)
 static bool is_solid_glass(const struct mtl_source *s, int illum)
 {
     return illum == 7 || (illum == 6 && !(is_of_blender(s) && is_partial(s)));
-}
-
-static bool is_black(const struct vec3 *c)
-{
-    return c->x == 0 && c->y == 0 && c->z == 0;
 }
 
 /* Returns the reflectance of plastic whose Ks is 1. From Blender 4.0 on, Ks 0.5
@@ -272,13 +266,10 @@ static void make_plastic(struct material *m, const struct vec3 *ks,
                          const struct statement_place *at)
 {
     float full = full_specular(s, at);
-    bool is_map_alone = is_of_blender(s) && s->ks.line == 0;
-    struct vec3 level = is_map_alone ? (struct vec3){1, 1, 1} : *ks;
 
     m->kind = MATERIAL_PLASTIC;
-    m->specular =
-        (struct vec3){fminf(level.x * full, 1), fminf(level.y * full, 1),
-                      fminf(level.z * full, 1)};
+    m->specular = (struct vec3){fminf(ks->x * full, 1), fminf(ks->y * full, 1),
+                                fminf(ks->z * full, 1)};
     m->specular_texture = mtl_source_map(s, MTL_MAP_KS);
     m->specular_weight_texture = mtl_source_map(s, MTL_MAP_KS_WEIGHT);
     roughen(m, s, at);
@@ -303,10 +294,9 @@ static double transmission(struct material *m, const struct mtl_source *s,
     struct vec3 tf;
     float top;
 
-    if (s->tf.line == 0 && mtl_source_map(s, MTL_MAP_TF) == NO_INDEX)
-        return 0;
-    if (is_of_blender(s) ? !has_roughness(s)
-                         : s->pr.line == 0 || (illum != 2 && illum != 3))
+    if (s->tf.line == 0 || s->pr.line == 0 ||
+        (!is_of_blender(s) &&
+         (s->pr.line == MTL_IMPLIED || (illum != 2 && illum != 3))))
         return 0;
     m->transmission_texture = mtl_source_map(s, MTL_MAP_TF);
     tf = statement_reflectance(&s->tf, "Tf", 1, at);
@@ -324,14 +314,12 @@ static double transmission(struct material *m, const struct mtl_source *s,
 static double metalness(const struct mtl_source *s, int illum,
                         const struct statement_place *at)
 {
-    bool has_map = mtl_source_map(s, MTL_MAP_PM) != NO_INDEX;
     double ka = s->ka.line != 0 ? statement_clamped(s->ka.rgb[0]) : 1;
 
     if (s->pm.line != 0 || !is_of_blender(s))
-        return s->pm.line == 0 && has_map ? 1
-                                          : statement_unit(&s->pm, "Pm", at);
-    if (has_map || illum == 3 || illum == 6)
-        return has_map ? 1 : ka;
+        return statement_unit(&s->pm, "Pm", at);
+    if (illum == 3 || illum == 6)
+        return ka;
     return illum == 1 && ka < 1 ? ka : 0; /* Ks is 0 */
 }
 
@@ -341,7 +329,7 @@ static void set_film(struct material *m, bool has_facets,
                      const struct mtl_source *s,
                      const struct statement_place *at)
 {
-    double weight = statement_weight(s, &s->pf, "Pf", MTL_MAP_PF, at);
+    double weight = statement_unit(&s->pf, "Pf", at);
     double ior = statement_within(&s->pf_ior, "Pf_ior", 1,
                                   MATERIAL_FILM_IOR_MAX, MATERIAL_FILM_IOR, at);
     double thickness = statement_within(&s->pf_thickness, "Pf_thickness", 0,
@@ -373,9 +361,7 @@ static void set_sheen_and_grain(struct material *m, const struct mtl_source *s,
                                 const struct statement_place *at)
 {
     uint32_t map = sheen_map(s);
-    float ps = s->ps.line == 0 && map != NO_INDEX
-                   ? 1
-                   : (float)statement_unit(&s->ps, "Ps", at);
+    float ps = (float)statement_unit(&s->ps, "Ps", at);
     struct vec3 color = statement_reflectance(&s->ps_color, "Ps_color", 1, at);
     double roughness =
         s->ps_roughness.line != 0
@@ -405,12 +391,12 @@ static bool make_principled(struct material *m, int illum, bool has_ks,
                             const struct statement_place *at)
 {
     struct mtl_number pc = {s->pc.value / mtl_source_full_coat(s), s->pc.line};
-    double pcr = statement_weight(s, &s->pcr, "Pcr", MTL_MAP_PCR, at);
+    double pcr = statement_unit(&s->pcr, "Pcr", at);
 
     m->metal_texture = mtl_source_map(s, MTL_MAP_PM);
     m->metalness = (float)metalness(s, illum, at);
     m->transmission = (float)transmission(m, s, illum, at);
-    m->coat = (float)statement_weight(s, &pc, "Pc", MTL_MAP_PC, at);
+    m->coat = (float)statement_unit(&pc, "Pc", at);
     m->coat_texture = mtl_source_map(s, MTL_MAP_PC);
     if (m->coat > 0) {
         m->coat_alpha = (float)(pcr * pcr);
@@ -432,7 +418,6 @@ static void make_opaque(struct material *m, int illum,
                         const struct mtl_source *s,
                         const struct statement_place *at)
 {
-    uint32_t map_kd = mtl_source_map(s, MTL_MAP_KD);
     uint32_t map_ks = mtl_source_map(s, MTL_MAP_KS);
     struct vec3 ks = statement_reflectance(&s->ks, "Ks", 0, at);
     bool has_ks = !is_black(&ks) || map_ks != NO_INDEX;
@@ -448,10 +433,8 @@ static void make_opaque(struct material *m, int illum,
                      s->d.line != 0 ? s->d.value : s->tr.value);
     m->opacity_texture = mtl_source_map(s, MTL_MAP_D);
     m->cutoff = (float)statement_unit(&s->d_cutoff, "d_cutoff", at);
-    m->color =
-        statement_reflectance(&s->kd, "Kd",
-                              map_kd != NO_INDEX ? 0 : MATERIAL_GREY, at);
-    m->color_texture = map_kd;
+    m->color = statement_reflectance(&s->kd, "Kd", MATERIAL_GREY, at);
+    m->color_texture = mtl_source_map(s, MTL_MAP_KD);
     if (m->metalness == 1 && !is_principled) {
         m->kind = MATERIAL_METAL;
         roughen(m, s, at);
@@ -490,7 +473,7 @@ static void check_map(const struct mtl_source *s, enum mtl_map which,
                      at->path, mtl_map_keys[which]);
 }
 
-struct material material_from_source(const struct mtl_source *s,
+struct material material_from_source(const struct mtl_source *source,
                                      const char *path, struct warnings *report)
 {
     static const enum mtl_map kind_maps[] = {MTL_MAP_KD,
@@ -511,6 +494,8 @@ struct material material_from_source(const struct mtl_source *s,
                                              MTL_MAP_PC_NORM};
     struct statement_place at = {path, report};
     struct material m = material_default();
+    const struct mtl_source factors = mtl_source_with_factors(source);
+    const struct mtl_source *s = &factors;
     struct mtl_color light = mtl_source_light(s);
     int illum = illumination(s, &at);
 

@@ -21,19 +21,19 @@
  * sheen (weight Ps, roughness Ps_roughness). aniso stretches highlights along
  * u, turned by anisor of a turn. With d_cutoff coverage is 0 or 1.
  *
- * A map multiplies its colour. Roughness alpha is Pr squared; without Pr it is
- * sqrt(2 / (Ns + 2)), or 0 if Ns is absent, 0, or at least 1000. Pr defaults
- * to 1 if there is map_Pr; Pm, Pc, Pcr, Ps and Tf to 1 likewise. With
- * Tf_distance, solid glass has no tint of Tf: Tf is what it leaves of light
- * after this distance. Thin glass is rough with Pr or map_Pr only. In a
- * mixture, Tf_thin above 0 makes its glass a thin sheet; else, with
- * Tf_distance, the weight of glass is the largest channel of Tf, and absorption
- * has the hue of Tf. Tf_attenuation, if present, is what is left of light after
- * Tf_distance, in place of Tf. Ks_full is used in place of MATERIAL_SPECULAR.
- * Ps_color, or map_Ps_color, colours sheen. map_Ks_weight, map_Ps_roughness and
- * map_Pf multiply Ks, Ps_roughness and Pf; map_Pf_thickness goes from
- * Pf_thinnest to Pf_thickness. map_grain turns the grain and reduces aniso.
- * map_Pc_norm bends the normal of the coat, which norm and map_Bump do not.
+ * A map multiplies its statement, which mtl_source_with_factors() completes.
+ * Roughness alpha is Pr squared; without Pr it is sqrt(2 / (Ns + 2)), or 0 if
+ * Ns is absent, 0, or at least 1000. With Tf_distance, solid glass has no tint
+ * of Tf: Tf is what it leaves of light after this distance. Thin glass is rough
+ * with Pr or map_Pr only. In a mixture, Tf_thin above 0 makes its glass a thin
+ * sheet; else, with Tf_distance, the weight of glass is the largest channel of
+ * Tf, and absorption has the hue of Tf. Tf_attenuation, if present, is what is
+ * left of light after Tf_distance, in place of Tf. Ks_full is used in place of
+ * MATERIAL_SPECULAR. Ps_color, or map_Ps_color, colours sheen. map_Ks_weight,
+ * map_Ps_roughness and map_Pf multiply Ks, Ps_roughness and Pf;
+ * map_Pf_thickness goes from Pf_thinnest to Pf_thickness. map_grain turns the
+ * grain and reduces aniso. map_Pc_norm bends the normal of the coat, which norm
+ * and map_Bump do not.
  *
  * In files of Blender (enum mtl_dialect), Ks never is a colour of metal; Pm is
  * Ka with illum 3 and 6 if there is no Pm; roughness is 1 - sqrt(Ns / 1000);
@@ -81,8 +81,7 @@ void material_maps(const struct material *material,
                    uint32_t maps[MATERIAL_MAPS]);
 
 /* Makes the material that the statements describe. `path` is the MTL file, for
- * warnings. A black colour that has a map stays black; textures_load() replaces
- * it if the image can be read. */
+ * warnings. */
 struct material material_from_source(const struct mtl_source *source,
                                      const char *path, struct warnings *report);
 

@@ -122,6 +122,60 @@ uint32_t mtl_source_map(const struct mtl_source *s, enum mtl_map map)
     return (s->maps_off >> map & 1) != 0 ? NO_INDEX : s->maps[map];
 }
 
+bool mtl_color_is_black(const struct mtl_color *c)
+{
+    return !(c->rgb[0] > 0) && !(c->rgb[1] > 0) && !(c->rgb[2] > 0);
+}
+
+static void imply_color(struct mtl_color *c, bool is_implied)
+{
+    if (is_implied)
+        *c = (struct mtl_color){{1, 1, 1}, MTL_IMPLIED};
+}
+
+static void imply_number(struct mtl_number *n, double value)
+{
+    if (n->line == 0)
+        *n = (struct mtl_number){value, MTL_IMPLIED};
+}
+
+struct mtl_source mtl_source_with_factors(const struct mtl_source *source)
+{
+    struct mtl_source s = *source;
+    const struct {
+        enum mtl_map map;
+        struct mtl_number *factor;
+    } numbers[] = {
+        {MTL_MAP_PR, &s.pr},
+        {MTL_MAP_PM, &s.pm},
+        {MTL_MAP_PC, &s.pc},
+        {MTL_MAP_PCR, &s.pcr},
+        {MTL_MAP_PS, &s.ps},
+        {MTL_MAP_PS_COLOR, &s.ps},
+        {MTL_MAP_PS_ROUGHNESS, &s.ps_roughness},
+        {MTL_MAP_PF, &s.pf},
+    };
+    struct mtl_color light = mtl_source_light(&s);
+
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+        if (mtl_source_map(&s, numbers[i].map) != NO_INDEX)
+            imply_number(numbers[i].factor, numbers[i].factor == &s.pc
+                                                ? mtl_source_full_coat(&s)
+                                                : 1);
+    if (mtl_source_map(&s, MTL_MAP_KD) != NO_INDEX)
+        imply_color(&s.kd, mtl_color_is_black(&s.kd));
+    if (mtl_source_map(&s, MTL_MAP_KS) != NO_INDEX)
+        imply_color(&s.ks, mtl_color_is_black(&s.ks));
+    if (mtl_source_map(&s, MTL_MAP_TF) != NO_INDEX)
+        imply_color(&s.tf, s.tf.line == 0);
+    if (mtl_source_map(&s, MTL_MAP_KE) != NO_INDEX &&
+        mtl_color_is_black(&light)) {
+        s.kelvin = s.luminance = (struct mtl_number){.line = 0};
+        imply_color(&s.ke, true);
+    }
+    return s;
+}
+
 struct mtl_color mtl_source_light(const struct mtl_source *s)
 {
     struct mtl_color light = {.line = s->kelvin.line};

@@ -14,7 +14,10 @@
 #include <stdint.h>
 
 /* One number of a statement. Line 0 means that the file does not have the
- * statement; the number is 0 then. Likewise for mtl_color. */
+ * statement; the number is 0 then. Likewise for mtl_color. MTL_IMPLIED is the
+ * line of a factor that only its map implies. */
+#define MTL_IMPLIED UINT64_MAX
+
 struct mtl_number {
     double value;
     uint64_t line;
@@ -99,6 +102,15 @@ bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b);
 
 /* Returns the texture of a map, or NO_INDEX if it is absent or switched off. */
 uint32_t mtl_source_map(const struct mtl_source *source, enum mtl_map map);
+
+/* Returns the statements with the factors that maps multiply. Beside its map an
+ * absent factor is 1, and so are Kd, Ks and emission that are black: exporters
+ * write black beside maps. Everything that renders or shows a material reads
+ * these statements. */
+struct mtl_source mtl_source_with_factors(const struct mtl_source *source);
+
+/* Returns true if no channel is above 0. */
+bool mtl_color_is_black(const struct mtl_color *color);
 
 /* Returns the factor of a map that -bm sets, or NULL for maps without one. */
 double *mtl_source_map_scale(struct mtl_source *source, enum mtl_map map);

@@ -74,12 +74,3 @@ double statement_unit(const struct mtl_number *n, const char *key,
 {
     return statement_within(n, key, 0, 1, statement_clamped(n->value), at);
 }
-
-double statement_weight(const struct mtl_source *s, const struct mtl_number *n,
-                        const char *key, enum mtl_map map,
-                        const struct statement_place *at)
-{
-    return n->line == 0 && mtl_source_map(s, map) != NO_INDEX
-               ? 1
-               : statement_unit(n, key, at);
-}

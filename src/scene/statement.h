@@ -42,10 +42,4 @@ double statement_within(const struct mtl_number *n, const char *key, double lo,
 double statement_unit(const struct mtl_number *n, const char *key,
                       const struct statement_place *at);
 
-/* Returns a number from 0 to 1 that multiplies a map. Without the statement it
- * is 1 if there is the map. */
-double statement_weight(const struct mtl_source *source,
-                        const struct mtl_number *n, const char *key,
-                        enum mtl_map map, const struct statement_place *at);
-
 #endif

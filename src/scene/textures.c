@@ -286,35 +286,25 @@ static bool load_all(struct host_world *host, const struct scene *scene,
 
 /* ---- materials ---- */
 
-static bool is_black(const struct vec3 *c)
+static bool is_lost(const struct host_world *host, uint32_t texture)
 {
-    return c->x == 0 && c->y == 0 && c->z == 0;
+    return texture != NO_INDEX && host->texture_is_tried[texture] &&
+           host->textures[texture].width == 0;
 }
 
-/* Combines a colour with its map. The colour is a factor of the map; a black or
- * absent one becomes `alone`. If the image is missing, the map is removed and a
- * black colour becomes `lost`. */
-static void resolve_map(const struct host_world *host, uint32_t *texture,
-                        struct vec3 *color, float alone, float lost)
+struct mtl_source textures_found(const struct host_world *host,
+                                 const struct mtl_source *source)
 {
-    bool is_lost = *texture != NO_INDEX && host->textures[*texture].width == 0;
-    float x = is_lost ? lost : alone;
+    struct mtl_source s = *source;
 
-    if (*texture != NO_INDEX && is_black(color))
-        *color = (struct vec3){x, x, x};
-    if (is_lost)
-        *texture = NO_INDEX;
-}
-
-/* Removes a map of numbers whose image is missing. Returns true if it was. */
-static bool resolve_data_map(const struct host_world *host, uint32_t *texture)
-{
-    bool is_missing =
-        *texture != NO_INDEX && host->textures[*texture].width == 0;
-
-    if (is_missing)
-        *texture = NO_INDEX;
-    return is_missing;
+    if (is_lost(host, mtl_source_map(&s, MTL_MAP_KD)) &&
+        mtl_color_is_black(&s.kd)) /* black that stood beside the map */
+        s.kd = (struct mtl_color){{MATERIAL_GREY, MATERIAL_GREY, MATERIAL_GREY},
+                                  MTL_IMPLIED};
+    for (int i = 0; i < MTL_MAPS; i++)
+        if (i != MTL_MAP_D && is_lost(host, s.maps[i]))
+            s.maps[i] = NO_INDEX;
+    return s;
 }
 
 /* Texels of an image that are looked at, evenly spread. */
@@ -355,8 +345,7 @@ static void resolve_bump_map(const struct host_world *host,
 {
     uint32_t map = m->bump_texture;
 
-    if (resolve_data_map(host, &m->bump_texture) || map == NO_INDEX ||
-        !is_normal_map(host, &host->textures[map]))
+    if (map == NO_INDEX || !is_normal_map(host, &host->textures[map]))
         return;
     m->bump_texture = NO_INDEX;
     if (m->normal_texture == NO_INDEX) {
@@ -382,9 +371,10 @@ bool textures_are_tried(const struct host_world *host, const struct material *m)
 }
 
 bool textures_load_for(struct host_world *host, const struct scene *scene,
-                       struct material *m, struct warnings *report,
-                       struct error *err)
+                       const struct mtl_source *source, struct material *m,
+                       struct warnings *report, struct error *err)
 {
+    struct mtl_source found;
     uint32_t maps[MATERIAL_MAPS];
 
     material_maps(m, maps);
@@ -404,30 +394,12 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
         if (!ok)
             return false;
     }
-    resolve_map(host, &m->color_texture, &m->color, 1, MATERIAL_GREY);
-    resolve_map(host, &m->emission_texture, &m->emission, 1, 0);
-    resolve_map(host, &m->specular_texture, &m->specular, MATERIAL_SPECULAR, 0);
-    resolve_data_map(host, &m->alpha_texture);
-    if (resolve_data_map(host, &m->metal_texture))
-        m->metalness = 0;
-    if (resolve_data_map(host, &m->transmission_texture))
-        m->transmission = 0;
-    if (resolve_data_map(host, &m->coat_texture))
-        m->coat = 0;
-    resolve_data_map(host, &m->coat_alpha_texture);
-    if (resolve_data_map(host, &m->sheen_texture))
-        m->sheen = (struct vec3){0, 0, 0};
-    resolve_data_map(host, &m->sheen_alpha_texture);
-    resolve_data_map(host, &m->specular_weight_texture);
-    resolve_data_map(host, &m->film_texture);
-    resolve_data_map(host, &m->film_thickness_texture);
-    resolve_data_map(host, &m->grain_texture);
-    resolve_data_map(host, &m->opacity_texture);
-    resolve_data_map(host, &m->normal_texture);
-    resolve_data_map(host, &m->coat_normal_texture);
+    found = textures_found(host, source);
+    if (!mtl_source_equal(&found, source))
+        *m = world_material(scene, &found);
+    if (is_lost(host, m->opacity_texture))
+        m->opacity_texture = NO_INDEX;
     resolve_bump_map(host, scene, m, report);
-    if (m->kind == MATERIAL_PLASTIC && is_black(&m->specular))
-        m->kind = MATERIAL_DIFFUSE;
     return true;
 }
 
@@ -474,8 +446,8 @@ bool textures_load(struct host_world *host, const struct scene *scene,
                         report, err);
     for (uint32_t i = 0; ok && i < host->material_count; i++)
         if (host->material_is_used[i]) /* missing images are known by now */
-            ok = textures_load_for(host, scene, &host->materials[i], report,
-                                   err);
+            ok = textures_load_for(host, scene, &host->sources[i],
+                                   &host->materials[i], report, err);
     free(textures);
     return ok;
 }

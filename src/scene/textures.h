@@ -15,15 +15,21 @@
 
 /* Copies the scene's textures and reads the images of those that used materials
  * name. A material whose image cannot be read has its own colour instead, or
- * grey if it has none. */
+ * grey if it has none or black. */
 bool textures_load(struct host_world *host, const struct scene *scene,
                    struct warnings *report, struct error *err);
 
 /* Loads the images of one material that came into use after textures_load(), in
- * the same way. */
+ * the same way. `source` has its statements. */
 bool textures_load_for(struct host_world *host, const struct scene *scene,
+                       const struct mtl_source *source,
                        struct material *material, struct warnings *report,
                        struct error *err);
+
+/* Returns the statements without the maps whose images could not be read: those
+ * of the material that is rendered. */
+struct mtl_source textures_found(const struct host_world *host,
+                                 const struct mtl_source *source);
 
 /* Returns the memory of the world's images in bytes: texels, and the sky image
  * with its table. */

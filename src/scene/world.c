@@ -204,11 +204,22 @@ static bool find_used_materials(struct host_world *host,
     return true;
 }
 
-struct material world_material(const struct scene *scene, struct material m)
+/* Converts the lengths of a material to normalised units. */
+static struct material normalised(const struct scene *scene, struct material m)
 {
     m.attenuation = v3_min(v3(FLT_MAX, FLT_MAX, FLT_MAX),
                            v3_scale(m.attenuation, (float)(1 / scene->scale)));
     return m;
+}
+
+struct material world_material(const struct scene *scene,
+                               const struct mtl_source *source)
+{
+    struct warnings ignored = {0};
+    struct material m = material_from_source(source, scene->path, &ignored);
+
+    warnings_free(&ignored);
+    return normalised(scene, m);
 }
 
 static bool copy_materials(struct host_world *host, const struct scene *scene,
@@ -221,7 +232,7 @@ static bool copy_materials(struct host_world *host, const struct scene *scene,
     if (host->materials == NULL || host->sources == NULL)
         return fail(err, "%s: out of memory for its materials", scene->path);
     for (uint32_t i = 0; i < count; i++) {
-        host->materials[i] = world_material(scene, scene->materials[i]);
+        host->materials[i] = normalised(scene, scene->materials[i]);
         host->sources[i] = scene->material_origins[i].source;
     }
     host->material_count = count;

@@ -143,8 +143,10 @@ void world_take_shape(struct host_world *host, struct host_world *from);
 /* Gives a part a new version, after its arrays have changed. */
 void world_renew(struct host_world *host, enum world_part part);
 
-/* Returns a material of the scene with lengths in normalised units. */
-struct material world_material(const struct scene *scene, struct material m);
+/* Returns the material that the statements describe, with lengths in normalised
+ * units. Its warnings were reported when the file was read. */
+struct material world_material(const struct scene *scene,
+                               const struct mtl_source *source);
 
 /* Returns the triangles with the materials that are rendered. */
 const struct tri *world_tris(const struct host_world *host,

@@ -115,24 +115,13 @@ static bool is_as_before(const struct material_change *c, uint32_t i)
            mtl_source_equal(&host->sources[i], &c->sources[i]);
 }
 
-static struct material make_material(const struct material_change *c,
-                                     uint32_t i)
-{
-    /* Warnings were reported when the file was read. */
-    struct warnings report = {0};
-    struct material m =
-        material_from_source(&c->sources[i], c->scene->path, &report);
-
-    warnings_free(&report);
-    return world_material(c->scene, m);
-}
-
-/* Loads the images of a material that comes into use, into a copy of the
+/* Loads the images of material i that comes into use, into a copy of the
  * textures, since the old array is lent. */
-static bool load_textures(struct material_change *c, struct material *m,
+static bool load_textures(struct material_change *c, uint32_t i,
                           struct error *err)
 {
     struct host_world *host = c->host;
+    struct material *m = &c->next.materials[i];
     struct texture *lent = host->textures;
     struct warnings report = {0};
     bool ok;
@@ -145,7 +134,7 @@ static bool load_textures(struct material_change *c, struct material *m,
     }
     if (c->next.textures != NULL)
         host->textures = c->next.textures;
-    ok = textures_load_for(host, c->scene, m, &report, err);
+    ok = textures_load_for(host, c->scene, &c->sources[i], m, &report, err);
     host->textures = lent;
     warnings_free(&report);
     return ok;
@@ -167,9 +156,9 @@ static bool make_materials(struct material_change *c, struct error *err)
             next->materials[i] = c->host->materials[i];
             continue;
         }
-        next->materials[i] = make_material(c, i);
+        next->materials[i] = world_material(c->scene, &c->sources[i]);
         if (next->material_is_used[i])
-            ok = load_textures(c, &next->materials[i], err);
+            ok = load_textures(c, i, err);
     }
     return ok;
 }

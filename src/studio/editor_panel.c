@@ -29,7 +29,7 @@ void editor_panel_init(struct editor_panel *p, struct render_control *control,
 {
     *p = (struct editor_panel){.control = control, .screen = screen};
     selection_init(&p->selection, &control->session->edit,
-                   &control->session->scene);
+                   &control->session->scene, &control->session->world);
 }
 
 void editor_panel_free(struct editor_panel *p)

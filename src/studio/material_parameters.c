@@ -7,6 +7,7 @@
 #include "base/decimal.h"
 #include "base/file.h"
 #include "picture/color.h"
+#include "scene/textures.h"
 
 /* Ks that a material gets when it becomes plastic; see MATERIAL_SPECULAR. */
 #define KS_DEFAULT 0.5
@@ -37,12 +38,24 @@ static void put_grey(struct mtl_color *c, double value)
     put_color(c, (const double[3]){value, value, value});
 }
 
+/* Black beside a map would be white (mtl_source_with_factors()). */
+#define FACTOR_LEAST 1e-6
+
+/* Sets a colour that multiplies a map. */
+static void put_factor(struct owner *o, struct mtl_color *c, enum mtl_map map,
+                       const double rgb[3])
+{
+    put_color(c, rgb);
+    if (mtl_source_map(&o->source, map) != NO_INDEX && mtl_color_is_black(c))
+        put_grey(c, FACTOR_LEAST);
+}
+
 /* Reads a number that a statement sets: as the material has it if the row says
  * where, else as the source has it. */
 static bool get_statement(const struct owner *o, struct value *v)
 {
     const void *result = (const char *)&o->material + o->row->result;
-    const void *at = (const char *)&o->source + o->row->member;
+    const void *at = (const char *)&o->factors + o->row->member;
     const struct mtl_number *number = at;
 
     if (o->row->result != 0)
@@ -85,12 +98,16 @@ static const char *const kind_names[] = {"diffuse", "plastic",    "metal",
 static const uint32_t kind_bits[] = {DIFFUSE, PLASTIC, METAL,
                                      GLASS,   THIN,    MIXED};
 
-void material_parameters_open(struct owner *o, const struct mtl_source *source)
+void material_parameters_open(struct owner *o, const struct mtl_source *source,
+                              const struct host_world *world)
 {
     struct warnings ignored = {0};
+    struct mtl_source found =
+        world != NULL ? textures_found(world, source) : *source;
 
     o->source = *source;
-    o->material = material_from_source(source, "", &ignored);
+    o->factors = mtl_source_with_factors(&found);
+    o->material = material_from_source(&found, "", &ignored);
     o->kind = o->material.kind;
     warnings_free(&ignored);
 }
@@ -113,7 +130,7 @@ static size_t color_member(const struct owner *o)
 {
     if (!is_kind(o, OPAQUE))
         return offsetof(struct mtl_source, tf);
-    return is_kind(o, METAL | MIXED) && mtl_source_is_mirror(&o->source) &&
+    return is_kind(o, METAL | MIXED) && mtl_source_is_mirror(&o->factors) &&
                    o->material.metalness == 1
                ? offsetof(struct mtl_source, ks)
                : offsetof(struct mtl_source, kd);
@@ -121,21 +138,27 @@ static size_t color_member(const struct owner *o)
 
 static bool get_color(const struct owner *o, struct value *v)
 {
-    const void *at = (const char *)&o->source + color_member(o);
+    const void *at = (const char *)&o->factors + color_member(o);
     const struct mtl_color *c = at;
-    struct vec3 found = o->material.color;
+    struct vec3 m = o->material.color;
+    struct mtl_color made = {{(double)m.x, (double)m.y, (double)m.z}, 0};
+    bool has_map = o->material.color_texture != NO_INDEX;
 
-    v->rgb[0] = c->line != 0 ? c->rgb[0] : (double)found.x;
-    v->rgb[1] = c->line != 0 ? c->rgb[1] : (double)found.y;
-    v->rgb[2] = c->line != 0 ? c->rgb[2] : (double)found.z;
+    if (c->line == 0 || (mtl_color_is_black(c) && has_map))
+        c = &made;
+    memcpy(v->rgb, c->rgb, sizeof v->rgb);
     return true;
 }
 
 static void set_color(struct owner *o, const struct value *v)
 {
-    void *color = (char *)&o->source + color_member(o);
+    size_t member = color_member(o);
+    void *color = (char *)&o->source + member;
 
-    put_color(color, v->rgb);
+    put_factor(o, color,
+               member == offsetof(struct mtl_source, ks) ? MTL_MAP_KS
+                                                         : MTL_MAP_KD,
+               v->rgb);
 }
 
 static void set_opaque(struct mtl_source *s, uint32_t bits, const double rgb[3])
@@ -201,7 +224,7 @@ static void set_kind(struct owner *o, const struct value *v)
 
 static bool get_roughness(const struct owner *o, struct value *v)
 {
-    const struct mtl_source *s = &o->source;
+    const struct mtl_source *s = &o->factors;
 
     if (is_kind(o, DIFFUSE))
         v->number = s->kd_roughness.value;
@@ -268,7 +291,7 @@ static bool get_attenuation(const struct owner *o, struct value *v)
 /* Reads the weight of sheen, which is multiplied by its colour. */
 static bool get_sheen(const struct owner *o, struct value *v)
 {
-    const struct mtl_color *color = &o->source.ps_color;
+    const struct mtl_color *color = &o->factors.ps_color;
     struct vec3 sheen = o->material.sheen;
     double top = color->line != 0 ? fmin(color_largest(color->rgb), 1) : 1;
 
@@ -302,13 +325,14 @@ static bool get_cutoff(const struct owner *o, struct value *v)
 
 static bool get_specular(const struct owner *o, struct value *v)
 {
-    v->number = color_largest(o->source.ks.rgb);
+    v->number = color_largest(o->factors.ks.rgb);
     return true;
 }
 
 static void set_specular(struct owner *o, const struct value *v)
 {
-    put_grey(&o->source.ks, v->number);
+    put_factor(o, &o->source.ks, MTL_MAP_KS,
+               (const double[]){v->number, v->number, v->number});
 }
 
 static bool get_coat(const struct owner *o, struct value *v)
@@ -349,35 +373,38 @@ static double strength_of(const struct mtl_source *s)
 
 static bool get_emission(const struct owner *o, struct value *v)
 {
-    v->number = strength_of(&o->source);
+    v->number = strength_of(&o->factors);
     return true;
 }
 
 static void set_emission(struct owner *o, const struct value *v)
 {
     struct mtl_source *s = &o->source;
-    double most = color_largest(s->ke.rgb);
+    const double *ke = o->factors.ke.rgb;
+    bool has_map = mtl_source_map(s, MTL_MAP_KE) != NO_INDEX;
+    double most = color_largest(ke);
     double rgb[3];
 
     if (s->kelvin.line != 0) {
-        put_number(&s->luminance, v->number);
+        put_number(&s->luminance,
+                   has_map ? fmax(v->number, FACTOR_LEAST) : v->number);
         return;
     }
     for (int i = 0; i < 3; i++)
-        rgb[i] = most > 0 ? s->ke.rgb[i] / most * v->number : v->number;
-    put_color(&s->ke, rgb);
+        rgb[i] = most > 0 ? ke[i] / most * v->number : v->number;
+    put_factor(o, &s->ke, MTL_MAP_KE, rgb);
 }
 
 /* Reads the colour of the emission, which is white if there is none. */
 static bool get_emission_color(const struct owner *o, struct value *v)
 {
-    struct mtl_color light = mtl_source_light(&o->source);
+    struct mtl_color light = mtl_source_light(&o->factors);
     double most = color_largest(light.rgb);
 
-    v->number = o->source.kelvin.line != 0 ? o->source.kelvin.value : 0;
+    v->number = o->factors.kelvin.line != 0 ? o->factors.kelvin.value : 0;
     for (int i = 0; i < 3; i++)
         v->rgb[i] = most > 0 ? light.rgb[i] / most : 1;
-    return strength_of(&o->source) > 0;
+    return strength_of(&o->factors) > 0;
 }
 
 /* Changes the colour of the emission. A temperature keeps the luminance, a
@@ -385,15 +412,16 @@ static bool get_emission_color(const struct owner *o, struct value *v)
 static void set_emission_color(struct owner *o, const struct value *v)
 {
     struct mtl_source *s = &o->source;
-    double strength = color_largest(mtl_source_light(s).rgb);
+    const struct mtl_source *f = &o->factors;
+    double strength = color_largest(mtl_source_light(f).rgb);
     double most = color_largest(v->rgb);
-    double luminance = s->luminance.value;
+    double luminance = f->luminance.value;
     double rgb[3];
 
     if (v->number > 0) {
-        if (s->kelvin.line == 0) /* luminance of Rec.709 */
-            luminance = 0.2126 * s->ke.rgb[0] + 0.7152 * s->ke.rgb[1] +
-                        0.0722 * s->ke.rgb[2];
+        if (f->kelvin.line == 0) /* luminance of Rec.709 */
+            luminance = 0.2126 * f->ke.rgb[0] + 0.7152 * f->ke.rgb[1] +
+                        0.0722 * f->ke.rgb[2];
         s->ke = (struct mtl_color){.line = 0};
         put_number(&s->kelvin, v->number);
         put_number(&s->luminance, luminance);
@@ -402,7 +430,7 @@ static void set_emission_color(struct owner *o, const struct value *v)
     for (int i = 0; i < 3; i++)
         rgb[i] = most > 0 ? v->rgb[i] / most * strength : 0;
     s->kelvin = s->luminance = (struct mtl_number){.line = 0};
-    put_color(&s->ke, rgb);
+    put_factor(o, &s->ke, MTL_MAP_KE, rgb);
 }
 
 /* ---- table ---- */
@@ -481,14 +509,15 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
 };
 
 const char *material_parameters_summary(const struct mtl_source *source,
+                                        const struct host_world *world,
                                         double swatch[3])
 {
     struct owner o = {.selection = NULL};
     struct value kind = {.number = 0}, color;
 
-    material_parameters_open(&o, source);
+    material_parameters_open(&o, source, world);
     get_kind(&o, &kind);
-    if (color_largest(mtl_source_light(source).rgb) > 0)
+    if (color_largest(mtl_source_light(&o.factors).rgb) > 0)
         get_emission_color(&o, &color);
     else
         get_color(&o, &color);

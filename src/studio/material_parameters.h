@@ -12,6 +12,7 @@
 #ifndef GLIM_MATERIAL_PARAMETERS_H
 #define GLIM_MATERIAL_PARAMETERS_H
 
+#include "scene/world.h"
 #include "studio/parameter_table.h"
 
 #define MATERIAL_PARAMETERS 27
@@ -21,13 +22,16 @@ extern const struct parameter_row material_parameters[MATERIAL_PARAMETERS];
 /* The row of each map. */
 extern const struct parameter_row map_parameter;
 
-/* Fills the owner with the material of these statements. */
+/* Fills the owner with the material of these statements, as the world renders
+ * it. Without a world (NULL), all images are there. */
 void material_parameters_open(struct owner *owner,
-                              const struct mtl_source *source);
+                              const struct mtl_source *source,
+                              const struct host_world *world);
 
 /* Returns the name of the material's kind. The swatch is the colour of its
  * emission if it emits light, else the colour of the material. */
 const char *material_parameters_summary(const struct mtl_source *source,
+                                        const struct host_world *world,
                                         double swatch[3]);
 
 #endif

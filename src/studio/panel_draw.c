@@ -121,7 +121,7 @@ static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
 
     text_width_fit(name, sizeof name, selection_name(sel, sel->page, i),
                    NAME_COLS);
-    kind = material_parameters_summary(source, rgb);
+    kind = material_parameters_summary(source, sel->world, rgb);
     text_width_cut(other, sizeof other,
                    is_object ? selection_name(sel, PAGE_MATERIALS, material)
                              : kind,

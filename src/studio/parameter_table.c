@@ -394,7 +394,7 @@ struct owner parameter_owner(const struct selection *t,
 
     switch (t->page) {
     case PAGE_MATERIALS:
-        material_parameters_open(&o, &state->sources[index]);
+        material_parameters_open(&o, &state->sources[index], t->world);
         break;
     case PAGE_OBJECTS: o.assigned = state->assigned[index]; break;
     case PAGE_LIGHT:

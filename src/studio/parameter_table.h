@@ -51,8 +51,9 @@ enum sky_kind { SKY_CONSTANT, SKY_IMAGE, SKY_SUN };
 struct owner {
     const struct selection *selection;
     const struct parameter_row *row;
-    struct mtl_source source;  /* statements of a material */
-    struct material material;  /* material made from them */
+    struct mtl_source source;  /* statements of a material, which are edited */
+    struct mtl_source factors; /* what is rendered of them, and shown */
+    struct material material;  /* material made from that */
     enum mtl_map map;          /* of the row */
     uint32_t assigned;         /* material of an object, or NO_INDEX */
     struct lighting lighting;  /* values of the light; sky_path is lent */

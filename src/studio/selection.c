@@ -24,9 +24,9 @@ static void find_first_tris(struct selection *s)
 }
 
 void selection_init(struct selection *s, struct edit *edit,
-                    const struct scene *scene)
+                    const struct scene *scene, const struct host_world *world)
 {
-    *s = (struct selection){.edit = edit, .scene = scene};
+    *s = (struct selection){.edit = edit, .scene = scene, .world = world};
     find_first_tris(s);
     selection_settle(s);
 }

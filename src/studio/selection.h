@@ -15,13 +15,14 @@
 #include <stdint.h>
 
 #include "session/edit.h"
-#include "scene/scene.h"
+#include "scene/world.h"
 
 enum selection_page { PAGE_MATERIALS, PAGE_OBJECTS, PAGE_LIGHT, PAGES };
 
 struct selection {
     struct edit *edit;
     const struct scene *scene;
+    const struct host_world *world; /* has the images; NULL: all are there */
     enum selection_page page;
     uint32_t index[PAGES]; /* selected material or object of each page */
     bool by_hsv;           /* channels of colours are hue, saturation and value,
@@ -39,7 +40,7 @@ struct selection_names {
 };
 
 void selection_init(struct selection *s, struct edit *edit,
-                    const struct scene *scene);
+                    const struct scene *scene, const struct host_world *world);
 void selection_free(struct selection *s);
 
 /* Makes the list again after a change of page, index or scene. If the selected

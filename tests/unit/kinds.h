@@ -16,7 +16,7 @@ static inline void step_kind(struct mtl_source *source, int steps)
     struct value v;
 
     for (int i = abs(steps); i > 0; i--) {
-        material_parameters_open(&o, source);
+        material_parameters_open(&o, source, NULL);
         parameter_read(&o, &v);
         v.number = ((int)v.number + (steps > 0 ? 1 : 4)) % 5;
         o.row->set(&o, &v);

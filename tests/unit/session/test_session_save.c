@@ -329,6 +329,47 @@ static void saved_edits_are_loaded_again(void **state)
     session_close(&first);
 }
 
+/* A copy of a copy of a material that has a map and no colour, saved at once or
+ * after the first copy, keeps the factor 1 of what was not changed. */
+static void copies_of_copies_keep_implied_factors(void **state)
+{
+    (void)state;
+    for (int saves_first = 0; saves_first < 2; saves_first++) {
+        struct session s, again;
+        struct mtl_source source;
+        uint32_t copy, second;
+
+        put_scene();
+        put("white.ppm", "P3\n1 1\n255\n255 255 255\n");
+        put("a.mtl", "newmtl lamp\nmap_Ke white.ppm\nnewmtl wall\n"
+                     "map_Kd white.ppm\n");
+        open_session(&s);
+        copy = edit_duplicate(&s.edit, 2);
+        edit_assign(&s.edit, 2, copy);
+        if (saves_first)
+            save(&s);
+        second = edit_duplicate(&s.edit, copy);
+        restart(&s); /* no object has the second copy */
+        check_close((double)s.world.materials[second].color.x, 1, 0);
+        edit_assign(&s.edit, 3, second);
+        source = s.edit.now.sources[second];
+        step_kind(&source, 2);
+        edit_material(&s.edit, second, &source);
+        source = s.edit.now.sources[copy];
+        source.kd_roughness = (struct mtl_number){.5, 1};
+        edit_material(&s.edit, copy, &source);
+        restart(&s);
+        check_close((double)s.world.materials[copy].color.x, 1, 0);
+        check_close((double)s.world.materials[second].color.x, 1, 0);
+        save(&s);
+        open_session(&again);
+        check_same_world(&s, &again);
+        session_close(&again);
+        session_close(&s);
+    }
+    unlink("white.ppm");
+}
+
 /* The parts with another version than in `before`, which becomes the world's:
  * 1 << enum world_part, or-ed. */
 static unsigned new_parts(const struct session *s, struct host_world *before)
@@ -618,6 +659,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(saved_edits_are_loaded_again),
+        cmocka_unit_test(copies_of_copies_keep_implied_factors),
         cmocka_unit_test(kept_edits_are_restored),
         cmocka_unit_test(kept_edits_of_lost_materials_are_counted),
         cmocka_unit_test(changed_arrays_have_new_versions),

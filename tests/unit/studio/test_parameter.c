@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/memory.h"
 #include "load/scene_load.h"
 #include "studio/material_parameters.h"
 #include "tests/unit/check.h"
@@ -88,7 +89,7 @@ static struct owner open_source(const struct mtl_source *source,
 {
     struct owner o = {.selection = NULL};
 
-    material_parameters_open(&o, source);
+    material_parameters_open(&o, source, NULL);
     for (int i = 0; i < MATERIAL_PARAMETERS; i++) {
         const struct parameter_row *row = &material_parameters[i];
 
@@ -146,14 +147,14 @@ static void kinds_keep_the_color(void **state)
 
         assert_true(get(&s, "type", &kind));
         first = (int)kind.number;
-        assert_string_equal(material_parameters_summary(&s, swatch),
+        assert_string_equal(material_parameters_summary(&s, NULL, swatch),
                             names[first]);
         for (int i = 1; i <= 12; i++) {
             struct value after;
 
             kind.number = (first + i) % 6;
             set(&s, "type", &kind);
-            assert_string_equal(material_parameters_summary(&s, swatch),
+            assert_string_equal(material_parameters_summary(&s, NULL, swatch),
                                 names[(first + i) % 6]);
             after = get_color(&s);
             for (int k = 0; k < 3; k++)
@@ -287,6 +288,76 @@ static void tints_take_a_distance(void **state)
     assert_true(v3_is_zero(material_of(&s).attenuation));
 }
 
+/* Beside its map an absent factor is 1, on the screen as in the picture, and
+ * what is set is what the picture has. */
+static void absent_factors_are_1(void **state)
+{
+    const struct mtl_number one = {1, 1};
+    struct mtl_source s = mtl_source_empty();
+    struct value v;
+    struct material m;
+
+    (void)state;
+    for (int i = 0; i < MTL_MAPS; i++)
+        s.maps[i] = (uint32_t)i;
+    s.maps[MTL_MAP_PS] = NO_INDEX;
+    m = material_of(&s); /* map_Pm makes it a mixture */
+    assert_int_equal(m.kind, MATERIAL_PRINCIPLED);
+    v = get_color(&s);
+    for (int i = 0; i < 3; i++)
+        assert_true(v.rgb[i] == 1);
+    check_color(m.color, (double[]){1, 1, 1});
+    check_color(m.emission, (double[]){1, 1, 1});
+    check_close((double)m.specular.x, (double)MATERIAL_SPECULAR, 0);
+    assert_true(get(&s, "of colour", &v) && v.rgb[0] == 1 && v.rgb[2] == 1);
+    for (int i = 0; i < 9; i++) {
+        static const char *const labels[] = {"roughness", "metal",
+                                             "coat",      "coat rough",
+                                             "sheen",     "sheen rough",
+                                             "film",      "light",
+                                             "specular"};
+        const float made[] = {
+            m.alpha,      m.metalness,  m.coat,
+            m.coat_alpha, m.sheen.x,    m.sheen_alpha,
+            m.film,       m.emission.x, m.specular.x / MATERIAL_SPECULAR};
+
+        assert_true(get(&s, labels[i], &v));
+        check_close(v.number, 1, 0);
+        check_close((double)made[i], 1, 0);
+    }
+    s.pr = one; /* transmission counts beside Pr */
+    assert_true(get(&s, "transmits", &v));
+    check_close(v.number, 1, 0);
+    check_close((double)material_of(&s).transmission, 1, 0);
+}
+
+/* Black beside a map would be white: a slider at its end is nearly black. */
+static void factors_go_down_to_black(void **state)
+{
+    const struct value black = {.rgb = {0, 0, 0}};
+    struct mtl_source s = mtl_source_empty();
+    struct material m;
+    struct value v;
+
+    (void)state;
+    s.maps[MTL_MAP_KD] = s.maps[MTL_MAP_KS] = s.maps[MTL_MAP_KE] = 0;
+    s.kd = s.ks = s.ke = (struct mtl_color){{0, 0, 0}, 1};
+    m = material_of(&s); /* as exporters write */
+    check_color(m.color, (double[]){1, 1, 1});
+    check_color(m.emission, (double[]){1, 1, 1});
+    assert_true(get(&s, "light", &v) && v.number == 1);
+    v = get_color(&s);
+    assert_true(v.rgb[0] == 1 && v.rgb[2] == 1);
+    set(&s, "colour", &black);
+    set(&s, "light", &black);
+    set(&s, "specular", &black);
+    m = material_of(&s);
+    check_color(m.color, black.rgb);
+    check_color(m.emission, black.rgb);
+    check_color(m.specular, black.rgb);
+    check_color((struct vec3){(float)get_color(&s).rgb[0], 0, 0}, black.rgb);
+}
+
 struct fixture {
     struct scene scene;
     struct view view;
@@ -294,15 +365,14 @@ struct fixture {
     struct edit edit;
 };
 
-static void open_fixture(struct fixture *s)
+static void open_fixture_of(struct fixture *s, const char *mtl)
 {
     struct error err;
 
     *s = (struct fixture){.report = {0}};
     put("k.obj", "mtllib k.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no a\nusemtl m\n"
                  "f 1 2 3\no b\nusemtl n\nf 1 2 3\n");
-    put("k.mtl", "newmtl m\nKd .5 .25 .125\nmap_Kd no.png\nnewmtl n\n"
-                 "Ke_blackbody 3000 4\n");
+    put("k.mtl", mtl);
     view_init(&s->view);
     for (int i = 0; i < LAMP_KINDS; i++) {
         struct lamp lamp;
@@ -314,6 +384,12 @@ static void open_fixture(struct fixture *s)
                             &err),
                  err.text);
     edit_init(&s->edit, &s->scene, &s->view, &s->report);
+}
+
+static void open_fixture(struct fixture *s)
+{
+    open_fixture_of(s, "newmtl m\nKd .5 .25 .125\nmap_Kd no.png\nnewmtl n\n"
+                       "Ke_blackbody 3000 4\n");
 }
 
 static void close_fixture(struct fixture *s)
@@ -336,9 +412,8 @@ static void check_same(const struct parameter *a, const struct parameter *b,
 static struct selection target_of(struct fixture *s, enum selection_page page,
                                   uint32_t index, bool by_hsv)
 {
-    return (struct selection){&s->edit,       &s->scene, page,
-                              {index, index}, by_hsv,    NULL,
-                              NULL,           0,         0};
+    return (struct selection){&s->edit, &s->scene, NULL, page, {index, index},
+                              by_hsv,   NULL,      NULL, 0,    0};
 }
 
 static const struct parameter *find(const struct parameter *list, int count,
@@ -730,6 +805,56 @@ static void sliders_set_values(void **state)
     close_fixture(&s);
 }
 
+/* Checks that colour, light and one map of material 1 are those that the world
+ * renders, and that the first key changes one channel only. */
+static void check_rendered(const char *statements, double color, double light,
+                           const char *stepped)
+{
+    struct fixture s;
+    struct host_world world;
+    struct selection target;
+    struct parameter list[PARAMETERS_MAX];
+    struct mtl_source after;
+    struct error err;
+    char *mtl = format_text("newmtl m\n%s\nnewmtl n\nKd 1\n", statements);
+    int count;
+
+    open_fixture_of(&s, mtl);
+    free(mtl);
+    check_or_say(world_init(&world, &s.scene, 1, &s.report, &err), err.text);
+    target = target_of(&s, PAGE_MATERIALS, 1, false);
+    target.world = &world;
+    count = parameters_list(&target, list);
+    check_close((double)world.materials[1].color.y, color, 1e-7);
+    check_close((double)world.materials[1].emission.y, light, 1e-7);
+    check_close(find(list, count, "colour")->color[1], color, 1e-7);
+    check_close(strtod(find(list, count, "light")->text, NULL), light, 0);
+    parameter_step(&target, find(list, count, "red")->id, -1);
+    after = s.edit.now.sources[1];
+    assert_string_equal(find(list, parameters_list(&target, list), "red")->text,
+                        stepped);
+    check_close(after.kd.rgb[1], color, 1e-7);
+    world_free(&world);
+    close_fixture(&s);
+}
+
+/* The colour beside an image that is there, one that is missing, and one that
+ * is switched off by no one. */
+static void panels_show_what_is_rendered(void **state)
+{
+    (void)state;
+    put("white.ppm", "P3\n1 1\n255\n255 255 255\n");
+    check_rendered("map_Kd white.ppm\nmap_Ke white.ppm", 1, 1, "0.99");
+    check_rendered("Kd 0 0 0\nmap_Kd white.ppm\nKe 0 0 0\nmap_Ke white.ppm", 1,
+                   1, "0.99");
+    check_rendered("map_Kd no.ppm\nmap_Ke no.ppm", (double)MATERIAL_GREY, 0,
+                   "0.79");
+    check_rendered("Kd 0 0 0\nmap_Kd no.ppm", (double)MATERIAL_GREY, 0, "0.79");
+    check_rendered("Kd .5 .5 .5\nmap_Kd no.ppm\nKe 2 2 2\nmap_Ke no.ppm", .5, 2,
+                   "0.49");
+    unlink("white.ppm");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -737,6 +862,9 @@ int main(void)
         cmocka_unit_test(set_values_reach_the_material),
         cmocka_unit_test(values_of_gltf_are_edited),
         cmocka_unit_test(tints_take_a_distance),
+        cmocka_unit_test(absent_factors_are_1),
+        cmocka_unit_test(factors_go_down_to_black),
+        cmocka_unit_test(panels_show_what_is_rendered),
         cmocka_unit_test(steps_are_undone),
         cmocka_unit_test(choices_are_cyclic),
         cmocka_unit_test(texts_can_be_typed),
