@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: MIT
 # run.sh - runs every test and ends with "N passed, N failed"
 #
-# BUILD is the folder of the programs (build/release). FILTER=WORD runs only the
+# BUILD is the folder of the programs (build/release/few). FILTER=WORD runs only the
 # parts whose names contain it: layers, tour, links, results, man, scenes,
 # hardening, a test_x, fuzz, api, cli, screen.
 set -u
 cd "$(dirname "$0")/.." || exit 1
-export BUILD=${BUILD:-build/release}
+export BUILD=${BUILD:-build/release/few}
 # PoCL's cache, apart from the user's
 POCL_CACHE_DIR=$(realpath "$BUILD")/pocl
 export POCL_CACHE_DIR
@@ -135,7 +135,7 @@ program_is_hardened()
     has 'BIND_NOW|Flags:.* NOW' --dynamic
     has __stack_chk_fail --dyn-syms
     # sanitizers have their own checks, and these need the optimiser
-    if [ -z "$SAN" ] && grep -Eq -e ' -O[1-3s]' "$BUILD/flags"; then
+    if [ -z "$SAN" ] && grep -Eq -e ' -O[1-3s]' "${BUILD%/few}/flags"; then
         has __snprintf_chk --dyn-syms
     fi
     return $status

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * cpu_features.h - instruction sets of this processor, as the Makefile names
+ * cpu_features.h - instruction sets of this processor, as kernels.mk names
  * them (ISAS)
  *
  * Threads:   any

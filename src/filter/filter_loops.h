@@ -3,7 +3,7 @@
  * filter_loops.h - the loops of the denoising filter over the pixels of a tile,
  * compiled for several instruction sets
  *
- * The Makefile compiles src/filter/filter_loops.c for each (FILTERS). All
+ * kernels.mk compiles src/filter/filter_loops.c for each (FILTERS). All
  * builds give the same bits. filter_dispatch.h chooses one.
  *
  * Units:     as kernels/filter.h

@@ -7,53 +7,38 @@
 
 #include "base/cpu_features.h"
 
-static bool always(void)
+/* BUILDS(X) lists the builds of the kernel that the program has (kernels.mk),
+ * the fastest instruction set first and, for each, the fewest features first.
+ * The last build of an instruction set has all features. */
+#ifndef BUILDS
+#define BUILDS(X) X(paths_plain)
+#endif
+#define DECLARE(build) extern const struct cpu_kernel build;
+#define ADDRESS(build) &build,
+
+BUILDS(DECLARE)
+static const struct cpu_kernel *const builds[] = {BUILDS(ADDRESS)};
+
+enum { COUNT = sizeof builds / sizeof builds[0] };
+
+static bool is_supported(const char *isa)
 {
-    return true;
+    return strcmp(isa, "avx512") == 0 ? cpu_has_avx512()
+           : strcmp(isa, "avx2") == 0 ? cpu_has_avx2()
+                                      : true;
 }
 
-/* Builds of the kernel that the Makefile makes for each instruction set, from
- * the fewest features to all. */
-enum { BUILDS = 10, FULL = BUILDS - 1 };
-
-#define DECLARE(isa)                                      \
-    extern const struct cpu_kernel paths_##isa##_lamps,   \
-        paths_##isa##_lamps_filter, paths_##isa##_images, \
-        paths_##isa##_images_filter, paths_##isa##_shiny, \
-        paths_##isa##_shiny_filter, paths_##isa##_gltf,   \
-        paths_##isa##_gltf_filter, paths_##isa##_light, paths_##isa
-#define BUILDS_OF(isa)                                           \
-    {                                                            \
-        &paths_##isa##_lamps, &paths_##isa##_lamps_filter,       \
-            &paths_##isa##_images, &paths_##isa##_images_filter, \
-            &paths_##isa##_shiny, &paths_##isa##_shiny_filter,   \
-            &paths_##isa##_gltf, &paths_##isa##_gltf_filter,     \
-            &paths_##isa##_light, &paths_##isa,                  \
-    }
-
-DECLARE(plain);
-DECLARE(avx2);
-DECLARE(avx512);
-
-/* Instruction sets with their builds, fastest first. */
-static const struct {
-    const struct cpu_kernel *builds[BUILDS];
-    bool (*is_supported)(void);
-} sets[] = {
-#if defined(__x86_64__)
-    {BUILDS_OF(avx512), cpu_has_avx512},
-    {BUILDS_OF(avx2), cpu_has_avx2},
-#endif
-    {BUILDS_OF(plain), always},
-};
-
-enum { COUNT = sizeof sets / sizeof sets[0] };
+const struct cpu_kernel *cpu_kernel_build(int i)
+{
+    return i < COUNT ? builds[i] : NULL;
+}
 
 const struct cpu_kernel *cpu_kernel_at(int i)
 {
     for (int k = 0; k < COUNT; k++)
-        if (sets[k].is_supported() && i-- == 0)
-            return sets[k].builds[FULL];
+        if (builds[k]->features == FEATURES_ALL &&
+            is_supported(builds[k]->name) && i-- == 0)
+            return builds[k];
     return NULL;
 }
 
@@ -83,9 +68,9 @@ const struct cpu_kernel *cpu_kernel_named(const char *name, struct error *err)
 const struct cpu_kernel *cpu_kernel_fit(const struct cpu_kernel *paths,
                                         uint32_t features)
 {
-    for (int k = 0; k < COUNT; k++)
-        for (int i = 0; sets[k].builds[FULL] == paths && i < BUILDS; i++)
-            if ((features & ~sets[k].builds[i]->features) == 0)
-                return sets[k].builds[i];
+    for (int i = 0; i < COUNT; i++)
+        if (strcmp(builds[i]->name, paths->name) == 0 &&
+            (features & ~builds[i]->features) == 0)
+            return builds[i];
     return paths;
 }

@@ -15,6 +15,10 @@
 
 #include "render/cpu_kernel.h"
 
+/* Returns the i-th build of the kernel in this program, which may be one that
+ * this processor cannot run, or NULL after the last. */
+const struct cpu_kernel *cpu_kernel_build(int i);
+
 /* Returns the kernel with all features for the i-th instruction set that this
  * processor has, fastest first, or NULL after the last. */
 const struct cpu_kernel *cpu_kernel_at(int i);

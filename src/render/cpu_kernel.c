@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: MIT
-/* Compiled once for each instruction set and each set of FEATURES. PATHS is the
- * name of the result, PATHS_NAME that of the instruction set. */
+/* Compiled once for each instruction set and each set of features (kernels.mk).
+ * PATHS is the name of the result, PATHS_NAME that of the instruction set, and
+ * SET the name of the features in feature_sets.h; without it, the build has
+ * all. */
+#ifdef SET
+#include "render/feature_sets.h"
+
+#define FEATURES_OF(set) FEATURES_##set
+#define NAMED(set)       FEATURES_OF(set)
+#define FEATURES         NAMED(SET)
+#endif
+
 #include "render/cpu_kernel.h"
 
 #include "bvh/bvh8_traverse.h"

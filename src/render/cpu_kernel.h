@@ -3,8 +3,8 @@
  * cpu_kernel.h - path_samples() compiled for the CPU, for several instruction
  * sets and sets of features
  *
- * The Makefile compiles src/render/cpu_kernel.c several times (SETS). All
- * builds give the same bits. cpu_dispatch.h chooses one.
+ * kernels.mk compiles src/render/cpu_kernel.c several times (SETS). All builds
+ * give the same bits. cpu_dispatch.h chooses one.
  *
  * Units:     as kernels/path.h
  * Ownership: static

@@ -36,7 +36,7 @@ of_pc() # key
 }
 
 check install make -s install "DESTDIR=$folder/root" "CC=$compiler" \
-    "SAN=${SAN-}"
+    "SAN=${SAN-}" "BUILDS=${BUILDS-all}"
 pc=$(find "$folder/root" -name glim.pc)
 include=$(dirname "$(dirname "$(find "$folder/root" -name glim.h)")")
 lib=$(dirname "$(find "$folder/root" -name libglim.a)")

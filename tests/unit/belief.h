@@ -5,7 +5,7 @@
  * Each time before it waits, the child describes its screen in shared memory,
  * writes the string "told" to the terminal, and continues when the parent has
  * compared it. The linker replaces glim's functions by
- * __wrap_workspace_next_ns() and __wrap_tty_read() (see the Makefile).
+ * __wrap_workspace_next_ns() and __wrap_tty_read() (see tests.mk).
  *
  * Units:     cells, row 0 at the top
  * Ownership: the test maps `shared`

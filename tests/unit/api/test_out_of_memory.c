@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /* libglim with the first, the second, ... allocation failing: an error each
  * time, nothing leaks, and what is made is right. The linker sends the calls
- * of the library's objects to the functions here (--wrap in the Makefile). */
+ * of the library's objects to the functions here (--wrap in tests.mk). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>

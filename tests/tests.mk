@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: MIT
+# tests.mk - unit tests, fuzz targets, stress programs, and other checks
+
+# Compiler of `make fuzz`, since only clang has libFuzzer, and seconds for each
+# target.
+FUZZ_CC ?= clang
+TIME ?= 60
+
+C_FILES = $(foreach d,include/glim src src/* kernels scenes tests/unit tests/unit/* \
+	tests/bench tests/api tests/bench/error tests/bench/rays tests/fuzz \
+	tests/stress tests/tools,$(wildcard $(d)/*.[ch] $(d)/*.cc)) \
+	$(wildcard kernels/*.cl)
+names_of = $(patsubst tests/%.c,$(L)/%,$(wildcard tests/$(1).c))
+UNITS := $(call names_of,unit/*/test_*)
+FUZZERS := $(call names_of,fuzz/fuzz_*)
+STRESSES := $(call names_of,stress/*)
+BENCHES := $(call names_of,bench/*)
+TOOLS := $(call names_of,tools/*)
+
+# Programs take the objects that they use from a thin archive. Tests are compiled
+# quickly and run for a moment; what measures is optimised as glim is.
+$(L)/objects.a: $(OBJECTS)
+	@mkdir -p $(@D)
+	$(SAY) AR $@
+	$(Q)rm -f $@ && $(AR) rcsT $@ $^
+
+define program
+$(B)/$(1)/%.o: tests/$(1)/%.c $(B)/flags
+	$$(compile)
+$(L)/$(1)/%: $(B)/$(1)/%.o $(L)/objects.a
+	@mkdir -p $$(@D)
+	$$(Q)$$(CC) $$(ALL_LDFLAGS) -o $$@ $$< $(2) $(L)/objects.a $$(LIBS)
+endef
+$(eval $(call program,unit,-lcmocka))
+$(eval $(call program,fuzz,$$(FUZZ_MAIN)))
+$(eval $(call program,stress,-lcmocka))
+$(eval $(call program,bench))
+$(eval $(call program,tools))
+.SECONDARY:
+$(B)/unit/%.o $(B)/fuzz/%.o: private ALL_CFLAGS := \
+	$(patsubst -O3,-O1 $(NO_MAYBE),$(ALL_CFLAGS))
+
+# Tests with flags of their own.
+$(foreach i,$(ISAS),$(eval $(B)/unit/bvh/test_bvh8_$(i).o: \
+	private ALL_CFLAGS += $(FLAGS_$(i))))
+# test_tty inspects the event loop each time before it waits.
+$(L)/unit/terminal/test_tty: private ALL_LDFLAGS += \
+	-Wl,--wrap=workspace_next_ns,--wrap=tty_read
+# It reads files with OpenEXR's library.
+$(L)/unit/picture/test_image_exr: private LIBS += -lOpenEXRCore
+# It packs meshes with libdraco.
+ifneq ($(DRACO),)
+$(B)/unit/gltf/test_gltf_draco.o: private ALL_CFLAGS += -DHAS_DRACO
+$(L)/unit/gltf/test_gltf_draco: private LIBS := $(B)/unit/gltf/draco_encode.o \
+	$(LIBS)
+$(L)/unit/gltf/test_gltf_draco: $(B)/unit/gltf/draco_encode.o
+$(B)/unit/gltf/draco_encode.o: tests/unit/gltf/draco_encode.cc $(B)/flags
+	$(compile_cxx)
+endif
+# It makes the disk slow.
+$(L)/unit/session/test_session_film: private ALL_LDFLAGS += -Wl,--wrap=fsync
+# It lets allocations fail, and counts what is freed.
+WRAPPED := malloc calloc realloc aligned_alloc strdup strndup vasprintf \
+	__vasprintf_chk open_memstream getline __getdelim free
+$(L)/unit/api/test_out_of_memory: private ALL_LDFLAGS += \
+	$(WRAPPED:%=-Wl,--wrap=%)
+
+# libFuzzer has its own main(); without it, replay.c reads inputs from files.
+FUZZ_MAIN := $(if $(findstring fuzzer,$(SAN)),-fsanitize=fuzzer,$(B)/fuzz/replay.o)
+$(FUZZERS): $(filter %.o,$(FUZZ_MAIN))
+
+GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
+$(B)/scenes/%.o: scenes/%.c $(B)/flags
+	$(compile)
+$(L)/scenes/generate: $(GENERATOR) $(B)/picture/stb.o
+	@mkdir -p $(@D)
+	$(SAY) LINK $@
+	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ -lm
+
+# Tests of clusters need the program for them, where MPI is installed.
+MPI_PROGRAM := $(if $(SAN),,$(if $(shell command -v mpicc),$(L)/mpi/glim))
+TESTED := $(L)/glim $(MPI_PROGRAM) $(UNITS) $(FUZZERS) $(L)/tools/show \
+	$(L)/scenes/generate
+
+## test: installs missing packages, builds, runs all tests, with a few builds of
+##       the kernel; BUILDS=all has all builds, and compiles benchmarks too;
+##       FILTER=PART of their names; SAN=address,undefined or SAN=thread for
+##       sanitizers
+test: private BUILDS := $(if $(filter command%,$(origin BUILDS)),$(BUILDS),few)
+test:
+	@CC='$(CC)' tests/tools/deps.sh build test
+	@+$(MAKE_ALL) BUILDS=$(BUILDS) tests
+	@+$(MAKE_ALL) BUILDS=$(BUILDS) run-tests
+tests: $(TESTED) lib $(if $(filter all,$(BUILDS)),$(BENCHES) $(STRESSES) $(TOOLS) \
+	$(B)/error/error)
+run-tests:
+	@BUILD=$(L) BUILDS=$(BUILDS) SAN='$(SAN)' CC='$(CC)' tests/run.sh
+
+## fuzz: tests parsers of files, options and keys with random inputs;
+##       TIME=60 seconds for each target, FILTER=PART of a target's name
+fuzz:
+	@CC='$(FUZZ_CC)' tests/tools/deps.sh build fuzz
+	@+$(MAKE_ALL) CC='$(FUZZ_CC)' SAN=fuzzer-no-link,address,undefined BUILDS=few \
+		CFLAGS='$(if $(filter file,$(origin CFLAGS)),-O1 -g,$(CFLAGS))' search
+search: $(FUZZERS)
+	@BUILD=$(L) TIME='$(TIME)' FILTER='$(FILTER)' tests/fuzz/search.sh
+
+## stress: runs checks at numerical limits, and others that take minutes;
+##         FILTER=NAME selects one: samples geometry light films schedulers
+##         error filter gltf blender extremes sizes keys rays oclgrind valgrind
+stress: $(L)/glim $(MPI_PROGRAM) $(STRESSES) $(L)/unit/terminal/test_tty
+	@BUILD=$(L) FILTER='$(FILTER)' tests/stress/run.sh
+
+## mutants: breaks one factor after another, which a test must notice;
+##          FILTER=PART of names, files or tests
+mutants:
+	@CC='$(CC)' FILTER='$(FILTER)' tests/mutants/run.sh
+
+## scenes: generates the scenes in scenes/
+scenes: $(L)/scenes/generate
+	$(Q)$< scenes
+
+## tables: computes kernels/energy_tables.h
+tables: $(L)/tools/energy
+	$(Q)$< > $(B)/energy_tables.h
+	$(Q)mv $(B)/energy_tables.h kernels/energy_tables.h
+
+## format: formats the code with clang-format
+format:
+	@tests/tools/deps.sh lint
+	clang-format -i $(C_FILES)
+
+## lint: checks layers, layout, cppcheck, clang-tidy, kernels as OpenCL, manual
+lint:
+	@tests/tools/deps.sh build test lint
+	@printf '%s\n' $(C_FILES) | SOURCES='$(SOURCES) $(KERNEL_SOURCES)' \
+		FLAGS='$(ALL_CFLAGS)' BUILD='$(B)' tests/lint.sh
+
+.PHONY: test tests run-tests fuzz search stress mutants scenes tables format lint
+-include $(GENERATOR:.o=.d) $(B)/fuzz/replay.d $(patsubst $(L)/%,$(B)/%.d,$(UNITS) \
+	$(STRESSES) $(FUZZERS) $(BENCHES) $(TOOLS))
