@@ -13,6 +13,7 @@
 #include "opencl/cl_start.h"
 #include "render/cpu_dispatch.h"
 #include "render/render_left.h"
+#include "scene/pose_fit.h"
 
 /* Greatest number of threads, more than machines have processors. */
 #define THREADS_MAX 4096

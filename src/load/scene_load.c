@@ -10,6 +10,7 @@
 #include "base/decimal.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "scene/pose_fit.h"
 #include "scene/world_lamps.h"
 #include "formats/mtl.h"
 #include "formats/text_file.h"

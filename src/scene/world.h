@@ -174,8 +174,4 @@ bool world_has_emitters(const struct host_world *host);
 
 void world_free(struct host_world *host);
 
-/* Sets eye and at so that the whole scene is visible. fovy, size and up
- * stay. */
-void scene_frame(const struct scene *scene, struct view *view);
-
 #endif

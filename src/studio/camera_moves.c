@@ -76,16 +76,6 @@ void camera_orbit(struct pose *pose, const double around[3], double right_rad,
     }
 }
 
-/* Computes the nearest camera position (*x, *z), looking along z, from which
- * all points are within `slope` times their distance sideways. `right` and
- * `left` are the maxima of x - slope z and -x - slope z over the points. */
-static void fit_distance(double right, double left, double slope, double *x,
-                         double *z)
-{
-    *x = (right - left) / 2;
-    *z = -(right + left) / (2 * slope);
-}
-
 /* Returns one of the eight corners of a box. */
 static void corner_of(const double lo[3], const double hi[3], int corner,
                       double p[3])
@@ -97,39 +87,16 @@ static void corner_of(const double lo[3], const double hi[3], int corner,
 void camera_frame(struct pose *pose, double aspect, const double lo[3],
                   const double hi[3])
 {
-    double slope_y = CAMERA_FILL * tan(angle_rad(pose->fovy_deg) / 2);
-    double slope_x = slope_y * aspect;
-    double right = -INFINITY, left = -INFINITY;
-    double above = -INFINITY, below = -INFINITY;
-    double center[3], xyz[3], x, y, z, z_across, z_high;
-    double reach = pose_reach(pose), radius = 0;
-    struct axes axes;
+    double center[3], half[3];
+    struct pose_fit fit;
 
-    pose_axes(pose, &axes);
-    for (int i = 0; i < 3; i++)
-        center[i] = lo[i] / 2 + hi[i] / 2;
-    for (int corner = 0; corner < 8; corner++) {
-        double p[3];
-
-        corner_of(lo, hi, corner, p);
-        to_axes(&axes, center, p, xyz);
-        radius = vec3d_length(xyz);
-        right = fmax(right, xyz[0] - slope_x * xyz[2]);
-        left = fmax(left, -xyz[0] - slope_x * xyz[2]);
-        above = fmax(above, xyz[1] - slope_y * xyz[2]);
-        below = fmax(below, -xyz[1] - slope_y * xyz[2]);
-    }
-    fit_distance(right, left, slope_x, &x, &z_across);
-    fit_distance(above, below, slope_y, &y, &z_high);
-    /* stays outside of the sphere: with a wide lens a corner would be too
-     * near */
-    z = fmin(-radius, fmin(z_across, z_high));
-    if (!(z < 0))
-        z = -reach; /* the box is a point */
     for (int i = 0; i < 3; i++) {
-        pose->at[i] = center[i] + x * axes.right[i] + y * axes.up[i];
-        pose->eye[i] = pose->at[i] + z * axes.forward[i];
+        center[i] = lo[i] / 2 + hi[i] / 2;
+        half[i] = hi[i] / 2 - lo[i] / 2;
     }
+    pose_fit_begin(&fit, pose, aspect);
+    pose_fit_add_box(&fit, half);
+    pose_fit_place(&fit, center, 1, vec3d_length(half), pose);
 }
 
 /* The box is invisible if all corners are beyond the same plane of the

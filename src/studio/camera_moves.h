@@ -11,7 +11,7 @@
 
 #include <stdbool.h>
 
-#include "scene/pose.h"
+#include "scene/pose_fit.h"
 
 /* Moves eye and at along the camera's axes. */
 void camera_move(struct pose *pose, double right, double up, double forward);
@@ -26,12 +26,8 @@ void camera_turn(struct pose *pose, double right_rad, double up_rad);
 void camera_orbit(struct pose *pose, const double around[3], double right_rad,
                   double up_rad);
 
-/* Share of the picture's width or height that camera_frame() fills. */
-#define CAMERA_FILL 0.9
-
 /* Moves the camera, without turning it, so that a box just fits into the
- * picture. The eye stays outside of the sphere around the box, and `at` becomes
- * a point at the depth of its centre. */
+ * picture (pose_fit_place()). */
 void camera_frame(struct pose *pose, double aspect, const double lo[3],
                   const double hi[3]);
 

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "scene/pose_fit.h"
 #include "scene/world.h"
 #include "formats/mtl.h"
 #include "formats/obj.h"

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "scene/pose_fit.h"
 #include "scene/world_lamps.h"
 #include "formats/obj.h"
 #include "load/scene_load.h"
@@ -389,6 +390,61 @@ static void framing_shows_everything(void **state)
     unload(&l);
 }
 
+#define CUBE(a, b)                                                             \
+    "v " a " " a " " a "\nv " b " " a " " a "\nv " b " " b " " a "\nv " a      \
+    " " b " " a "\nv " a " " a " " b "\nv " b " " a " " b "\nv " b " " b " " b \
+    "\nv " a " " b " " b "\nf 1 2 3 4\nf 5 6 7 8\nf 1 2 6 5\nf 4 3 7 8\n"
+
+/* A cube of half the side a = 1 fills CAMERA_FILL of the width or the height,
+ * is in the middle, and the eye is at the distance that follows: with the slope
+ * s of the sides, a / s + a (sin 20 + cos 20) where the width decides, and half
+ * the sum of the distances for top and bottom where the height does. */
+static void framed_cubes_fill_the_picture(void **state)
+{
+    static const int sizes[][2] = {{100, 100}, {1024, 576}, {800, 200},
+                                   {200, 800}, {1600, 90},  {90, 1600}};
+    const double up = sin(20 * M_PI / 180), level = cos(20 * M_PI / 180);
+    struct loaded l = load(CUBE("9", "11"));
+
+    (void)state;
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        double s = CAMERA_FILL * tan(20 * M_PI / 180);
+        double side = s * sizes[i][0] / sizes[i][1];
+        double across = 1 / side + up + level;
+        double high = (level + s * up + fabs(up - s * level) + level - s * up +
+                       up + s * level) /
+                      (2 * s);
+        double lo[2] = {9, 9}, hi[2] = {-9, -9};
+        struct world world;
+        struct view view;
+
+        view_init(&view);
+        view.pose.fovy_deg = 40;
+        view.width_px = sizes[i][0];
+        view.height_px = sizes[i][1];
+        scene_frame(&l.scene, &view);
+        check_close(pose_reach(&view.pose), fmax(across, high), 1e-6);
+        assert_true(world_lend(&l.world, &l.scene, &view, 0, &world, &l.err));
+        for (int corner = 0; corner < 8; corner++) {
+            double p[3], xy[2], z;
+
+            for (int k = 0; k < 3; k++)
+                p[k] = corner >> k & 1 ? 11 : 9;
+            project(&l.scene, &world, p, &xy[0], &xy[1], &z);
+            for (int k = 0; k < 2; k++) {
+                lo[k] = fmin(lo[k], xy[k]);
+                hi[k] = fmax(hi[k], xy[k]);
+            }
+        }
+        for (int k = 0; k < 2; k++)
+            check_close(lo[k] + hi[k], 0, k == (across > high) ? 0.2 : 1e-5);
+        check_close(across > high ? hi[0] : hi[1], CAMERA_FILL, 1e-5);
+        check_at_most(across > high ? hi[1] : hi[0], CAMERA_FILL + 1e-5);
+        view_free(&view);
+    }
+    unload(&l);
+}
+
 static void check_vec(struct vec3 v, double x, double y, double z)
 {
     check_close((double)v.x, x, 1e-6);
@@ -668,6 +724,7 @@ int main(void)
         cmocka_unit_test(textures_are_read_with_their_options),
         cmocka_unit_test(libraries_are_found_beside_the_scene),
         cmocka_unit_test(framing_shows_everything),
+        cmocka_unit_test(framed_cubes_fill_the_picture),
         cmocka_unit_test(camera_is_in_scene_units),
         cmocka_unit_test(up_along_the_view_is_replaced),
         cmocka_unit_test(impossible_cameras_are_refused),
