@@ -18,6 +18,11 @@ static struct warnings_entry *find(const struct warnings *r, const char *kind)
     return NULL;
 }
 
+bool warnings_have(const struct warnings *r, const char *kind)
+{
+    return find(r, kind) != NULL;
+}
+
 /* Appends an entry, which takes over both texts. A text that is NULL means that
  * memory was out. */
 static void append(struct warnings *r, char *kind, char *text)

@@ -42,6 +42,9 @@ void warnings_add_named(struct warnings *r, const char *kind, const char *name,
                         const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
+/* Returns true if there is a warning of this kind. */
+bool warnings_have(const struct warnings *r, const char *kind);
+
 /* Returns "TEXT", or "TEXT (in all N KIND)" if there were more, for free(), or
  * NULL when memory is out. */
 char *warnings_line(const struct warnings_entry *entry);

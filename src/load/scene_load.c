@@ -15,6 +15,7 @@
 #include "formats/mtl.h"
 #include "formats/text_file.h"
 #include "formats/view_file.h"
+#include "load/light_probe.h"
 
 /* Radiance of the soft sky: an overcast noon, bright enough for exposure 0. */
 static const double soft_sky[3] = {0.7, 0.8, 0.9};
@@ -268,31 +269,6 @@ static bool choose_camera(const struct scene *scene, const char *wanted,
 
 /* ---- the scene with its view ---- */
 
-/* Radiance up to which surfaces of models glow, but are no lamps: that of
- * emissiveFactor in glTF, whose displays and eyes light no room. */
-#define GLOW_MAX 1.0f
-
-static bool has_lamp_surfaces(const struct host_world *host, bool is_model)
-{
-    if (!is_model)
-        return world_has_emitters(host);
-    for (uint32_t i = 0; i < host->material_count; i++)
-        if (host->material_is_used[i] &&
-            v3_max_component(host->materials[i].emission) > GLOW_MAX)
-            return true;
-    return false;
-}
-
-static bool is_dark(const struct scene *scene, const struct host_world *host,
-                    const struct view *view)
-{
-    const double *b = view->lighting.background;
-
-    return !has_lamp_surfaces(host, scene->has_own_mtl) && !host->sky_texels &&
-           host->point_light_count + host->directional_light_count == 0 &&
-           b[0] <= 0.0 && b[1] <= 0.0 && b[2] <= 0.0;
-}
-
 bool view_has_soft_sky(const struct view *view)
 {
     const struct lighting *l = &view->lighting;
@@ -301,44 +277,115 @@ bool view_has_soft_sky(const struct view *view)
            memcmp(l->background, soft_sky, sizeof soft_sky) == 0;
 }
 
-/* Lights a model as a studio does: a large lamp above the camera's shoulder and
- * a dim sky. Under the soft sky alone the shape of clay is hardly visible. */
-static bool add_studio(const struct scene *scene, struct host_world *host,
-                       struct view *view, struct error *err)
+static bool has_lamps(const struct host_world *host)
 {
+    return host->point_light_count + host->directional_light_count > 0;
+}
+
+/* Radiance up to which surfaces of models glow, but claim to be no lamps: that
+ * of emissiveFactor in glTF. */
+#define GLOW_MAX 1.0f
+
+static bool claims_lamps(const struct host_world *host)
+{
+    for (uint32_t i = 0; i < host->material_count; i++)
+        if (host->material_is_used[i] &&
+            v3_max_component(host->materials[i].emission) > GLOW_MAX)
+            return true;
+    return has_lamps(host);
+}
+
+/* Lights a scene with a soft sky, and a model as a studio does: by a large lamp
+ * above the camera's shoulder and a dim sky, as under the soft sky alone the
+ * shape of clay is hardly visible. */
+static bool add_light(const struct scene *scene, struct host_world *host,
+                      struct view *view, struct error *err)
+{
+    struct lighting *light = &view->lighting;
     struct lamp lamp;
 
+    memcpy(light->background, scene->has_own_mtl ? studio_sky : soft_sky,
+           sizeof light->background);
+    if (!scene->has_own_mtl)
+        return true;
+    light->has_background = true; /* written with the lamp */
     lamp_init(&lamp, LAMP_DIRECTIONAL);
     memcpy(lamp.rgb, studio_lamp, sizeof studio_lamp);
     lamp.azimuth_deg = 190;
     lamp.elevation_deg = 40;
     lamp.angle_deg = 25;
-    memcpy(view->lighting.background, studio_sky, sizeof studio_sky);
-    view->lighting.has_background = true; /* written with the lamp */
     return lamps_add(&view->lamps, &lamp)
                ? world_set_lamps(host, scene, view, err)
                : fail(err, "%s: out of memory for its light", scene->path);
 }
 
+static bool remove_light(const struct scene *scene, struct host_world *host,
+                         struct view *view, struct error *err)
+{
+    memset(view->lighting.background, 0, sizeof view->lighting.background);
+    view->lighting.has_background = false;
+    if (!scene->has_own_mtl)
+        return true;
+    lamps_remove(&view->lamps, (uint32_t)view->lamps.count - 1);
+    return world_set_lamps(host, scene, view, err);
+}
+
+/* Adds light to a scene whose own light does little for what the camera sees.
+ * Only models get it: what else has lamps is meant to be as dark as it is. */
+static bool help_light(const struct scene *scene, struct host_world *host,
+                       struct view *view, struct warnings *report,
+                       struct error *err)
+{
+    struct light_probe own, with;
+    bool is_model = scene->has_own_mtl;
+    bool says_so = !is_model || claims_lamps(host);
+
+    if (!light_probe_take(&own, host, scene, view, !is_model, err) ||
+        !add_light(scene, host, view, err) ||
+        !light_probe_take(&with, host, scene, view, false, err))
+        return false;
+    if (light_probe_suffices(&own, &with))
+        return remove_light(scene, host, view, err);
+    if (says_so)
+        warnings_add(report, SCENE_LITTLE_LIGHT,
+                     "%s: found that its own light shows %.0f %% of what the "
+                     "camera sees: %s",
+                     scene->path, 100 * own.shown / with.shown,
+                     is_model ? "lit as a studio; 'background 0 0 0' in the "
+                                "view file leaves its own light alone"
+                              : "not lit by a sky; 'background .7 .8 .9' in "
+                                "the view file adds one");
+    return is_model || remove_light(scene, host, view, err);
+}
+
+/* Lights a scene without a sky that has too little light of its own. */
+static bool complete_light(const struct scene *scene, struct host_world *host,
+                           struct view *view, bool has_view_lamps,
+                           struct warnings *report, struct error *err)
+{
+    const struct lighting *light = &view->lighting;
+
+    if (scene->tri_count == 0 || light->has_background || host->sky_texels ||
+        has_view_lamps)
+        return true;
+    if (world_has_emitters(host) || has_lamps(host))
+        return help_light(scene, host, view, report, err);
+    if (!scene->has_own_mtl)
+        warnings_add(report, "scenes without light",
+                     "%s: found no light: lit by a soft sky", scene->path);
+    return add_light(scene, host, view, err);
+}
+
 /* Adds a camera and light to scenes without them. */
 static bool complete_view(const struct scene *scene, struct host_world *host,
-                          struct view *view, struct warnings *report,
-                          struct error *err)
+                          struct view *view, bool has_view_lamps,
+                          struct warnings *report, struct error *err)
 {
-    bool is_model = scene->has_own_mtl;
-
-    if (scene->tri_count > 0 && is_dark(scene, host, view) &&
-        !view->lighting.has_background) {
-        if (is_model && !add_studio(scene, host, view, err))
-            return false;
-        if (!is_model) {
-            memcpy(view->lighting.background, soft_sky, sizeof soft_sky);
-            warnings_add(report, "scenes without light",
-                         "%s: found no light: lit by a soft sky", scene->path);
-        }
-    }
     if (!view->has_camera)
         scene_frame(scene, view);
+    if (!pose_check(&view->pose, scene->path, err) ||
+        !complete_light(scene, host, view, has_view_lamps, report, err))
+        return false;
     if (pose_up_is_parallel(&view->pose))
         warnings_add(report, "views along their up",
                      "%s: found the camera's up along its view: took another "
@@ -351,20 +398,23 @@ bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
                 const char *path, const struct scene_options *options,
                 struct warnings *report, struct error *err)
 {
+    bool has_view_lamps;
+
     scene->thread_count = options->thread_count;
     scene->choice = options->choice;
     if (!scene_load(scene, path, options->up, report, err) ||
         !choose_camera(scene, options->camera, view, err) ||
         (options->view_lines != NULL &&
-         !view_parse_over(view, options->view_lines, report, err)) ||
-        (view->lamps.count == 0 && !lamps_copy(&view->lamps, &scene->lamps) &&
+         !view_parse_over(view, options->view_lines, report, err)))
+        return false;
+    has_view_lamps = view->lamps.count > 0;
+    if ((!has_view_lamps && !lamps_copy(&view->lamps, &scene->lamps) &&
          !fail(err, "%s: out of memory for its lights", path)) ||
         !world_init(host, scene, options->thread_count, report, err) ||
         !world_load_sky(host, view, report, err) ||
         !world_set_lamps(host, scene, view, err))
         return false;
-    return complete_view(scene, host, view, report, err) &&
-           pose_check(&view->pose, path, err) &&
+    return complete_view(scene, host, view, has_view_lamps, report, err) &&
            (!report->has_lost ||
             fail(err, "%s: out of memory for the warnings", path));
 }

@@ -35,9 +35,13 @@ bool scene_load(struct scene *scene, const char *path, enum scene_up up,
 bool view_find(struct view *view, const char *scene_path, const char *view_path,
                char **path, struct warnings *report, struct error *err);
 
+/* Kind of the warning about a scene whose own light shows little. */
+#define SCENE_LITTLE_LIGHT "scenes with little light"
+
 /* Loads the scene and makes its world with the sky of the view. Completes the
- * view with what the options say, with a camera that sees the whole scene, and
- * with a soft sky if there is no light. */
+ * view with what the options say, and with a camera that sees the whole scene.
+ * Adds a soft sky if there is no light, and the light of a studio to a model
+ * whose own light shows little of it. */
 bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
                 const char *path, const struct scene_options *options,
                 struct warnings *report, struct error *err);

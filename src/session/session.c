@@ -34,6 +34,9 @@ static void note_additions(struct session *s)
     else if (view_has_soft_sky(&s->edit.now.view))
         snprintf(s->notice, sizeof s->notice,
                  "no light in the scene: lit by a soft sky");
+    else if (warnings_have(&s->report, SCENE_LITTLE_LIGHT))
+        snprintf(s->notice, sizeof s->notice, "its own light shows little%s",
+                 s->scene.has_own_mtl ? ": lit as a studio" : "");
 }
 
 /* Sets the rectangle to render. Returns false if it is not in the picture. */
