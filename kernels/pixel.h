@@ -17,9 +17,9 @@ struct tally {
     uint32_t samples;
     uint32_t rays;
     uint32_t non_finite; /* samples with a NaN, infinite or negative channel */
-    uint32_t
-        saturated; /* samples with a channel above 2^62, which counts as 2^62 */
-    uint32_t cut_paths; /* paths that ended at PATH_HARD_STOP */
+    uint32_t saturated;  /* samples with a channel above 2^62, which counts as
+                            2^62, or above what its sum has room for */
+    uint32_t cut_paths;  /* paths that ended at PATH_HARD_STOP */
 };
 
 /* The bits of 2^62. Larger numbers, infinity, NaN and all negative numbers have
@@ -38,7 +38,8 @@ static inline void channel_add(GLOBAL struct sum *sum, float x, uint32_t *bad,
         if (x > 0x1p62f)
             *full = 1;
     }
-    sum_add(sum, x);
+    if (!sum_add(sum, x))
+        *full = 1;
 }
 
 static inline void rgb_add(GLOBAL struct sum *sums, struct vec3 rgb,

@@ -25,29 +25,30 @@ static inline bool sum_accepts(float x)
     return x >= 0.0f && x <= FLOAT_MAX;
 }
 
-/* Adds one sum to another. Sums saturate at 2^63. */
-static inline void sum_join(GLOBAL struct sum *s, struct sum x)
+/* Adds one sum to another. Sums saturate at 2^63: then the result is false. */
+static inline bool sum_join(GLOBAL struct sum *s, struct sum x)
 {
     uint64_t large = s->hi | x.hi; /* two saturated sums wrap to 0 */
 
     s->lo += x.lo;
     s->hi += x.hi + (s->lo < x.lo ? 1 : 0);
-    if ((large | s->hi) >> 63) {
-        s->hi = (uint64_t)1 << 63;
-        s->lo = 0;
-    }
+    if (!((large | s->hi) >> 63))
+        return true;
+    s->hi = (uint64_t)1 << 63;
+    s->lo = 0;
+    return false;
 }
 
 /* Adds x, which sum_accepts() has accepted. Bits below 2^-64 are cut off.
- * Values above 2^62 count as 2^62. */
-static inline void sum_add(GLOBAL struct sum *s, float x)
+ * Values above 2^62 count as 2^62. Returns false if the sum is saturated. */
+static inline bool sum_add(GLOBAL struct sum *s, float x)
 {
     uint32_t exponent = float_bits(x) >> 23 & 255u;
     uint64_t mantissa = (float_bits(x) & 0x7fffffu) | 0x800000u;
     struct sum value = {0, 0};
 
     if (exponent < 127 - 64) /* 0 and denormal numbers as well */
-        return;
+        return true;
     if (exponent < 127) { /* below 1 */
         value.lo = mantissa << 40 >> (126 - exponent);
     } else if (exponent < 150) {
@@ -58,7 +59,7 @@ static inline void sum_add(GLOBAL struct sum *s, float x)
     } else {
         value.hi = (uint64_t)1 << 62;
     }
-    sum_join(s, value);
+    return sum_join(s, value);
 }
 
 /* Returns x - part, for sums of which one is a part of the other. */

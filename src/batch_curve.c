@@ -235,6 +235,9 @@ static bool write_csv(const struct measurement *m, struct error *err)
 
 static bool report(const struct measurement *m, struct error *err)
 {
+    struct glim_progress p = glim_get_progress(m->g);
+
+    batch_warn_of_samples(p.non_finite, p.saturated);
     curve_write_slopes(stdout, &m->curve);
     if (!write_csv(m, err) || !draw(m, err))
         return false;

@@ -15,6 +15,7 @@
 #include "render/error_text.h"
 #include "render/render_metadata.h"
 #include "batch_filter.h"
+#include "batch_progress.h"
 
 static struct develop develop_of(const struct film_header *h,
                                  const struct options *o)
@@ -68,7 +69,7 @@ static bool print_film(struct film_file *f, const char *path,
 {
     const struct film_header *h = &f->header;
     struct film_error e;
-    char error[ERROR_TEXT_BYTES];
+    char error[ERROR_TEXT_BYTES], faults[ERROR_FAULTS_BYTES];
 
     if (!estimate(f, o, &e, err))
         return false;
@@ -85,6 +86,8 @@ static bool print_film(struct film_file *f, const char *path,
     print_line(stdout, "  denoising  %s",
                h->identity.has_surfaces ? "possible" : "not possible");
     print_line(stdout, "  error      %s", error);
+    if (error_text_faults(faults, h->non_finite, h->saturated))
+        print_line(stdout, "  fault      %s", faults);
     print_line(stdout, "  time       %.1f s", seconds_between(0, h->render_ns));
     print_line(stdout, "  version    %s", h->version);
     print_hashes(&h->identity);
@@ -193,6 +196,8 @@ static bool write(struct film_file *f, const struct options *o,
                o->output_path, f->film.width, f->film.height,
                film_header_spp(&f->header),
                seconds_between(start_ns, clock_ns()), text);
+    batch_warn_of_samples(atomic_load(&f->film.non_finite),
+                          atomic_load(&f->film.saturated));
     return true;
 }
 

@@ -258,11 +258,17 @@ void batch_say_result(const char *name, int width, int height,
         print_line(stderr, "%s: %s%dx%d, %" PRIu64 " spp, %.1f s, error %s",
                    name, limit, width, height, p->spp,
                    seconds_between(start_ns, clock_ns()), error);
-    if (p->non_finite > 0)
-        print_line(stderr,
-                   "glim: warning: %" PRIu64
-                   " samples were not finite and count as black",
-                   p->non_finite);
+    batch_warn_of_samples(p->non_finite, p->saturated);
+}
+
+void batch_warn_of_samples(uint64_t non_finite, uint64_t saturated)
+{
+    const uint64_t faults[2][2] = {{non_finite, 0}, {0, saturated}};
+    char text[ERROR_FAULTS_BYTES];
+
+    for (int i = 0; i < 2; i++)
+        if (error_text_faults(text, faults[i][0], faults[i][1]))
+            print_line(stderr, "glim: warning: %s", text);
 }
 
 void batch_say_frames(int done, int count, uint64_t begin_ns)

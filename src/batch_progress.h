@@ -52,6 +52,9 @@ void batch_say_result(const char *name, int width, int height,
                       const struct glim_progress *p, const struct options *o,
                       uint64_t start_ns);
 
+/* Says how many samples were black or cut, which the two counters tell. */
+void batch_warn_of_samples(uint64_t non_finite, uint64_t saturated);
+
 /* Says how many pictures of a series were written since begin_ns, and which
  * signal stopped it. */
 void batch_say_frames(int done, int count, uint64_t begin_ns);

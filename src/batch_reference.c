@@ -27,7 +27,7 @@ struct making {
     char *json_path;
     struct replicates replicates;
     uint64_t spp; /* samples of each seed */
-    uint64_t non_finite;
+    uint64_t non_finite, saturated;
     struct batch_bar bar;
 };
 
@@ -80,6 +80,7 @@ static bool render_seed(struct making *m, int index, bool *is_complete,
     p = glim_get_progress(m->g);
     m->spp = p.spp;
     m->non_finite += p.non_finite;
+    m->saturated += p.saturated;
     if (m->spp == 0)
         return fail(err,
                     "--time: found no complete sample in %.3g s for each "
@@ -153,11 +154,7 @@ static bool write(struct making *m, uint64_t start_ns, struct error *err)
                "%.3g to %.3g), %.1f s",
                m->o->output_path, r->width, r->height, origin.spp, r->count,
                e.relmse, e.relmse_low, e.relmse_high, origin.seconds);
-    if (m->non_finite > 0)
-        print_line(stderr,
-                   "glim: warning: %" PRIu64
-                   " samples were not finite and count as black",
-                   m->non_finite);
+    batch_warn_of_samples(m->non_finite, m->saturated);
     return true;
 }
 

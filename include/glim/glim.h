@@ -92,6 +92,7 @@ struct glim_progress {
     uint64_t samples;       /* samples of all pixels together */
     uint64_t samples_limit; /* 0: none */
     uint64_t non_finite;    /* NaN, infinite or negative samples: black */
+    uint64_t saturated;     /* samples too bright for the sums: cut */
     double seconds;         /* time spent on the picture */
     double build_seconds;   /* part of it for the tree of triangles */
     /* relative error of the picture at the end of the last pass, 0.01 for 1 %,

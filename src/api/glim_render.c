@@ -150,6 +150,7 @@ struct glim_progress handle_progress(const struct render_progress *p)
         .samples = p->samples,
         .samples_limit = p->samples_limit,
         .non_finite = p->non_finite,
+        .saturated = p->saturated,
         .seconds = seconds_between(0, p->render_ns),
         .build_seconds = seconds_between(0, p->build_ns),
         .error_is_known = p->film_error.is_known,

@@ -53,7 +53,8 @@ struct film {
     atomic_uint_least64_t rays;
     atomic_uint_least64_t non_finite; /* NaN, infinite or negative samples,
                                          counted as 0 */
-    atomic_uint_least64_t saturated;  /* samples above 2^62, counted as 2^62 */
+    atomic_uint_least64_t saturated;  /* samples above 2^62, or above the room
+                                         in their sums, cut to that */
     atomic_uint_least64_t cut_paths;  /* paths ended by the limit on their
                                          length */
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/error_text.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -65,6 +66,22 @@ void error_text_noise(char text[ERROR_TEXT_BYTES], const struct film_error *e)
     snprintf(text, ERROR_TEXT_BYTES, "noise %.20s%s",
              e->is_known ? number : "unknown",
              e->is_known && !e->is_resolved ? ", unresolved" : "");
+}
+
+bool error_text_faults(char text[ERROR_FAULTS_BYTES], uint64_t non_finite,
+                       uint64_t saturated)
+{
+    if (non_finite > 0)
+        snprintf(text, ERROR_FAULTS_BYTES,
+                 "%" PRIu64 " samples were not finite and count as black",
+                 non_finite);
+    else if (saturated > 0)
+        snprintf(text, ERROR_FAULTS_BYTES,
+                 "%" PRIu64
+                 " samples were too bright: sums above 2^63 are cut, "
+                 "and the picture is too dark there",
+                 saturated);
+    return non_finite > 0 || saturated > 0;
 }
 
 double error_text_target(double error)

@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "base/print.h"
+#include "render/error_text.h"
 #include "terminal/xmalloc.h"
 
 /* Limit of the wait for the draft's first whole pass: half a frame at 60 Hz, to
@@ -226,6 +227,21 @@ static void handle_files(struct render_control *control)
         render_control_reload(control);
 }
 
+/* Says once that samples are black or cut: in the status line, and when the
+ * screen is closed. */
+static void say_faults(struct render_control *control)
+{
+    const struct render_progress *p = &control->progress;
+    char text[ERROR_FAULTS_BYTES];
+
+    if (control->has_said_faults ||
+        !error_text_faults(text, p->non_finite, p->saturated))
+        return;
+    control->has_said_faults = true;
+    render_control_say_long(control, "%s", text);
+    render_control_add_result(control, text);
+}
+
 void render_control_update(struct render_control *control)
 {
     enum render_state before = control->progress.state;
@@ -236,6 +252,7 @@ void render_control_update(struct render_control *control)
     control->progress = session_progress(control->session);
     if (control->progress.state != before)
         control->has_changed = true;
+    say_faults(control);
     if (control->progress.state == RENDER_FAILED && before != RENDER_FAILED)
         replace_device(control);
     /* A picture in progress is shown once before the restart. Otherwise a scene

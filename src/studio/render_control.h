@@ -56,6 +56,8 @@ struct render_control {
     uint64_t saving_samples; /* samples that are being saved */
     char saving_what[64];    /* description: size and samples */
 
+    bool has_said_faults; /* of samples */
+
     char **results; /* lines to print at the end */
     int result_count;
 };

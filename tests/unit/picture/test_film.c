@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "picture/film.h"
+#include "picture/film_merge.h"
 #include "kernels/tone.h"
 
 /* STRESS C6: the mean still changes at counts where sums of floats would
@@ -75,6 +75,33 @@ static void odd_values_are_refused_or_saturate(void **state)
     for (int i = 0; i < 5; i++)
         sum_add(&s, 3.4e38f);
     assert_true(s.hi == (uint64_t)1 << 63);
+}
+
+/* Light that a sum has no room for is counted: of 10 samples of 2^61 the first
+ * three fit below 2^63; two sums of three do not fit together. */
+static void lost_light_is_counted(void **state)
+{
+    struct film film, half;
+    struct error err;
+    struct path_sample samples[10];
+    float rgb[3];
+
+    (void)state;
+    assert_true(film_init(&film, 1, 1, &err) && film_init(&half, 1, 1, &err));
+    for (int i = 0; i < 10; i++)
+        samples[i] = (struct path_sample){.radiance = {0x1p61f, 1, 0}};
+    film_add_row(&half, 0, 0, 1, 1, samples, NULL, (int[]){3});
+    assert_int_equal(atomic_load(&half.saturated), 0);
+    film_add_row(&film, 0, 0, 1, 1, samples, NULL, (int[]){3});
+    film_merge(&film, 0, &half);
+    assert_int_equal(atomic_load(&film.saturated), 1);
+    film_add_row(&half, 0, 0, 1, 1, samples + 3, NULL, (int[]){7});
+    assert_int_equal(atomic_load(&half.saturated), 7);
+    film_linear(&half, rgb);
+    check_close(rgb[0], 0x1p63 / 10, 1e12);
+    check_close(rgb[1], 1, 0);
+    film_free(&half);
+    film_free(&film);
 }
 
 /* Compares bytes with the formula of IEC 61966-2-1 in double. */
@@ -430,6 +457,7 @@ int main(void)
         cmocka_unit_test(sums_are_exact_in_any_order),
         cmocka_unit_test(single_values_come_back),
         cmocka_unit_test(odd_values_are_refused_or_saturate),
+        cmocka_unit_test(lost_light_is_counted),
         cmocka_unit_test(bytes_follow_the_srgb_curve),
         cmocka_unit_test(film_shows_means_and_fills_gaps),
         cmocka_unit_test(bad_samples_count_as_zero),
