@@ -11,6 +11,7 @@
 #include "base/event_fd.h"
 #include "base/file.h"
 #include "base/print.h"
+#include "base/stop.h"
 #include "picture/image_write.h"
 #include "api/handle.h"
 #include "terminal/xmalloc.h"
@@ -288,10 +289,12 @@ static bool save_all(struct view_mode *show, struct error *err)
         /* an old picture is better than a black one */
         return batch_say_empty(err);
     }
+    stop_hold();
     ok = save_film(show, &name, err);
     if (ok)
         say_result(s, name, &p);
     ok = ok && save_more(show, name, err);
+    stop_release();
     free(name);
     return ok;
 }
@@ -360,9 +363,13 @@ static bool save_film_and_all(struct view_mode *show, struct session_film *f,
                               struct error *err)
 {
     struct error film_err;
-    bool has_film = session_film_write(f, &film_err);
+    bool has_film, has_picture;
 
-    if (!save_all(show, err)) {
+    stop_hold();
+    has_film = session_film_write(f, &film_err);
+    has_picture = save_all(show, err);
+    stop_release();
+    if (!has_picture) {
         if (!has_film)
             error_add(err, &film_err);
         return false;

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/print.h"
+#include "base/stop.h"
 #include "picture/image_write.h"
 #include "api/handle.h"
 #include "terminal/tty.h"
@@ -236,12 +237,14 @@ static bool write_csv(const struct measurement *m, struct error *err)
 static bool report(const struct measurement *m, struct error *err)
 {
     struct glim_progress p = glim_get_progress(m->g);
+    bool ok;
 
     batch_warn_of_samples(p.non_finite, p.saturated);
+    stop_hold();
     curve_write_slopes(stdout, &m->curve);
-    if (!write_csv(m, err) || !draw(m, err))
-        return false;
-    return print_finish(stdout, err);
+    ok = write_csv(m, err) && draw(m, err) && print_finish(stdout, err);
+    stop_release();
+    return ok;
 }
 
 static bool run(struct measurement *m, struct error *err)

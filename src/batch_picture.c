@@ -10,6 +10,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/print.h"
+#include "base/stop.h"
 #include "terminal/xmalloc.h"
 #include "session/frame_series.h"
 #include "batch_filter.h"
@@ -122,6 +123,17 @@ static bool save(struct glim *g, const struct options *o, uint64_t start_ns,
     return true;
 }
 
+static bool save_held(struct glim *g, const struct options *o,
+                      uint64_t start_ns, struct error *err)
+{
+    bool ok;
+
+    stop_hold();
+    ok = save(g, o, start_ns, err);
+    stop_release();
+    return ok;
+}
+
 /* Checks before the render that the files can be written. */
 static bool check_outputs(struct glim *g, const struct options *o,
                           struct error *err)
@@ -149,7 +161,7 @@ static bool run(struct glim *g, const struct options *o, uint64_t start_ns,
     if (wants_device && !batch_handle_use_device(g, o, err))
         return false;
     return batch_catch_signals(g, &wake_fd, err) &&
-           render(g, o, wants_device, err) && save(g, o, start_ns, err);
+           render(g, o, wants_device, err) && save_held(g, o, start_ns, err);
 }
 
 bool batch_picture_run(const struct options *o, uint64_t start_ns, int *status,

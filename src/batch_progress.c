@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,6 +14,7 @@
 #include "base/clock.h"
 #include "base/event_fd.h"
 #include "base/print.h"
+#include "base/stop.h"
 #include "picture/image_write.h"
 #include "render/error_text.h"
 
@@ -52,10 +54,35 @@ static void on_stop_signal(int number)
 
     if (stop_signal == 0)
         stop_signal = number;
+    stop_request(128 + number, true);
     event_fd_set(stop_fd);
     if (stopped != NULL)
         glim_cancel(stopped);
     errno = saved_errno;
+}
+
+static const char *signal_name(int number)
+{
+    for (int i = 0; i < STOP_SIGNAL_COUNT; i++) {
+        if (stop_signals[i].number == number)
+            return stop_signals[i].name;
+    }
+    return "a signal";
+}
+
+/* Says that the program did not end by itself. Standard error may be what it
+ * waits for. */
+static void say_end(void)
+{
+    struct pollfd out = {.fd = STDERR_FILENO, .events = POLLOUT};
+    char text[80];
+    int length =
+        snprintf(text, sizeof text, "stopped by %s: nothing more is written\n",
+                 signal_name(stop_signal));
+
+    if (poll(&out, 1, 0) == 1 && (out.revents & POLLOUT) != 0 &&
+        write(STDERR_FILENO, text, (size_t)length) < 0)
+        return; /* errors cannot be reported here */
 }
 
 bool batch_catch_signals(struct glim *g, int *wake_fd, struct error *err)
@@ -64,8 +91,9 @@ bool batch_catch_signals(struct glim *g, int *wake_fd, struct error *err)
                                .sa_flags = SA_RESTART};
 
     stop_fd = event_fd_open("signals", err);
-    if (stop_fd < 0)
+    if (stop_fd < 0 || !stop_begin(err))
         return false;
+    stop_at_end(say_end);
     *wake_fd = stop_fd;
     stopped = g;
     sigemptyset(&action.sa_mask);
@@ -83,15 +111,6 @@ bool batch_catch_signals(struct glim *g, int *wake_fd, struct error *err)
 int batch_stop_signal(void)
 {
     return stop_signal;
-}
-
-static const char *signal_name(int number)
-{
-    for (int i = 0; i < STOP_SIGNAL_COUNT; i++) {
-        if (stop_signals[i].number == number)
-            return stop_signals[i].name;
-    }
-    return "a signal";
 }
 
 /* ---- the bar ---- */
@@ -176,12 +195,14 @@ static void bar_show(struct batch_bar *bar, const char *text)
 
     if (cols > limit)
         cols = limit;
+    stop_allow_begin();
     fputc('\r', stderr);
     print_text(stderr, "%.*s", cols, text);
     if (bar->shown_cols > cols)
         print_text(stderr, "%*s", bar->shown_cols - cols, "");
     bar->shown_cols = cols;
     fflush(stderr);
+    stop_allow_end();
 }
 
 struct batch_bar batch_bar_begin(void)
@@ -203,8 +224,10 @@ void batch_bar_erase(struct batch_bar *bar)
 {
     if (bar->shown_cols == 0)
         return;
+    stop_allow_begin();
     bar_show(bar, "");
     fputc('\r', stderr);
+    stop_allow_end();
     bar->shown_cols = 0;
 }
 

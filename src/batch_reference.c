@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/print.h"
+#include "base/stop.h"
 #include "picture/image_write.h"
 #include "terminal/xmalloc.h"
 #include "measure/reference_info.h"
@@ -121,7 +122,7 @@ static bool write_info(const struct making *m,
 }
 
 /* Writes the picture and the file beside it. */
-static bool write(struct making *m, uint64_t start_ns, struct error *err)
+static bool write_all(struct making *m, uint64_t start_ns, struct error *err)
 {
     struct replicates *r = &m->replicates;
     struct mean_error e;
@@ -156,6 +157,16 @@ static bool write(struct making *m, uint64_t start_ns, struct error *err)
                e.relmse, e.relmse_low, e.relmse_high, origin.seconds);
     batch_warn_of_samples(m->non_finite, m->saturated);
     return true;
+}
+
+static bool write(struct making *m, uint64_t start_ns, struct error *err)
+{
+    bool ok;
+
+    stop_hold();
+    ok = write_all(m, start_ns, err);
+    stop_release();
+    return ok;
 }
 
 static bool prepare(struct making *m, struct error *err)

@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -148,8 +149,10 @@ static int probe(const struct options *o)
     };
     struct cl_probe probe;
     struct error err;
-    bool ok = cl_probe_answer(&probe, &request, &err);
+    bool ok;
 
+    prctl(PR_SET_PDEATHSIG, SIGKILL); /* its parent may end by a signal */
+    ok = cl_probe_answer(&probe, &request, &err);
     if (probe.log)
         print_lines(stderr, probe.log);
     if (ok) {

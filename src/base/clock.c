@@ -19,6 +19,13 @@ uint64_t clock_cpu_ns(void)
     return read_clock(CLOCK_PROCESS_CPUTIME_ID);
 }
 
+uint64_t clock_process_ns(pid_t process)
+{
+    clockid_t clock;
+
+    return clock_getcpuclockid(process, &clock) == 0 ? read_clock(clock) : 0;
+}
+
 struct timespec clock_time_after(int64_t ns)
 {
     struct timespec t;

@@ -13,6 +13,7 @@
 
 #include "base/cgroup_quota.h"
 #include "base/memory.h"
+#include "base/stop.h"
 #include "base/temp_file.h"
 
 /* Limit for a chain of symbolic links, as in the kernel. */
@@ -261,10 +262,30 @@ bool file_check(const char *path, struct error *err)
     return ok;
 }
 
-static bool write_all(int fd, const char *data, size_t size_bytes)
+/* Writes once to a pipe, and waits for its reader. Returns the number of bytes,
+ * or -1 and errno. */
+static ssize_t write_pipe(int fd, const void *data, size_t size_bytes)
+{
+    ssize_t n;
+
+    stop_allow_begin();
+    n = write(fd, data, size_bytes);
+    if (n < 0 && errno == EAGAIN) {
+        /* the pipe's creator may have made it non-blocking */
+        poll(&(struct pollfd){.fd = fd, .events = POLLOUT}, 1, -1);
+        errno = EINTR;
+    }
+    stop_allow_end();
+    return n;
+}
+
+/* Writes all bytes with calls of `step`, write() or write_pipe(). */
+static bool write_all(int fd, const char *data, size_t size_bytes,
+                      ssize_t (*step)(int, const void *, size_t))
 {
     while (size_bytes > 0) {
-        ssize_t n = write(fd, data, size_bytes);
+        ssize_t n = step(fd, data, size_bytes);
+
         if (n < 0 && errno != EINTR)
             return false;
         if (n > 0) {
@@ -329,7 +350,7 @@ static bool fill(const struct replacement *r, int fd)
     bool keeps_mode = !r->must_be_new && stat(r->target, &old) == 0;
 
     return (!keeps_mode || fchmod(fd, old.st_mode & 0777) == 0) &&
-           write_all(fd, r->data, r->size_bytes) && fsync(fd) == 0 &&
+           write_all(fd, r->data, r->size_bytes, write) && fsync(fd) == 0 &&
            (!r->change || fill_after(fd, r->change));
 }
 
@@ -368,6 +389,7 @@ static bool write_file(const char *path, const void *data, size_t size_bytes,
     bool ok = folder ? must_be_new || check_target(target, folder, path, err)
                      : fail_memory(err, path);
 
+    stop_hold();
     if (ok)
         temp_file_sweep(folder);
     if (ok && !replace(&r)) {
@@ -377,6 +399,7 @@ static bool write_file(const char *path, const void *data, size_t size_bytes,
     }
     if (ok)
         sync_folder(folder);
+    stop_release();
     free(folder);
     free(target);
     return ok;
@@ -394,25 +417,15 @@ bool file_replace(const char *path, const void *data, size_t size_bytes,
     return write_file(path, data, size_bytes, false, NULL, change, err);
 }
 
+bool file_write_pipe(int fd, const void *data, size_t size_bytes)
+{
+    return write_all(fd, data, size_bytes, write_pipe);
+}
+
 bool file_write_stdout(const void *data, size_t size_bytes, struct error *err)
 {
-    const char *p = data;
-    size_t left = size_bytes;
-
-    while (left > 0) {
-        ssize_t n = write(STDOUT_FILENO, p, left);
-        if (n >= 0) {
-            p += n;
-            left -= (size_t)n;
-        } else if (errno == EAGAIN) {
-            /* the pipe's creator may have made it non-blocking */
-            poll(&(struct pollfd){.fd = STDOUT_FILENO, .events = POLLOUT}, 1,
-                 -1);
-        } else if (errno != EINTR) {
-            return fail(err, "standard output: %s", strerror(errno));
-        }
-    }
-    return true;
+    return file_write_pipe(STDOUT_FILENO, data, size_bytes) ||
+           fail(err, "standard output: %s", strerror(errno));
 }
 
 char *file_write_numbered(const char *stem, const char *ending,

@@ -72,7 +72,11 @@ char *file_write_numbered(const char *stem, const char *ending,
                           const void *data, size_t size_bytes,
                           struct error *err);
 
-/* Writes all bytes, even if standard output is non-blocking. */
+/* Writes all bytes to a pipe, even if it is non-blocking. Returns false and
+ * errno on failure. */
+bool file_write_pipe(int fd, const void *data, size_t size_bytes);
+
+/* Writes all bytes to standard output, as file_write_pipe(). */
 bool file_write_stdout(const void *data, size_t size_bytes, struct error *err);
 
 /* Makes the folder and its missing parents, with access for this user only.

@@ -9,6 +9,7 @@
 #include <wchar.h>
 
 #include "base/memory.h"
+#include "base/stop.h"
 
 bool print_shows(uint32_t c)
 {
@@ -63,7 +64,9 @@ print(FILE *to, const char *end, const char *format, va_list values)
         print_replace(text);
     if (text)
         whole = format_text("%s%s", text, end);
+    stop_allow_begin();
     fputs(whole ? whole : out_of_memory, to);
+    stop_allow_end();
     free(whole);
     free(text);
 }
@@ -106,8 +109,12 @@ void print_lines(FILE *to, const char *text)
 
 bool print_finish(FILE *to, struct error *err)
 {
-    return (fflush(to) == 0 && !ferror(to)) ||
-           fail(err, "standard output: %s", strerror(errno));
+    bool ok;
+
+    stop_allow_begin();
+    ok = fflush(to) == 0 && !ferror(to);
+    stop_allow_end();
+    return ok || fail(err, "standard output: %s", strerror(errno));
 }
 
 const char *print_plural(uint64_t count)

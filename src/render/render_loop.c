@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/event_fd.h"
 #include "base/memory.h"
+#include "base/stop.h"
 #include "base/thread.h"
 #include "render/render_run.h"
 
@@ -137,8 +138,10 @@ bool render_start(struct render *r, const struct render_job *job,
 
 void render_halt(struct render *r)
 {
+    stop_hold();
     cancel_request(&r->cancel);
     render_wait(r, -1);
+    stop_release();
 }
 
 void render_resume(struct render *r, struct render_limits limits)

@@ -2,6 +2,7 @@
 #include "render/render_run.h"
 
 #include "base/clock.h"
+#include "base/stop.h"
 #include "filter/film_filter.h"
 #include "render/pass_plan.h"
 
@@ -58,9 +59,11 @@ static enum pass_result load(struct render *r)
     struct backend *b = r->backend;
     uint64_t shape = r->job.host->versions[WORLD_SHAPE];
     uint64_t begin_ns = clock_ns();
-    bool ok =
-        b->shape == shape || b->load(b, r->job.host, &r->job.world, &r->error);
+    bool ok;
 
+    stop_allow_begin();
+    ok = b->shape == shape || b->load(b, r->job.host, &r->job.world, &r->error);
+    stop_allow_end();
     if (b->shape != shape) {
         pthread_mutex_lock(&r->lock);
         r->build_ns = clock_ns() - begin_ns;

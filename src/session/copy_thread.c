@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/event_fd.h"
+#include "base/stop.h"
 #include "base/thread.h"
 
 bool copy_thread_init(struct copy_thread *t, const char *whose,
@@ -22,7 +23,9 @@ static void *run(void *argument)
 {
     struct copy_thread *t = argument;
 
+    stop_hold();
     t->work(t->context);
+    stop_release();
     event_fd_set(t->event_fd);
     return NULL;
 }

@@ -3,16 +3,30 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
+#include "base/stop.h"
 #include "terminal/xmalloc.h"
 
+/* Interval of looks at an ffmpeg that ends, and how many of them it has if a
+ * signal ends the program between two pictures. */
+#define LOOK_NS    10000000
+#define LOOKS_LAST 25
+
 extern char **environ;
+
+/* The video of the program, for end_now(). */
+static struct video_pipe running;
+static atomic_bool is_running, is_between; /* between two pictures */
 
 static const char *ending_of(const char *path)
 {
@@ -81,6 +95,47 @@ static int start(struct video_pipe *v, int input, const char *size,
     return spawn(v, input, is_film ? film : images);
 }
 
+/* ---- ends ---- */
+
+/* Removes the file if ffmpeg has changed it. */
+static void remove_partial(const struct video_pipe *v)
+{
+    struct file_identity now = file_identify(v->path);
+
+    if (!file_is_same(&now, &v->before))
+        unlink(v->path);
+}
+
+static bool has_failed(int status)
+{
+    return !WIFEXITED(status) || WEXITSTATUS(status) != 0;
+}
+
+/* Ends ffmpeg with the program, in the thread of stop.h. Between two pictures
+ * it may end the video. */
+static void end_now(void)
+{
+    const struct timespec look = {.tv_nsec = LOOK_NS};
+    struct video_pipe v = running;
+    int looks = 0, status;
+    pid_t ended = 0;
+
+    if (!atomic_load(&is_running))
+        return;
+    if (atomic_load(&is_between)) {
+        close(v.fd);
+        while ((ended = waitpid(v.process, &status, WNOHANG)) == 0 &&
+               looks++ < LOOKS_LAST)
+            nanosleep(&look, NULL);
+    }
+    if (ended == v.process && !has_failed(status))
+        return;
+    kill(-v.process, SIGKILL);
+    remove_partial(&v);
+}
+
+/* ---- the pipe ---- */
+
 bool video_pipe_open(struct video_pipe *v, const char *path, int width,
                      int height, double fps, bool *is_missing,
                      struct error *err)
@@ -89,7 +144,7 @@ bool video_pipe_open(struct video_pipe *v, const char *path, int width,
     int ends[2], reason;
     char *file;
 
-    *v = (struct video_pipe){.path = path};
+    *v = (struct video_pipe){.path = path, .before = file_identify(path)};
     *is_missing = false;
     if (pipe2(ends, O_CLOEXEC) != 0)
         return fail(err, "%s: cannot make a pipe: %s", path, strerror(errno));
@@ -100,8 +155,13 @@ bool video_pipe_open(struct video_pipe *v, const char *path, int width,
     free(file);
     close(ends[0]);
     v->fd = ends[1];
-    if (reason == 0)
+    if (reason == 0) {
+        running = *v;
+        atomic_store(&is_between, true);
+        atomic_store(&is_running, true);
+        stop_at_end(end_now);
         return true;
+    }
     close(ends[1]);
     v->process = 0;
     *is_missing = reason == ENOENT;
@@ -111,38 +171,61 @@ bool video_pipe_open(struct video_pipe *v, const char *path, int width,
 bool video_pipe_write(struct video_pipe *v, const struct frame *frame,
                       struct error *err)
 {
-    size_t left = 3 * (size_t)frame->width * (size_t)frame->height;
-    const uint8_t *p = frame->rgb;
+    size_t size_bytes = 3 * (size_t)frame->width * (size_t)frame->height;
+    bool ok;
 
-    while (left > 0) {
-        ssize_t n = write(v->fd, p, left);
+    atomic_store(&is_between, false);
+    ok = file_write_pipe(v->fd, frame->rgb, size_bytes);
+    atomic_store(&is_between, ok);
+    return ok || fail(err, "%s: ffmpeg took no more pictures: %s", v->path,
+                      strerror(errno));
+}
 
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n < 0)
-            return fail(err, "%s: ffmpeg took no more pictures: %s", v->path,
-                        strerror(errno));
-        p += n;
-        left -= (size_t)n;
+/* Waits for the process. After a signal, stop.h ends the wait if the process
+ * works no more: its processor time stands still. Returns false and errno if
+ * its status is lost. */
+static bool await(pid_t process, int *status)
+{
+    const struct timespec look = {.tv_nsec = LOOK_NS};
+    uint64_t cpu_ns = 0;
+    pid_t ended;
+
+    stop_allow_begin();
+    while ((ended = waitpid(process, status, WNOHANG)) == 0) {
+        uint64_t now_ns = clock_process_ns(process);
+
+        if (now_ns > cpu_ns) {
+            stop_allow_end();
+            stop_allow_begin();
+        }
+        cpu_ns = now_ns;
+        nanosleep(&look, NULL);
     }
-    return true;
+    stop_allow_end();
+    return ended == process;
 }
 
 bool video_pipe_close(struct video_pipe *v, struct error *err)
 {
-    pid_t process = v->process;
-    const char *path = v->path;
+    struct video_pipe ended = *v;
     int status;
+    bool ok;
 
-    if (process == 0)
+    if (v->process == 0)
         return true;
+    atomic_store(&is_between, false);
     close(v->fd);
     *v = (struct video_pipe){.path = NULL};
-    while (waitpid(process, &status, 0) < 0)
-        if (errno != EINTR)
-            return fail(err, "%s: lost ffmpeg: %s", path, strerror(errno));
-    return (WIFEXITED(status) && WEXITSTATUS(status) == 0) ||
-           fail(err, "%s: ffmpeg failed with %s %d", path,
+    stop_hold();
+    ok = await(ended.process, &status);
+    stop_release();
+    atomic_store(&is_running, false);
+    if (!ok)
+        return fail(err, "%s: lost ffmpeg: %s", ended.path, strerror(errno));
+    if (!has_failed(status))
+        return true;
+    remove_partial(&ended);
+    return fail(err, "%s: ffmpeg failed with %s %d", ended.path,
                 WIFEXITED(status) ? "status" : "signal",
                 WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status));
 }

@@ -12,12 +12,14 @@
 #include <sys/types.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "picture/frame.h"
 
 struct video_pipe {
     const char *path;
     pid_t process; /* 0: none */
     int fd;
+    struct file_identity before; /* the file of that name at the start */
 };
 
 /* Returns true if the name ends like that of a video: .mp4, .webm or .webp. */
@@ -33,8 +35,9 @@ bool video_pipe_open(struct video_pipe *v, const char *path, int width,
 bool video_pipe_write(struct video_pipe *v, const struct frame *frame,
                       struct error *err);
 
-/* Ends the video and waits until ffmpeg has written it. A zeroed struct is
- * closed. */
+/* Ends the video and waits until ffmpeg has written it. If it fails, or hangs
+ * when a signal ends the program, what it has written of the file is removed. A
+ * zeroed struct is closed. */
 bool video_pipe_close(struct video_pipe *v, struct error *err);
 
 #endif

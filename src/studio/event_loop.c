@@ -12,6 +12,7 @@
 #include "base/clock.h"
 #include "base/event_fd.h"
 #include "base/print.h"
+#include "base/stop.h"
 #include "session/stats_json.h"
 #include "studio/panel_draw.h"
 #include "studio/save_commands.h"
@@ -340,15 +341,18 @@ static void close_screen(struct studio *studio)
         tty_ignore_termination(); /* shells send SIGHUP again */
     if (!studio->is_gone)
         screen_drain(&studio->workspace.screen, &studio->input);
+    /* before what may take longer than stop.h allows: a driver, or a tree */
+    stop_hold();
+    save_finish(&studio->control);
+    session_keeper_end(&studio->keeper, is_lost);
+    stop_release();
     /* before tty_close(): its end puts back the signal handlers of its start */
     backends_abandon_device(&studio->control.session->backends);
     tty_close(studio->is_gone);
-    render_halt(studio->control.session->render);
-    save_finish(&studio->control);
-    session_keeper_end(&studio->keeper, is_lost);
     for (int i = 0; i < studio->control.result_count && !studio->is_gone; i++)
         print_line(stdout, "%s", studio->control.results[i]);
     fflush(stdout);
+    render_halt(studio->control.session->render);
 }
 
 /* The render starts first: it works while the terminal is opened. */

@@ -4,6 +4,7 @@
 #include <assert.h>
 #include <signal.h>
 
+#include "base/stop.h"
 #include "studio/panel_draw.h"
 #include "studio/save_commands.h"
 
@@ -13,6 +14,7 @@ void studio_end(struct studio *studio, int status)
 {
     studio->is_ending = true;
     studio->status = status;
+    stop_request(status, false); /* typed keys end it too */
 }
 
 void studio_suspend(struct studio *studio)

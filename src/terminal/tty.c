@@ -14,6 +14,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "base/stop.h"
 #include "terminal/curses_windows.h"
 #include "terminal/kitty.h"
 #include "terminal/xmalloc.h"
@@ -74,8 +75,11 @@ static void on_signal(int number)
     unsigned char byte = (unsigned char)number;
 
     for (size_t i = 0; i < COUNT(stop_signals); i++) {
-        if (number == stop_signals[i])
-            must_stop = 1;
+        if (number != stop_signals[i])
+            continue;
+        must_stop = 1;
+        /* shells send SIGHUP again and again */
+        stop_request(128 + number, number != SIGHUP);
     }
     if (write(term.signal_pipe[1], &byte, 1) < 0) {
         /* a full pipe wakes the loop as well */
@@ -83,15 +87,23 @@ static void on_signal(int number)
     errno = saved_errno;
 }
 
-/* Restores the terminal; async-signal-safe. */
+/* Restores the terminal; async-signal-safe. A terminal that takes no output
+ * loses what it has not taken, and nothing here waits for it. */
 static void restore_now(void)
 {
+    struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
+    int flags = fcntl(STDOUT_FILENO, F_GETFL);
+
     if (!is_open)
         return;
     is_open = 0;
+    if (poll(&out, 1, 0) == 0)
+        tcflush(STDOUT_FILENO, TCOFLUSH);
+    fcntl(STDOUT_FILENO, F_SETFL, flags | O_NONBLOCK);
     if (write(STDOUT_FILENO, restore_text, sizeof restore_text - 1) < 0) {
         /* errors cannot be reported here */
     }
+    fcntl(STDOUT_FILENO, F_SETFL, flags);
     tcsetattr(STDIN_FILENO, TCSANOW, &term.before);
 }
 
@@ -290,13 +302,14 @@ bool tty_open(struct error *err)
         return fail(err, "standard input and output: found no terminal, "
                          "expected one or -b to render to a file");
     name = terminal_name(err);
-    if (!name)
+    if (!name || !stop_begin(err))
         return false;
     if (pipe2(term.signal_pipe, O_CLOEXEC | O_NONBLOCK) != 0)
         return fail(err, "cannot open a pipe for signals: %s", strerror(errno));
     must_stop = 0;
     take_signals();
     xmalloc_set_hook(restore_now);
+    stop_at_end(restore_now);
     is_open = 1;
     term.screen = newterm(name, stdout, stdin);
     if (!term.screen) {
