@@ -36,7 +36,9 @@ struct subtree {
     struct range range;
     uint32_t right; /* index of a top node's right child; 0 for a subtree */
     uint32_t node_count, depth;
+    uint32_t tri_count;  /* triangles in its leaves */
     uint32_t first_node; /* index of its first node in the bvh */
+    uint32_t first_tri;  /* likewise, of its leaves' triangles */
 };
 
 struct builder {
@@ -50,15 +52,17 @@ struct builder {
 
 /* ---- subtrees ---- */
 
-static void fill_leaf(const struct builder *b, const struct range *r,
-                      struct node *n)
+static void fill_leaf(const struct builder *b, struct subtree *subtree,
+                      const struct range *r, struct node *n)
 {
     const struct box *boxes = b->splitter.buffers[r->buffer] + r->first;
+    uint32_t *tris = b->bvh->tris + subtree->range.first + subtree->tri_count;
 
-    n->next = r->first;
+    n->next = subtree->tri_count; /* place_subtree() adds first_tri */
     n->count = r->count;
     for (uint32_t i = 0; i < r->count; i++)
-        b->bvh->tris[r->first + i] = box_tri(&boxes[i]);
+        tris[i] = box_tri(&boxes[i]);
+    subtree->tri_count += r->count;
 }
 
 static struct node node_of(const struct range *r)
@@ -84,7 +88,7 @@ static struct node *nodes_of(const struct builder *b,
 /* Builds the tree of a range. Recursion is as deep as the tree, below
  * TRAVERSE_STACK. */
 static void build_tree(struct builder *b, struct subtree *subtree, int worker,
-                       const struct range *r)
+                       struct range *r)
 {
     uint32_t index = subtree->node_count++;
     struct node *n = &nodes_of(b, subtree)[index];
@@ -94,7 +98,7 @@ static void build_tree(struct builder *b, struct subtree *subtree, int worker,
     if (r->depth > subtree->depth)
         subtree->depth = r->depth;
     if (!splitter_split(&b->splitter, worker, r, sides)) {
-        fill_leaf(b, r, n);
+        fill_leaf(b, subtree, r, n);
         return;
     }
     build_tree(b, subtree, worker, &sides[0]);
@@ -107,8 +111,10 @@ static void build_subtree(void *context, uint32_t item, int worker)
     struct builder *b = context;
     struct subtree *subtree = &b->subtrees[item];
 
+    struct range range = subtree->range;
+
     if (subtree->right == 0)
-        build_tree(b, subtree, worker, &subtree->range);
+        build_tree(b, subtree, worker, &range);
 }
 
 /* ---- the top ---- */
@@ -164,8 +170,8 @@ static void place_subtree(void *context, uint32_t item, int worker)
     }
     for (uint32_t i = 0; i < subtree->node_count; i++) {
         to[i] = nodes_of(b, subtree)[i];
-        if (to[i].count == 0)
-            to[i].next += subtree->first_node;
+        to[i].next +=
+            to[i].count == 0 ? subtree->first_node : subtree->first_tri;
     }
 }
 
@@ -178,6 +184,12 @@ static bool join_subtrees(struct builder *b)
 
         subtree->first_node = bvh->node_count;
         bvh->node_count += subtree->right != 0 ? 1 : subtree->node_count;
+        subtree->first_tri = bvh->leaf_tri_count;
+        bvh->leaf_tri_count += subtree->tri_count;
+        if (subtree->first_tri < subtree->range.first) /* copies are dropped */
+            memmove(bvh->tris + subtree->first_tri,
+                    bvh->tris + subtree->range.first,
+                    subtree->tri_count * sizeof *bvh->tris);
         if (subtree->depth > bvh->depth)
             bvh->depth = subtree->depth;
     }
@@ -236,7 +248,6 @@ bool bvh_split(struct bvh *bvh, const struct world *w,
         return true;
     ok = begin(&b, w, leaves, pool) && build(&b);
     end(&b);
-    bvh->leaf_tri_count = w->settings.tri_count;
     assert(bvh->depth < TRAVERSE_STACK);
     return ok || fail_for(bvh, w, err);
 }

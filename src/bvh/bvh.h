@@ -27,8 +27,8 @@ struct bvh {
     uint32_t node_count;
     uint32_t *tris; /* indices of triangles, in the order of the leaves */
     struct leaf_tri *leaf_tris; /* the same with corners, or NULL */
-    uint32_t leaf_tri_count;
-    uint32_t depth; /* greatest depth of a leaf */
+    uint32_t leaf_tri_count;    /* copies of triangles may have no leaf */
+    uint32_t depth;             /* greatest depth of a leaf */
 };
 
 /* Parameters of leaves. A block is 1 << block_bits triangles that are tested at

@@ -342,6 +342,7 @@ static bool build_one(struct bvh8 *wide, const struct world *w,
 
     if (!bvh_build_nodes(&bvh, w, leaves, pool, err))
         return false;
+    wide->lacks_copies |= bvh.leaf_tri_count < w->settings.tri_count;
     ok = bvh.node_count == 0 || build(&b, leaves->most, pool);
     end(&b);
     bvh_free(&bvh);
@@ -359,6 +360,8 @@ static bool build_all(struct bvh8 *wide, const struct instance_trees *t,
         if (!build_one(&wide->meshes[i], &t->meshes[i], &bvh8_leaves, pool,
                        err))
             return false;
+    for (uint32_t i = 0; i < t->mesh_count; i++)
+        wide->lacks_copies |= wide->meshes[i].lacks_copies;
     return build_one(wide, &t->stand_ins, &stand_in_leaves, pool, err);
 }
 
@@ -400,4 +403,5 @@ void bvh8_free(struct bvh8 *wide)
     wide->blocks = NULL;
     wide->meshes = NULL;
     wide->node_count = wide->block_count = wide->mesh_count = 0;
+    wide->lacks_copies = false;
 }

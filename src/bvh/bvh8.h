@@ -65,6 +65,7 @@ struct bvh8 {
     uint32_t node_count;
     struct tri_block *blocks; /* in the same allocation */
     uint32_t block_count;     /* with the empty one */
+    bool lacks_copies;        /* of triangles, or of instances */
     /* With instances the tree above has the stand-ins of instance_trees.h, one
      * in a leaf, and these are the trees that they lead to; otherwise NULL. */
     struct bvh8 *meshes;

@@ -139,7 +139,10 @@ bool instance_trees_init(struct instance_trees *t, const struct world *w,
         return false;
     t->tris = alloc_array(count, sizeof *t->tris);
     t->corners = alloc_array(2 * count, sizeof *t->corners);
-    t->stand_ins = (struct world){.tris = t->tris, .positions = t->corners};
+    t->stand_ins = *w; /* copies of instances are found by these */
+    t->stand_ins.tris = t->tris;
+    t->stand_ins.positions = t->corners;
+    t->stand_ins.settings.tri_count = 0;
     bounds = alloc_array(t->mesh_count, sizeof *bounds);
     if (t->tris != NULL && t->corners != NULL && bounds != NULL) {
         pool_each(pool, t->mesh_count, find_bounds,

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "bvh/sah_splitter.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "base/memory.h"
 
 #include "kernels/traverse_leaf.h"
@@ -174,6 +176,103 @@ static uint32_t halve(const struct box *boxes, uint32_t count, struct box *to)
     return count / 2;
 }
 
+/* ---- copies ---- */
+
+/* Copies lie in one place, to the bit, and rays hit the one of the lowest
+ * number only: traverse_leaf.h. A surface that lets rays through shows them
+ * all. */
+static bool may_drop_copies(const struct world *w)
+{
+    if (w->settings.alpha_count > 0)
+        return false;
+    for (uint32_t i = 0; i < w->settings.material_count; i++) {
+        const struct material *m = &w->materials[i];
+        const uint32_t textures[2] = {m->color_texture, m->opacity_texture};
+
+        if (m->opacity < 1.0f)
+            return false;
+        for (int k = 0; k < 2; k++)
+            if (textures[k] != NO_INDEX && w->textures[textures[k]].has_alpha)
+                return false;
+    }
+    return true;
+}
+
+static bool is_same_point(struct vec3 a, struct vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+static uint64_t hash_point(struct vec3 p)
+{
+    const float sums[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; /* no -0 */
+
+    return hash_bytes(HASH_BEGIN, sums, sizeof sums);
+}
+
+/* The bytes of an instance that decide where it is. */
+#define PLACE_BYTES offsetof(struct instance, inverse)
+
+static bool are_copies(const struct world *w, uint32_t a, uint32_t b)
+{
+    if (a < w->settings.instance_count || b < w->settings.instance_count)
+        return a < w->settings.instance_count &&
+               b < w->settings.instance_count &&
+               w->instances[a].mesh == w->instances[b].mesh &&
+               memcmp(&w->instances[a], &w->instances[b], PLACE_BYTES) == 0;
+    for (int k = 1; k < 3; k++) {
+        const uint32_t *v = w->tris[a].v, *u = w->tris[b].v;
+        const struct vec3 *p = w->positions;
+
+        if (is_same_point(p[v[0]], p[u[0]]) &&
+            is_same_point(p[v[1]], p[u[k]]) &&
+            is_same_point(p[v[2]], p[u[3 - k]]))
+            return true; /* k = 2: of the other winding */
+    }
+    return false;
+}
+
+static uint64_t hash_of(const struct world *w, uint32_t tri)
+{
+    const uint32_t *v = w->tris[tri].v;
+
+    if (tri < w->settings.instance_count)
+        return hash_bytes(HASH_BEGIN, &w->instances[tri], PLACE_BYTES);
+    return hash_point(w->positions[v[0]]) +
+           (hash_point(w->positions[v[1]]) ^ hash_point(w->positions[v[2]]));
+}
+
+/* Keeps the first of all copies in a range. Without memory it keeps all. */
+static void drop_copies(const struct splitter *s, struct range *r)
+{
+    struct box *boxes = s->buffers[r->buffer] + r->first;
+    size_t mask = 1, kept = 0;
+    uint32_t *table; /* 1 + index of a box that is kept; 0: none */
+
+    while (mask < 2 * (size_t)r->count)
+        mask *= 2;
+    table = alloc_array(mask--, sizeof *table);
+    for (uint32_t i = 0; table != NULL && i < r->count; i++) {
+        uint32_t tri = box_tri(&boxes[i]);
+        size_t at = hash_of(s->world, tri) & mask;
+
+        while (table[at] != 0 &&
+               !are_copies(s->world, tri, box_tri(&boxes[table[at] - 1])))
+            at = (at + 1) & mask;
+        if (table[at] == 0) {
+            boxes[kept] = boxes[i];
+            table[at] = (uint32_t)++kept;
+        } else if (tri < box_tri(&boxes[table[at] - 1])) {
+            boxes[table[at] - 1] = boxes[i];
+        }
+    }
+    if (table != NULL)
+        r->count = (uint32_t)kept;
+    free(table);
+}
+
+/* ---- splits ---- */
+
 /* Splits by the caller's thread alone. */
 static void part(const struct splitter *s, const struct range *r,
                  const struct split *split, struct range sides[2])
@@ -192,7 +291,7 @@ static void part(const struct splitter *s, const struct range *r,
                       sides[i].count);
 }
 
-bool splitter_split(struct splitter *s, int worker, const struct range *r,
+bool splitter_split(struct splitter *s, int worker, struct range *r,
                     struct range sides[2])
 {
     struct split split;
@@ -202,6 +301,11 @@ bool splitter_split(struct splitter *s, int worker, const struct range *r,
     split = find_split(s, &s->workers[worker].bins, r);
     if (is_leaf(s, r, &split))
         return false;
+    if (split.axis < 0 && s->drops_copies) {
+        drop_copies(s, r);
+        if (r->count <= s->leaves->most)
+            return false;
+    }
     part(s, r, &split, sides);
     return true;
 }
@@ -286,6 +390,7 @@ bool splitter_init(struct splitter *s, const struct world *w,
     uint32_t count = w->settings.tri_count;
 
     *s = (struct splitter){.leaves = leaves, .pool = pool, .world = w};
+    s->drops_copies = may_drop_copies(w);
     s->worker_count = pool != NULL ? (uint32_t)pool_thread_count(pool) : 1;
     s->workers = alloc_aligned(s->worker_count, sizeof *s->workers);
     s->chunk_sides = alloc_aligned(chunks_of(count), sizeof *s->chunk_sides);

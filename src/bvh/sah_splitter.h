@@ -41,6 +41,7 @@ struct splitter {
     struct splitter_worker *workers;
     uint32_t worker_count;
     float large_area; /* least area of a large node */
+    bool drops_copies;
     /* shared by all threads in a split together */
     const struct world *world;
     const struct range *range;
@@ -56,8 +57,10 @@ bool splitter_init(struct splitter *s, const struct world *world,
 /* Returns the range of all triangles. */
 struct range splitter_all(struct splitter *s);
 
-/* Splits a range. Returns false if it is to be a leaf. */
-bool splitter_split(struct splitter *s, int worker, const struct range *range,
+/* Splits a range. Returns false if it is to be a leaf. Where no plane separates
+ * the triangles it drops copies, which no ray can tell from the first of them:
+ * range->count becomes less. */
+bool splitter_split(struct splitter *s, int worker, struct range *range,
                     struct range sides[2]);
 
 /* Splits a range that is too large for a leaf, by all threads. */

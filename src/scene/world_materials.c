@@ -224,10 +224,27 @@ static bool needs_guide(const struct material_change *c)
 
 /* ---- swap ---- */
 
+static bool has_coverage(const struct host_world *host)
+{
+    return (world_features(host) & FEATURE_COVERAGE) != 0;
+}
+
+/* A tree that lacks copies is not that of surfaces that let rays through. */
+static void renew_shape(struct host_world *host)
+{
+    const struct bvh8 *tree = world_tree(host);
+
+    if (tree != NULL && !tree->lacks_copies)
+        return;
+    world_drop_tree(host);
+    world_renew(host, WORLD_SHAPE);
+}
+
 static void swap_in(struct material_change *c)
 {
     struct host_world *host = c->host;
     struct new_arrays *next = &c->next;
+    bool had_coverage = has_coverage(host);
 
     free(host->materials);
     host->materials = next->materials;
@@ -256,6 +273,8 @@ static void swap_in(struct material_change *c)
         host->lights = next->lights;
         world_renew(host, WORLD_LIGHTS);
     }
+    if (has_coverage(host) && !had_coverage)
+        renew_shape(host);
 }
 
 static void free_arrays(struct new_arrays *next)
