@@ -36,6 +36,10 @@ bool instance_trees_init(struct instance_trees *t, const struct world *world,
 
 void instance_trees_free(struct instance_trees *t);
 
+/* Triangles of instances that a search for their bounds looks at. The boxes of
+ * those beyond have to do: thousands of instances may be in one place. */
+#define INSTANCE_TRIS_MAX (UINT64_C(1) << 20)
+
 /* The box around a mesh: that of the last call of instance_box_corners(). */
 struct mesh_box {
     uint32_t mesh; /* at first NO_INDEX */

@@ -52,10 +52,20 @@ static void join_tris(const struct world *w, uint32_t first, uint32_t count,
     }
 }
 
+static void join_corners(const struct vec3 corners[8], struct vec3 *lo,
+                         struct vec3 *hi)
+{
+    for (int i = 0; i < 8; i++) {
+        *lo = v3_min(*lo, corners[i]);
+        *hi = v3_max(*hi, corners[i]);
+    }
+}
+
 double guide_grid_init(struct guide_grid *g, const struct world *w)
 {
     struct vec3 lo = tri_placed(w, 0).p[0], hi = lo, size;
     struct mesh_box mesh = {.mesh = NO_INDEX};
+    uint64_t tris = 0;
     struct box box;
 
     join_tris(w, 0, plain_tri_count(w), &lo, &hi);
@@ -63,9 +73,14 @@ double guide_grid_init(struct guide_grid *g, const struct world *w)
         struct vec3 corners[8];
 
         instance_box_corners(w, i, &mesh, corners);
-        if (!is_inside(lo, hi, corners))
+        if (is_inside(lo, hi, corners))
+            continue;
+        tris += w->instances[i].tri_count;
+        if (tris <= INSTANCE_TRIS_MAX)
             join_tris(w, w->instances[i].first_tri, w->instances[i].tri_count,
                       &lo, &hi);
+        else
+            join_corners(corners, &lo, &hi);
     }
     size = v3_sub(hi, lo);
     g->lo = lo;

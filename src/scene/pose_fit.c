@@ -102,6 +102,7 @@ static void add_model(struct pose_fit *f, const struct scene *scene)
 {
     const struct world w = scene_shape(scene);
     struct mesh_box box = {.mesh = NO_INDEX};
+    uint64_t tris = 0;
 
     add_tris(f, &w, 0, plain_tri_count(&w));
     for (uint32_t i = 0; i < scene->placed_count; i++) {
@@ -113,8 +114,13 @@ static void add_model(struct pose_fit *f, const struct scene *scene)
         instance_box_corners(&w, i, &box, corners);
         for (int k = 0; k < 8; k++)
             is_beyond |= add_position(&with_box, corners[k]);
-        if (is_beyond)
+        if (!is_beyond)
+            continue;
+        tris += at->tri_count;
+        if (tris <= INSTANCE_TRIS_MAX)
             add_tris(f, &w, at->first_tri, at->tri_count);
+        else
+            *f = with_box;
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "kernels/traverse.h"
 
+#include "tests/unit/brute.h"
 #include "tests/unit/many.h"
 #include "tests/unit/trees.h"
 
@@ -133,11 +134,75 @@ static void large_triangles_are_in_separate_leaves(void **state)
     mesh_free(&m);
 }
 
+#define COPIES 5000
+
+/* Adds copies of a square's triangles, of both windings, among others. */
+static void add_copies(struct mesh *m)
+{
+    const struct vec3 a = v3(-0.5f, -0.5f, 0.1f), b = v3(0.5f, -0.5f, 0),
+                      c = v3(0.5f, 0.5f, -0.1f), d = v3(-0.5f, 0.5f, 0);
+
+    mesh_add_many(m, 1000, 5);
+    for (int i = 0; i < COPIES; i++) {
+        mesh_add(m, a, i % 3 ? b : c, i % 3 ? c : b, 0);
+        mesh_add(m, a, c, d, 1);
+    }
+    for (int i = 0; i < MESH_MATERIALS; i++)
+        m->materials[i] = material_default();
+}
+
+static void check_hits(const struct mesh *m)
+{
+    uint64_t seed = 3;
+
+    for (int i = 0; i < 300; i++) {
+        struct ray r = {.o = random_point(&seed, 2), .t_max = FLOAT_MAX};
+        struct hit h, brute;
+        bool is_hit;
+
+        r.d = v3_unit(v3_sub(random_point(&seed, 0.5f), r.o));
+        is_hit = brute_force(&m->world, r, &brute);
+        assert_int_equal(hit_closest(&m->world, r, &h), is_hit);
+        assert_int_equal(h.tri, brute.tri);
+        assert_true(!is_hit || memcmp(&h, &brute, sizeof h) == 0);
+    }
+}
+
+/* A ray hits the first of them, so that others are not needed. */
+static void copies_have_one_leaf(void **state)
+{
+    struct mesh m = {0};
+
+    (void)state;
+    add_copies(&m);
+    mesh_finish(&m);
+    assert_int_equal(m.bvh.leaf_tri_count, 1000 + 2);
+    assert_true(m.wide.lacks_copies);
+    check_hits(&m);
+    mesh_free(&m);
+}
+
+/* A surface that lets rays through shows those behind it. */
+static void copies_that_let_rays_through_stay(void **state)
+{
+    struct mesh m = {0};
+
+    (void)state;
+    add_copies(&m);
+    m.materials[1].opacity = 0.9f;
+    mesh_finish(&m);
+    assert_int_equal(m.bvh.leaf_tri_count, 1000 + 2 * COPIES);
+    assert_false(m.wide.lacks_copies);
+    mesh_free(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_build_the_same_tree),
         cmocka_unit_test(boxes_enclose_their_subtrees),
+        cmocka_unit_test(copies_have_one_leaf),
+        cmocka_unit_test(copies_that_let_rays_through_stay),
         cmocka_unit_test(large_triangles_are_in_separate_leaves),
     };
 
