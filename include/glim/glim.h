@@ -23,7 +23,10 @@
  * Errors:    functions that can fail return NULL, false or GLIM_FAILED and
  *            write one finished line to *err, which may be NULL. Nothing is
  *            printed, no signal, locale or variable of the environment is
- *            changed, and the process goes on, also when memory is out
+ *            changed, and the process goes on, also when memory is out.
+ *            A pointer may be NULL only where this file says so: as a handle,
+ *            name or buffer it is an error, and functions without errors do
+ *            nothing or return 0. So are NaN, and values that an enum lacks
  */
 #ifndef GLIM_GLIM_H
 #define GLIM_GLIM_H
@@ -155,7 +158,8 @@ struct glim_open_options {
  * may have packed ("-": standard input), with its materials and images, and its
  * view file with camera, size and sky. A scene without a camera is framed as a
  * whole; a scene without light gets a soft sky, a glTF, PLY or STL model also a
- * lamp. `options` may be NULL. Returns NULL on errors. */
+ * lamp. `options` may be NULL, which means the defaults. Returns NULL on
+ * errors. */
 GLIM_API struct glim *glim_open(const char *path,
                                 const struct glim_open_options *options,
                                 struct glim_error *err);
@@ -186,7 +190,8 @@ GLIM_API bool glim_set_camera(struct glim *g, const struct glim_camera *camera,
 
 /* Get and set the size of the picture: 1 to 65536 pixels each way. A width or
  * height of 0 is computed from the other one and the previous aspect ratio.
- * Setting the size removes the crop. */
+ * Setting the size removes the crop. A pointer to a number that is not wanted
+ * may be NULL. */
 GLIM_API void glim_get_size(const struct glim *g, int *width, int *height);
 GLIM_API bool glim_set_size(struct glim *g, int width, int height,
                             struct glim_error *err);
@@ -251,8 +256,8 @@ GLIM_API bool glim_set_denoise(struct glim *g, bool is_wanted,
 GLIM_API bool glim_is_denoised(struct glim *g);
 
 /* Renders until every pixel has `spp` samples, `seconds` have passed, or the
- * upper end of the error is at its limit; 0 is no limit. Blocks until then.
- * Continues the previous picture if no setting has changed since. `progress`
+ * upper end of the error is at its limit; 0 is no limit, and `seconds` below 0
+ * are an error. Blocks until then. Continues the previous picture if no setting has changed since. `progress`
  * may be NULL. */
 GLIM_API enum glim_result glim_render(struct glim *g, uint64_t spp,
                                       double seconds,
@@ -266,7 +271,8 @@ GLIM_API void glim_cancel(struct glim *g);
 /* Returns the progress of the picture, all 0 if there is none. */
 GLIM_API struct glim_progress glim_get_progress(struct glim *g);
 
-/* Returns the size of the rendered picture, 0 if there is none. */
+/* Returns the size of the rendered picture, 0 if there is none. A pointer to a
+ * number that is not wanted may be NULL. */
 GLIM_API void glim_get_picture_size(const struct glim *g, int *width,
                                     int *height);
 

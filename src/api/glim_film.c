@@ -52,6 +52,8 @@ bool glim_save_film(struct glim *g, const char *path, struct glim_error *err)
 {
     struct error why;
 
+    if (!handle_given(g, "handle", err) || !handle_given(path, "film", err))
+        return false;
     if (!g->has_picture)
         fail(&why, "picture: found none, expected glim_render() before");
     else if (save(g, path, &why))
@@ -96,6 +98,11 @@ bool glim_load_films(struct glim *g, const char *const *paths, int count,
     struct error why;
     bool ok;
 
+    if (!handle_given(g, "handle", err) || !handle_given(paths, "films", err))
+        return false;
+    for (int i = 0; i < count; i++)
+        if (!handle_given(paths[i], "films", err))
+            return false;
     if (count < 1) {
         fail(&why, "films: found %d, expected one at least", count);
         return handle_fail(err, &why);

@@ -23,7 +23,7 @@ void handle_drop_filtered(struct glim *g)
 
 bool glim_is_denoised(struct glim *g)
 {
-    return g->has_picture && g->wants_denoise &&
+    return g != NULL && g->has_picture && g->wants_denoise &&
            film_filter_applies(render_film(g->render));
 }
 
@@ -55,6 +55,8 @@ static struct film *film_of(struct glim *g, struct glim_error *err)
 {
     struct error why;
 
+    if (!handle_given(g, "handle", err))
+        return NULL;
     if (!g->has_picture)
         fail(&why, "picture: found none, expected glim_render() before");
     else if (!glim_is_denoised(g))
@@ -67,10 +69,13 @@ static struct film *film_of(struct glim *g, struct glim_error *err)
 
 void glim_get_picture_size(const struct glim *g, int *width, int *height)
 {
-    const struct film *film = g->has_picture ? render_film(g->render) : NULL;
+    const struct film *film =
+        g != NULL && g->has_picture ? render_film(g->render) : NULL;
 
-    *width = film != NULL ? film->width : 0;
-    *height = film != NULL ? film->height : 0;
+    if (width != NULL)
+        *width = film != NULL ? film->width : 0;
+    if (height != NULL)
+        *height = film != NULL ? film->height : 0;
 }
 
 static bool check_count(const struct film *film, size_t count,
@@ -89,7 +94,8 @@ static bool check_count(const struct film *film, size_t count,
 bool glim_read_floats(struct glim *g, float *rgb, size_t count,
                       struct glim_error *err)
 {
-    struct film *film = film_of(g, err);
+    struct film *film =
+        handle_given(rgb, "picture", err) ? film_of(g, err) : NULL;
 
     if (film == NULL || !check_count(film, count, err))
         return false;
@@ -100,7 +106,8 @@ bool glim_read_floats(struct glim *g, float *rgb, size_t count,
 bool glim_read_bytes(struct glim *g, uint8_t *rgb, size_t count,
                      struct glim_error *err)
 {
-    struct film *film = film_of(g, err);
+    struct film *film =
+        handle_given(rgb, "picture", err) ? film_of(g, err) : NULL;
     struct frame frame;
 
     if (film == NULL || !check_count(film, count, err))
@@ -112,7 +119,8 @@ bool glim_read_bytes(struct glim *g, uint8_t *rgb, size_t count,
 
 bool glim_save(struct glim *g, const char *path, struct glim_error *err)
 {
-    struct film *film = film_of(g, err);
+    struct film *film =
+        handle_given(path, "file", err) ? film_of(g, err) : NULL;
     struct image_metadata metadata;
     struct error why;
 
@@ -126,7 +134,8 @@ bool glim_save(struct glim *g, const char *path, struct glim_error *err)
 const char *glim_save_new(struct glim *g, const char *stem,
                           struct glim_error *err)
 {
-    struct film *film = film_of(g, err);
+    struct film *film =
+        handle_given(stem, "file", err) ? film_of(g, err) : NULL;
     struct image_metadata metadata;
     struct error why;
     char *name;

@@ -67,6 +67,8 @@ bool glim_set_threads(struct glim *g, int count, struct glim_error *err)
 {
     struct error why;
 
+    if (!handle_given(g, "handle", err))
+        return false;
     if (!handle_set_threads(g, count, &why))
         return handle_fail(err, &why);
     handle_drop_render(g);
@@ -98,12 +100,19 @@ bool glim_set_backend(struct glim *g, enum glim_backend backend,
                       const char *device, struct glim_error *err)
 {
     struct cl_request request = {
-        .program = g->program,
         .device = device,
         .needs_gpu = backend == GLIM_BACKEND_GPU,
     };
     struct error why;
 
+    if (!handle_given(g, "handle", err))
+        return false;
+    if ((unsigned)backend > GLIM_BACKEND_OPENCL) {
+        fail(&why, "backend: found %d, expected %d to %d", (int)backend,
+             GLIM_BACKEND_CPU, GLIM_BACKEND_OPENCL);
+        return handle_fail(err, &why);
+    }
+    request.program = g->program;
     handle_drop_render(g);
     if (g->device != NULL)
         g->device->destroy(g->device);
@@ -122,7 +131,7 @@ bool glim_set_backend(struct glim *g, enum glim_backend backend,
 
 const char *glim_backend_log(const struct glim *g)
 {
-    return g->backend_log;
+    return g != NULL ? g->backend_log : NULL;
 }
 
 /* ---- rendering ---- */
@@ -168,7 +177,7 @@ struct glim_progress glim_get_progress(struct glim *g)
 {
     struct render_progress p;
 
-    if (!g->has_picture)
+    if (g == NULL || !g->has_picture)
         return (struct glim_progress){0};
     p = render_progress(g->render);
     return handle_progress(&p);
@@ -178,6 +187,8 @@ bool glim_set_error_limit(struct glim *g, double error, struct glim_error *err)
 {
     struct error why;
 
+    if (!handle_given(g, "handle", err))
+        return false;
     if (!(error >= 0 && error <= 1)) {
         fail(&why, "error limit: found %g, expected 0 to 1", error);
         return handle_fail(err, &why);
@@ -188,6 +199,8 @@ bool glim_set_error_limit(struct glim *g, double error, struct glim_error *err)
 
 void glim_set_adaptive(struct glim *g, bool is_adaptive)
 {
+    if (g == NULL)
+        return;
     g->has_picture = g->has_picture && g->is_adaptive == is_adaptive;
     g->is_adaptive = is_adaptive;
 }
@@ -196,6 +209,8 @@ bool glim_set_denoise(struct glim *g, bool is_wanted, struct glim_error *err)
 {
     struct error why;
 
+    if (!handle_given(g, "handle", err))
+        return false;
     if (is_wanted && g->device != NULL &&
         (g->device_features & FEATURE_FILTER) == 0) {
         fail(&why, "denoise: found a device without the filter's kernels, "
@@ -313,11 +328,19 @@ enum glim_result glim_render(struct glim *g, uint64_t spp, double seconds,
                              glim_progress_fn *progress, void *context,
                              struct glim_error *err)
 {
-    struct glim_call call = call_of(g, spp, seconds);
     struct render_progress p;
     enum glim_result result;
+    struct glim_call call;
     struct error why;
 
+    if (!handle_given(g, "handle", err))
+        return GLIM_FAILED;
+    if (!(seconds >= 0)) {
+        fail(&why, "seconds: found %g, expected a number from 0 on", seconds);
+        handle_fail(err, &why);
+        return GLIM_FAILED;
+    }
+    call = call_of(g, spp, seconds);
     if (g->has_picture) {
         p = render_progress(g->render);
         render_resume(g->render, limits_of(&call, p.render_ns));
@@ -337,5 +360,6 @@ enum glim_result glim_render(struct glim *g, uint64_t spp, double seconds,
 
 void glim_cancel(struct glim *g)
 {
-    event_fd_set(g->cancel_fd);
+    if (g != NULL)
+        event_fd_set(g->cancel_fd);
 }

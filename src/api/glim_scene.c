@@ -2,6 +2,7 @@
 /* Handles: scene, view and settings. */
 #include "api/handle.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -23,6 +24,16 @@ bool handle_fail(struct glim_error *to, const struct error *err)
     if (to != NULL)
         memcpy(to->text, err->text, sizeof to->text);
     return false;
+}
+
+bool handle_given(const void *pointer, const char *what, struct glim_error *err)
+{
+    struct error why;
+
+    if (pointer != NULL)
+        return true;
+    fail(&why, "%s: found NULL, expected a pointer", what);
+    return handle_fail(err, &why);
 }
 
 const char *glim_version(void)
@@ -87,6 +98,18 @@ static bool set_sun(struct view *view, const struct glim_open_options *o,
     return o->turbidity == 0 || view_set_turbidity(view, o->turbidity, err);
 }
 
+static bool check_options(const struct glim_open_options *o, struct error *err)
+{
+    /* unsigned also for compilers whose enumerations are */
+    if ((unsigned)o->up > GLIM_UP_Z)
+        return fail(err, "up: found %d, expected %d to %d", (int)o->up,
+                    GLIM_UP_OF_FILE, GLIM_UP_Z);
+    return !o->has_anim_time || isfinite(o->anim_time_s) ||
+           fail(err,
+                "animation: found a time of %g s, expected a finite number",
+                o->anim_time_s);
+}
+
 static bool open_all(struct glim *g, const char *path,
                      const struct glim_open_options *o, struct error *err)
 {
@@ -104,7 +127,8 @@ static bool open_all(struct glim *g, const char *path,
         return fail(err, "%s: out of memory", path);
     g->scene.program = g->program;
     g->cancel_fd = event_fd_open("glim", err);
-    if (g->cancel_fd < 0 || !handle_set_threads(g, o->threads, err))
+    if (g->cancel_fd < 0 || !check_options(o, err) ||
+        !handle_set_threads(g, o->threads, err))
         return false;
     how.thread_count = handle_threads(g);
     return view_find(&g->view, path, o->view_path, &g->view_path, &g->report,
@@ -120,9 +144,12 @@ struct glim *glim_open(const char *path,
                        struct glim_error *err)
 {
     const struct glim_open_options defaults = {.view_path = NULL};
-    struct glim *g = alloc_array(1, sizeof *g);
+    struct glim *g;
     struct error why;
 
+    if (!handle_given(path, "scene", err))
+        return NULL;
+    g = alloc_array(1, sizeof *g);
     if (g == NULL) {
         fail(&why, "%s: out of memory", path);
         handle_fail(err, &why);
@@ -163,24 +190,29 @@ void glim_close(struct glim *g)
 
 const char *glim_warning(const struct glim *g, int number)
 {
-    return number >= 0 && number < g->report.entry_count ? g->warnings[number]
-                                                         : NULL;
+    return g != NULL && number >= 0 && number < g->report.entry_count
+               ? g->warnings[number]
+               : NULL;
 }
 
 const char *glim_file(const struct glim *g, int number)
 {
-    return number >= 0
+    return g != NULL && number >= 0
                ? scene_file(&g->scene, &g->view, g->view_path, (uint32_t)number)
                : NULL;
 }
 
 struct glim_camera glim_get_camera(const struct glim *g)
 {
-    const struct pose *p = &g->view.pose;
-    struct glim_camera camera = {.fovy_deg = p->fovy_deg,
-                                 .aperture = p->aperture,
-                                 .focus = p->focus};
+    struct glim_camera camera = {.fovy_deg = 0};
+    const struct pose *p;
 
+    if (g == NULL)
+        return camera;
+    p = &g->view.pose;
+    camera.fovy_deg = p->fovy_deg;
+    camera.aperture = p->aperture;
+    camera.focus = p->focus;
     memcpy(camera.eye, p->eye, sizeof camera.eye);
     memcpy(camera.at, p->at, sizeof camera.at);
     memcpy(camera.up, p->up, sizeof camera.up);
@@ -190,10 +222,12 @@ struct glim_camera glim_get_camera(const struct glim *g)
 bool glim_set_camera(struct glim *g, const struct glim_camera *camera,
                      struct glim_error *err)
 {
-    struct view view = g->view;
-    struct pose *p = &view.pose;
+    struct pose pose, *p = &pose;
     struct error why;
 
+    if (!handle_given(g, "handle", err) || !handle_given(camera, "camera", err))
+        return false;
+    pose = g->view.pose;
     memcpy(p->eye, camera->eye, sizeof p->eye);
     memcpy(p->at, camera->at, sizeof p->at);
     memcpy(p->up, camera->up, sizeof p->up);
@@ -217,8 +251,10 @@ bool glim_set_camera(struct glim *g, const struct glim_camera *camera,
 
 void glim_get_size(const struct glim *g, int *width, int *height)
 {
-    *width = g->view.width_px;
-    *height = g->view.height_px;
+    if (width != NULL)
+        *width = g != NULL ? g->view.width_px : 0;
+    if (height != NULL)
+        *height = g != NULL ? g->view.height_px : 0;
 }
 
 bool glim_set_size(struct glim *g, int width, int height,
@@ -226,6 +262,8 @@ bool glim_set_size(struct glim *g, int width, int height,
 {
     struct error why;
 
+    if (!handle_given(g, "handle", err))
+        return false;
     if (width < 0 || width > VIEW_SIDE_MAX || height < 0 ||
         height > VIEW_SIDE_MAX || (width == 0 && height == 0)) {
         fail(&why, "size: found %dx%d, expected 1 to %d pixels each way", width,
@@ -243,6 +281,8 @@ bool glim_set_crop(struct glim *g, int x, int y, int width, int height,
     struct rect crop = {x, y, width, height};
     struct error why;
 
+    if (!handle_given(g, "handle", err))
+        return false;
     if (!view_has_part(&g->view, x, y, width, height)) {
         fail(&why,
              "crop: found %d,%d,%d,%d, expected a part of the picture, which "
@@ -259,6 +299,8 @@ bool glim_set_max_bounces(struct glim *g, int count, struct glim_error *err)
 {
     struct error why;
 
+    if (!handle_given(g, "handle", err))
+        return false;
     if (count < -1) {
         fail(&why, "bounces: found %d, expected a number from 0 on, or -1",
              count);
@@ -271,6 +313,8 @@ bool glim_set_max_bounces(struct glim *g, int count, struct glim_error *err)
 
 void glim_set_seed(struct glim *g, uint32_t seed)
 {
+    if (g == NULL)
+        return;
     g->seed = seed;
     g->has_picture = false;
 }

@@ -47,6 +47,10 @@ struct glim {
 /* Copies the text to the caller's error, if that is not NULL. Returns false. */
 bool handle_fail(struct glim_error *to, const struct error *err);
 
+/* Fails, with `what` as the place, if the pointer is NULL. */
+bool handle_given(const void *pointer, const char *what,
+                  struct glim_error *err);
+
 /* Sets the number of threads of loading and rendering, as glim_set_threads()
  * takes it, without an effect on those that run. */
 bool handle_set_threads(struct glim *g, int count, struct error *err);

@@ -77,6 +77,107 @@ static void check_wrong_values(void)
     glim_close(NULL);
 }
 
+/* A NULL that glim.h does not allow, as a handle. */
+static void check_no_handle(void)
+{
+    struct glim_error err;
+    struct glim_camera camera = glim_get_camera(NULL);
+    const char *path = "none.film";
+    float rgb[3];
+    int width = 1, height = 1;
+
+    check_error(glim_set_camera(NULL, &camera, &err), &err,
+                "handle: found NULL");
+    check_error(glim_set_size(NULL, 1, 1, &err), &err, "handle: found NULL");
+    check_error(glim_set_crop(NULL, 0, 0, 1, 1, &err), &err,
+                "handle: found NULL");
+    check_error(glim_set_max_bounces(NULL, 1, &err), &err,
+                "handle: found NULL");
+    check_error(glim_set_threads(NULL, 1, &err), &err, "handle: found NULL");
+    check_error(glim_set_backend(NULL, GLIM_BACKEND_CPU, NULL, &err), &err,
+                "handle: found NULL");
+    check_error(glim_set_error_limit(NULL, 0, &err), &err,
+                "handle: found NULL");
+    check_error(glim_set_denoise(NULL, true, &err), &err, "handle: found NULL");
+    check_error(glim_render(NULL, 1, 0, NULL, NULL, &err) != GLIM_FAILED, &err,
+                "handle: found NULL");
+    check_error(glim_read_floats(NULL, rgb, 3, &err), &err,
+                "handle: found NULL");
+    check_error(glim_save(NULL, "a.png", &err), &err, "handle: found NULL");
+    check_error(glim_save_film(NULL, path, &err), &err, "handle: found NULL");
+    check_error(glim_load_films(NULL, &path, 1, &err), &err,
+                "handle: found NULL");
+    check(camera.fovy_deg == 0, "the camera of no handle");
+    check(glim_get_progress(NULL).samples == 0, "the progress of no handle");
+    check(!glim_is_denoised(NULL) && glim_warning(NULL, 0) == NULL &&
+              glim_file(NULL, 0) == NULL && glim_backend_log(NULL) == NULL,
+          "the texts of no handle");
+    glim_get_size(NULL, &width, &height);
+    check(width == 0 && height == 0, "the size of no handle");
+    width = height = 1;
+    glim_get_picture_size(NULL, &width, &height);
+    check(width == 0 && height == 0, "the picture of no handle");
+    glim_set_seed(NULL, 1);
+    glim_set_adaptive(NULL, true);
+    glim_cancel(NULL);
+    glim_close(NULL);
+}
+
+static void check_null_names(void)
+{
+    struct glim_error err;
+    struct glim *g = open_small();
+    const char *paths[2] = {"saved.film", NULL};
+
+    check_error(glim_open(NULL, NULL, &err) != NULL, &err, "scene: found NULL");
+    check_error(glim_set_camera(g, NULL, &err), &err, "camera: found NULL");
+    check(glim_render(g, 1, 0, NULL, NULL, NULL) == GLIM_DONE, "a sample");
+    check_error(glim_read_floats(g, NULL, BYTES, &err), &err,
+                "picture: found NULL");
+    check_error(glim_read_bytes(g, NULL, BYTES, &err), &err,
+                "picture: found NULL");
+    check_error(glim_save(g, NULL, &err), &err, "file: found NULL");
+    check_error(glim_save_new(g, NULL, &err) != NULL, &err, "file: found NULL");
+    check_error(glim_save_film(g, NULL, &err), &err, "film: found NULL");
+    check_error(glim_load_films(g, NULL, 1, &err), &err, "films: found NULL");
+    check_error(glim_load_films(g, paths, 2, &err), &err, "films: found NULL");
+    check(glim_get_progress(g).spp == 1, "the picture stays");
+    glim_get_size(g, NULL, NULL);
+    glim_get_picture_size(g, NULL, NULL);
+    glim_close(g);
+}
+
+/* Numbers that are none, and values that an enumeration lacks. */
+static void check_no_numbers(void)
+{
+    struct glim_error err;
+    struct glim *g = open_small();
+    struct glim_sun sun = {NAN, NAN};
+    struct glim_open_options o = {.up = (enum glim_up)99};
+
+    check_error(glim_open(scene_path, &o, &err) != NULL, &err,
+                "up: found 99, expected 0 to 2");
+    o.up = (enum glim_up) - 1;
+    check_error(glim_open(scene_path, &o, &err) != NULL, &err,
+                "up: found -1, expected 0 to 2");
+    o = (struct glim_open_options){.has_anim_time = true, .anim_time_s = NAN};
+    check_error(glim_open(scene_path, &o, &err) != NULL, &err, "nan s");
+    o = (struct glim_open_options){.sun = &sun};
+    check_error(glim_open(scene_path, &o, &err) != NULL, &err, "nan");
+    o = (struct glim_open_options){.turbidity = NAN};
+    check_error(glim_open(scene_path, &o, &err) != NULL, &err, "nan");
+    check_error(glim_set_backend(g, (enum glim_backend)77, NULL, &err), &err,
+                "backend: found 77, expected 0 to 2");
+    check_error(glim_set_error_limit(g, NAN, &err), &err, "nan");
+    check_error(glim_render(g, 0, NAN, NULL, NULL, &err) != GLIM_FAILED, &err,
+                "seconds: found nan, expected a number from 0 on");
+    check_error(glim_render(g, 0, -1, NULL, NULL, &err) != GLIM_FAILED, &err,
+                "seconds: found -1, expected a number from 0 on");
+    check(glim_render(g, 1, INFINITY, NULL, NULL, NULL) == GLIM_DONE,
+          "no limit of time");
+    glim_close(g);
+}
+
 static void check_wrong_cameras(void)
 {
     struct glim_error err;
@@ -322,6 +423,9 @@ int main(int argc, char **argv)
     scene_path = argv[1];
     check(strcmp(glim_version(), GLIM_VERSION) == 0, "one version");
     check_wrong_values();
+    check_no_handle();
+    check_null_names();
+    check_no_numbers();
     check_wrong_cameras();
     check_wrong_reads();
     check_parts();
