@@ -12,6 +12,8 @@
 #include <unistd.h>
 
 #include "base/cgroup_quota.h"
+#include "base/clock.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/stop.h"
 #include "base/temp_file.h"
@@ -21,6 +23,10 @@
 
 /* Bytes of standard input that are read at once. */
 #define STDIN_STEP_BYTES (1 << 20)
+
+/* Tries to lock a name, and the longest pause between them. */
+#define LOCK_TRIES 5
+#define LOCK_MS    20
 
 /* Limit for the numbers in file names that are tried. */
 #define NUMBER_MAX 100000
@@ -426,6 +432,60 @@ bool file_write_stdout(const void *data, size_t size_bytes, struct error *err)
 {
     return file_write_pipe(STDOUT_FILENO, data, size_bytes) ||
            fail(err, "standard output: %s", strerror(errno));
+}
+
+/* Returns true if the byte of the folder is locked by `fd` alone. A folder can
+ * only be read, so that all could lock it: the one that finds another lock
+ * gives its own back. */
+static bool lock_byte(int fd, off_t byte, bool *is_free)
+{
+    struct flock lock = {.l_type = F_RDLCK,
+                         .l_whence = SEEK_SET,
+                         .l_start = byte,
+                         .l_len = 1};
+    bool ok = fcntl(fd, F_OFD_SETLK, &lock) == 0;
+
+    lock.l_type = F_WRLCK;
+    ok = ok && fcntl(fd, F_OFD_GETLK, &lock) == 0;
+    *is_free = !ok || lock.l_type == F_UNLCK;
+    if (!*is_free) {
+        lock = (struct flock){.l_type = F_UNLCK, .l_start = byte, .l_len = 1};
+        fcntl(fd, F_OFD_SETLK, &lock);
+    }
+    return ok;
+}
+
+/* The file itself is replaced again and again. Its folder stays: each name has
+ * the byte at its hash. */
+int file_lock(const char *path, struct error *err)
+{
+    char *target = target_of(path);
+    char *folder = target ? folder_of(target) : NULL;
+    const char *name = target ? path_name(target) : "";
+    uint64_t hash = hash_bytes(HASH_BEGIN, name, strlen(name));
+    int fd = folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    bool is_free = true;
+
+    if (!folder)
+        fail_memory(err, path);
+    else if (fd < 0)
+        fail_errno(err, folder);
+    for (int i = 0; fd >= 0 && i < LOCK_TRIES; i++) {
+        if (!lock_byte(fd, (off_t)(hash >> 2), &is_free) || is_free)
+            break;
+        poll(NULL, 0, (int)(clock_ns() / 1000 % LOCK_MS)); /* both may try */
+    }
+    if (!is_free) {
+        fail(err,
+             "%s: found another program that writes this file, expected "
+             "another name or its end",
+             path);
+        close(fd);
+        fd = -1;
+    }
+    free(folder);
+    free(target);
+    return fd;
 }
 
 char *file_write_numbered(const char *stem, const char *ending,

@@ -79,6 +79,12 @@ bool file_write_pipe(int fd, const void *data, size_t size_bytes);
 /* Writes all bytes to standard output, as file_write_pipe(). */
 bool file_write_stdout(const void *data, size_t size_bytes, struct error *err);
 
+/* Locks the name of a file, which need not exist, for this process: returns a
+ * descriptor that keeps the lock until it is closed, also by the death of the
+ * process. Returns -1 and an error if another process of this machine has the
+ * lock. Systems without such locks let all have it. */
+int file_lock(const char *path, struct error *err);
+
 /* Makes the folder and its missing parents, with access for this user only.
  * Writes to `path` while it runs and restores it. Returns false and errno on
  * failure. */

@@ -11,6 +11,7 @@
 #include "base/decimal.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "picture/film_header.h"
 #include "light/daylight.h"
 #include "formats/view_light.h"
 
@@ -46,7 +47,7 @@ const struct view_key view_keys[VIEW_KEYS] = {
      "a number from 0 to 1e30"},
     {"focus", KEY_FOCUS, 1, false, 0, VIEW_NUMBER_MAX,
      "a number from 0 to 1e30"},
-    {"exposure", KEY_EXPOSURE, 1, false, -100, 100,
+    {"exposure", KEY_EXPOSURE, 1, false, -EXPOSURE_MAX, EXPOSURE_MAX,
      "a number of stops from -100 to 100"},
     {"tone", KEY_TONE, 0, false, 0, 0, "linear, reinhard or aces"},
     {"assign", KEY_ASSIGN, 0, false, 0, 0, "two names"},

@@ -2,6 +2,7 @@
 #include "picture/film_header.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -285,6 +286,16 @@ static bool check_text(struct reader *r, const char *bytes, size_t *used,
                 r->path, r->line, found, expected);
 }
 
+static bool check_exposure(const struct reader *r, const struct film_header *h,
+                           struct error *err)
+{
+    float stops = bits_float(h->identity.exposure_bits);
+
+    return fabsf(stops) <= EXPOSURE_MAX ||
+           fail(err, "%s: found an exposure of %g, expected -%d to %d", r->path,
+                (double)stops, EXPOSURE_MAX, EXPOSURE_MAX);
+}
+
 bool film_header_parse(struct film_header *h, const char *path,
                        const char *bytes, size_t size_bytes, size_t *used,
                        struct error *err)
@@ -308,7 +319,7 @@ bool film_header_parse(struct film_header *h, const char *path,
     if (!check_size(&r, &h->identity, err) || !read_ranges(&r, h, err))
         return false;
     *used = (size_t)(r.p - bytes);
-    return check_text(&r, bytes, used, err);
+    return check_text(&r, bytes, used, err) && check_exposure(&r, h, err);
 }
 
 /* ---- identity ---- */

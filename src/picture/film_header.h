@@ -23,6 +23,9 @@
 /* Most samples per pixel of a file. */
 #define FILM_SPP_MAX ((uint64_t)1 << 48)
 
+/* Greatest exposure of a picture, in stops, and the least one below 0. */
+#define EXPOSURE_MAX 100
+
 /* The hashed parts of what decides the bits of samples. */
 enum film_part {
     FILM_KERNELS, /* source text of the kernels */

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/clock.h"
 #include "base/file.h"
@@ -267,10 +268,13 @@ bool session_film_begin(struct session_film *f, struct session *s,
 {
     const struct options *o = s->options;
 
-    *f = (struct session_film){.session = s};
+    *f = (struct session_film){.session = s, .lock_fd = -1};
     pthread_mutex_init(&f->lock, NULL);
     thread_condition_init(&f->end);
     if (!check_share(o, err))
+        return false;
+    if (o->checkpoint_path != NULL &&
+        (f->lock_fd = file_lock(o->checkpoint_path, err)) < 0)
         return false;
     s->first_sample = session_film_first(o);
     if (o->checkpoint_path == NULL && o->film_path == NULL &&
@@ -285,6 +289,8 @@ void session_film_end(struct session_film *f)
         return;
     session_film_stop(f);
     film_file_free(&f->from);
+    if (f->lock_fd >= 0)
+        close(f->lock_fd);
     pthread_cond_destroy(&f->end);
     pthread_mutex_destroy(&f->lock);
     *f = (struct session_film){.session = NULL};

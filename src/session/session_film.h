@@ -21,6 +21,7 @@
 struct session_film {
     struct session *session;
     struct film_file from; /* of --resume */
+    int lock_fd;           /* keeps the name of --checkpoint locked, or -1 */
     pthread_t thread;
     bool has_thread;
     pthread_mutex_t lock;
@@ -32,7 +33,8 @@ struct session_film {
 };
 
 /* Sets the range of samples of --share, and finds what decides the samples of
- * the session if a film is read or written. */
+ * the session if a film is read or written. Fails if another program writes the
+ * file of --checkpoint. */
 bool session_film_begin(struct session_film *f, struct session *s,
                         struct error *err);
 

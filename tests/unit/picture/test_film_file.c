@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/unit/check.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -49,6 +50,9 @@ static const uint16_t *lend(void *shares)
     return shares;
 }
 
+/* Exposure of the films. */
+static float exposure;
+
 /* A film of samples first to end, in a file in memory. */
 static char *bytes_of(uint64_t first, uint64_t end, bool has_surfaces,
                       const uint16_t *shares, size_t *size)
@@ -73,6 +77,7 @@ static char *bytes_of(uint64_t first, uint64_t end, bool has_surfaces,
     struct error err;
     char *bytes;
 
+    memcpy(&h.identity.exposure_bits, &exposure, sizeof exposure);
     assert_true(film_init(&film, WIDTH, HEIGHT, &err));
     assert_true(!has_surfaces || film_init_surfaces(&film, &err));
     film.first_sample = first;
@@ -268,6 +273,32 @@ static void damage_is_found(void **state)
     free(bytes);
 }
 
+/* As in view files: from -100 to 100 stops. */
+static void wild_exposures_are_refused(void **state)
+{
+    static const float wild[] = {NAN, INFINITY, -INFINITY, 100.001f, -1e30f};
+    static const float good[] = {100, -100, 0};
+    struct film_file f = {.shares = NULL};
+    size_t size;
+    char *bytes;
+
+    (void)state;
+    for (size_t i = 0; i < sizeof wild / sizeof *wild; i++) {
+        exposure = wild[i];
+        bytes = bytes_of(0, 2, false, NULL, &size);
+        refuse(bytes, size, "expected -100 to 100");
+        free(bytes);
+    }
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        exposure = good[i];
+        bytes = bytes_of(0, 2, false, NULL, &size);
+        parse(&f, bytes, size);
+        film_file_free(&f);
+        free(bytes);
+    }
+    exposure = 0;
+}
+
 static void other_pictures_are_named(void **state)
 {
     const struct film_identity id = {.width = 1};
@@ -342,6 +373,7 @@ int main(void)
         cmocka_unit_test(parts_join_to_the_whole),
         cmocka_unit_test(gaps_are_found),
         cmocka_unit_test(damage_is_found),
+        cmocka_unit_test(wild_exposures_are_refused),
         cmocka_unit_test(other_pictures_are_named),
         cmocka_unit_test(films_within_a_pass_are_not_joined),
     };
