@@ -2,21 +2,38 @@
 #include "session/file_watch.h"
 
 #include <limits.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/inotify.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "terminal/xmalloc.h"
 
-/* Events of complete or renamed files, and of attributes, since `chmod` may
- * make a file readable and `touch` counts as a change. */
-#define EVENTS (IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_ATTRIB)
+/* Events of files that are written, complete, renamed or removed, and of
+ * attributes, since `chmod` may make a file readable and `touch` counts as a
+ * change. */
+#define EVENTS                                                              \
+    (IN_MODIFY | IN_CLOSE_WRITE | IN_MOVED_FROM | IN_MOVED_TO | IN_CREATE | \
+     IN_DELETE | IN_ATTRIB)
+
+/* Time for which a missing file is waited for: editors and git remove a file
+ * before they write it. */
+#define ABSENT_NS UINT64_C(1000000000)
+
+/* Time for which a file that is written counts as incomplete until it is
+ * closed: an export takes a while between its writes. */
+#define WRITING_NS UINT64_C(5000000000)
 
 struct watched {
     char *path;
     struct file_identity known;
-    bool is_listed; /* named since file_watch_begin() */
+    struct file_identity seen; /* at the last look */
+    uint64_t absent_ns;  /* when a look has found it missing; 0: it has not */
+    uint64_t writing_ns; /* last write before it was closed; 0: it is closed */
+    bool has_existed;    /* at some time */
+    bool is_listed;      /* named since file_watch_begin() */
 };
 
 void file_watch_init(struct file_watch *w)
@@ -51,8 +68,10 @@ void file_watch_add(struct file_watch *w, const char *path)
         w->capacity = w->capacity == 0 ? 8 : 2 * w->capacity;
         w->files = xrealloc(w->files, w->capacity * sizeof w->files[0]);
     }
-    w->files[w->file_count++] =
-        (struct watched){xstrdup(path), file_identify(path), true};
+    w->files[w->file_count++] = (struct watched){.path = xstrdup(path),
+                                                 .known = file_identify(path),
+                                                 .seen = file_identify(path),
+                                                 .is_listed = true};
 }
 
 static void watch_folder_of(int fd, const char *path)
@@ -85,9 +104,9 @@ void file_watch_end(struct file_watch *w)
     for (size_t i = 0; i < w->file_count; i++) {
         struct watched *f = &w->files[i];
 
-        bool is_gone = f->known.exists && access(f->path, F_OK) != 0;
-
-        if (!f->is_listed && !is_gone) {
+        /* one that was there is missed, and may come back */
+        f->has_existed |= f->known.exists;
+        if (!f->is_listed && (!f->has_existed || access(f->path, F_OK) == 0)) {
             free(f->path);
             continue;
         }
@@ -97,26 +116,62 @@ void file_watch_end(struct file_watch *w)
     w->file_count = kept;
 }
 
-void file_watch_drain(struct file_watch *w)
+/* Notes whether a file of this name, in whichever folder, is being written. */
+static void note_event(struct file_watch *w, const struct inotify_event *e)
 {
-    char events[4096];
-
-    while (w->fd >= 0 && read(w->fd, events, sizeof events) > 0)
-        continue;
+    for (size_t i = 0; i < w->file_count; i++)
+        if (strcmp(path_name(w->files[i].path), e->name) == 0)
+            w->files[i].writing_ns =
+                (e->mask & IN_MODIFY) != 0 ? clock_ns() : 0;
 }
 
-bool file_watch_has_changed(const struct file_watch *w)
+void file_watch_drain(struct file_watch *w)
 {
-    bool has_changed = false;
+    _Alignas(struct inotify_event) char events[4096];
+    ssize_t size;
 
-    for (size_t i = 0; i < w->file_count; i++) {
-        struct file_identity now = file_identify(w->files[i].path);
+    while (w->fd >= 0 && (size = read(w->fd, events, sizeof events)) > 0) {
+        for (ssize_t at = 0; at < size;) {
+            const struct inotify_event *e = (const void *)(events + at);
 
-        if (w->files[i].known.exists && !now.exists)
-            return false;
-        has_changed |= !file_is_same(&now, &w->files[i].known);
+            if (e->len > 0)
+                note_event(w, e);
+            at += (ssize_t)(sizeof *e + e->len);
+        }
     }
-    return has_changed;
+}
+
+/* Looks at a file. Returns true if it is not complete, or may be missing for a
+ * moment only. */
+static bool look(struct watched *f, uint64_t now_ns, bool *has_settled)
+{
+    struct file_identity now = file_identify(f->path);
+
+    *has_settled = file_is_same(&now, &f->seen);
+    f->seen = now;
+    if (now.exists || !f->known.exists)
+        f->absent_ns = 0;
+    else if (f->absent_ns == 0)
+        f->absent_ns = now_ns;
+    return (f->absent_ns != 0 && now_ns < f->absent_ns + ABSENT_NS) ||
+           (f->writing_ns != 0 && now_ns < f->writing_ns + WRITING_NS);
+}
+
+bool file_watch_has_changed(struct file_watch *w)
+{
+    uint64_t now_ns = clock_ns();
+    bool has_changed = false, is_incomplete = false, has_settled;
+
+    w->is_changing = false;
+    for (size_t i = 0; i < w->file_count; i++) {
+        struct watched *f = &w->files[i];
+
+        is_incomplete |= look(f, now_ns, &has_settled);
+        w->is_changing |= !has_settled;
+        has_changed |= !file_is_same(&f->seen, &f->known);
+    }
+    w->is_changing |= is_incomplete;
+    return has_changed && !is_incomplete;
 }
 
 bool file_watch_has(const struct file_watch *w, const char *path)
@@ -145,11 +200,8 @@ bool file_watch_spares(const struct file_watch *w, const char *option,
 void file_watch_settle(struct file_watch *w)
 {
     for (size_t i = 0; i < w->file_count; i++) {
-        struct watched *f = &w->files[i];
-        struct file_identity now = file_identify(f->path);
-
-        if (now.exists)
-            f->known = now;
+        w->files[i].has_existed |= w->files[i].known.exists;
+        w->files[i].known = file_identify(w->files[i].path);
     }
 }
 

@@ -4,7 +4,8 @@
  *
  * Folders are watched instead of files, because editors write a new file and
  * rename it. An event only causes a look at the files (stat). While a file is
- * missing nothing counts as changed, since a program is probably replacing it.
+ * written, and for a second while one is missing, nothing counts as changed,
+ * since a program is probably replacing it.
  * If folders cannot be watched, fd is -1 and the caller has to poll.
  *
  * Ownership: paths are copied; file_watch_free() frees
@@ -24,6 +25,7 @@ struct file_watch {
     int fd; /* readable after an event in one of the folders */
     struct watched *files;
     size_t file_count, capacity;
+    bool is_changing; /* of the last look */
 };
 
 void file_watch_init(struct file_watch *w);
@@ -41,9 +43,10 @@ void file_watch_end(struct file_watch *w);
 /* Removes pending events from fd. */
 void file_watch_drain(struct file_watch *w);
 
-/* Returns true if a file differs from its known state and no file is
- * missing. */
-bool file_watch_has_changed(const struct file_watch *w);
+/* Looks at the files. Returns true if one differs from its known state. If
+ * w->is_changing, the caller has to look again in a moment: a file has changed
+ * since the last look, is being written, or is missing. */
+bool file_watch_has_changed(struct file_watch *w);
 
 /* Returns true if one of the files is this one, by whatever name. */
 bool file_watch_has(const struct file_watch *w, const char *path);
@@ -53,7 +56,7 @@ bool file_watch_has(const struct file_watch *w, const char *path);
 bool file_watch_spares(const struct file_watch *w, const char *option,
                        const char *path, struct error *err);
 
-/* Takes the present state of all files as known. */
+/* Takes the present state of all files as known, also that one is missing. */
 void file_watch_settle(struct file_watch *w);
 
 /* Tells that this program has written the whole file. */

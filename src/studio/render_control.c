@@ -211,17 +211,28 @@ static void replace_device(struct render_control *control)
     free(text);
 }
 
+static void look_at_files(struct render_control *control)
+{
+    bool has_changed;
+
+    file_watch_drain(&control->watch);
+    has_changed = file_watch_has_changed(&control->watch);
+    if (has_changed != control->has_changed_files)
+        control->has_changed = true;
+    control->has_changed_files = has_changed;
+}
+
 /* Checks the files at files_ns. Reloads them if --watch is given. */
 static void handle_files(struct render_control *control)
 {
     bool loads;
 
-    render_control_check_files(control);
+    look_at_files(control);
     loads = control->has_changed_files && control->session->options->watch &&
             control->is_live && !render_control_has_unsaved_edit(control);
     control->files_ns =
         control->watch.fd < 0 ? clock_ns() + FILES_POLL_NS : UINT64_MAX;
-    if (loads && control->reload.is_busy)
+    if (control->watch.is_changing || (loads && control->reload.is_busy))
         control->files_ns = clock_ns() + FILES_QUIET_NS;
     else if (loads)
         render_control_reload(control);
@@ -472,16 +483,11 @@ void render_control_end_device(struct render_control *control)
 
 void render_control_check_files(struct render_control *control)
 {
-    bool has_changed;
+    uint64_t look_ns = clock_ns() + FILES_QUIET_NS;
 
     file_watch_drain(&control->watch);
-    has_changed = file_watch_has_changed(&control->watch);
-    if (has_changed != control->has_changed_files)
-        control->has_changed = true;
-    control->has_changed_files = has_changed;
-    if (has_changed && control->session->options->watch &&
-        control->files_ns > clock_ns() + FILES_QUIET_NS)
-        control->files_ns = clock_ns() + FILES_QUIET_NS;
+    if (control->files_ns > look_ns)
+        control->files_ns = look_ns;
 }
 
 void render_control_reload(struct render_control *control)

@@ -124,6 +124,41 @@ shines .5 oops | write wall.mtl
 wait_for "wall.mtl:3: found 'oops'"
 shines 0 .5 0 | write wall.mtl
 wait_for "loaded wall.obj"
+# an image that is removed, and named no more
+cp orange.png wall.png
+map='map_Ke wall.png
+'
+shines 1 1 1 | write wall.mtl
+wait_for_rows 20 "$ORANGE"
+map=
+rm wall.png
+shines .5 .2 0 | write wall.mtl
+wait_for_rows 20 "$ORANGE"
+shines 0 .5 0 | write wall.mtl
+wait_for_rows 20 "$GREEN"
+# an export that takes a while: its first part is no scene. Behind the camera
+# there is only the background.
+{
+    wall 9 | head -n 7
+    sleep 2
+    reject "loading\|wall.obj:" >&2
+    wait_for_rows 20 "$GREEN"
+    wall 9 | tail -n +8
+} >wall.obj
+wait_for_rows 20 "$ORANGE"
+# all files go and come back, as with git checkout
+rm wall.obj wall.mtl
+shines 0 .5 0 >wall.mtl
+wall 0 >wall.obj
+wait_for_rows 20 "$GREEN"
+# the scene itself is away, is missed, and comes back
+rm wall.obj
+wait_for "wall.obj: no such file"
+shines .5 .2 0 | write wall.mtl
+wall 0 >wall.obj
+wait_for_rows 20 "$ORANGE"
+shines 0 .5 0 | write wall.mtl
+wait_for_rows 20 "$GREEN"
 keys Space Enter
 wait_for "NORMAL .*spp"
 shines .5 .2 0 | write wall.mtl

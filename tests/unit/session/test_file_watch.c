@@ -203,6 +203,82 @@ static void absent_files_are_waited_for(void **state)
     file_watch_free(&w);
 }
 
+static void pause_ms(int ms)
+{
+    poll(NULL, 0, ms);
+}
+
+/* A file that stays away is a change, and later changes of others are. */
+static void removed_files_are_noticed_after_a_second(void **state)
+{
+    struct file_watch w;
+
+    (void)state;
+    begin(&w);
+    unlink(paths[PLAIN]);
+    put(paths[TARGET], "three");
+    assert_true(is_told(&w));
+    assert_false(file_watch_has_changed(&w));
+    assert_true(w.is_changing);
+    pause_ms(1100);
+    assert_true(file_watch_has_changed(&w));
+    assert_false(w.is_changing);
+    file_watch_settle(&w); /* it is loaded, and names the file no more */
+    file_watch_begin(&w);
+    file_watch_add(&w, paths[LINK]);
+    file_watch_end(&w);
+    assert_false(file_watch_has_changed(&w));
+    put(paths[TARGET], "three, and more");
+    assert_true(is_told(&w));
+    assert_true(file_watch_has_changed(&w));
+    file_watch_free(&w);
+}
+
+/* An export that takes a while between its writes. */
+static void files_are_waited_for_until_they_are_closed(void **state)
+{
+    struct file_watch w;
+    FILE *f;
+
+    (void)state;
+    begin(&w);
+    f = fopen(paths[PLAIN], "w");
+    assert_non_null(f);
+    for (int i = 0; i < 3; i++) {
+        fputs("a part", f);
+        fflush(f);
+        assert_true(is_told(&w));
+        assert_false(file_watch_has_changed(&w));
+        pause_ms(300);
+        assert_false(file_watch_has_changed(&w));
+        assert_true(w.is_changing);
+    }
+    fclose(f);
+    assert_true(is_told(&w));
+    assert_true(file_watch_has_changed(&w));
+    assert_false(w.is_changing);
+    file_watch_free(&w);
+}
+
+/* git removes a file and writes it anew. */
+static void files_that_come_back_are_one_change(void **state)
+{
+    struct file_watch w;
+
+    (void)state;
+    begin(&w);
+    unlink(paths[PLAIN]);
+    assert_true(is_told(&w));
+    assert_false(file_watch_has_changed(&w));
+    put(paths[PLAIN], "from another branch");
+    assert_true(is_told(&w));
+    assert_true(file_watch_has_changed(&w));
+    assert_true(w.is_changing); /* since the last look */
+    assert_true(file_watch_has_changed(&w));
+    assert_false(w.is_changing);
+    file_watch_free(&w);
+}
+
 /* A new list keeps what is known about the files. */
 static void lists_keep_what_is_known(void **state)
 {
@@ -242,6 +318,9 @@ int main(void)
         cmocka_unit_test(new_files_are_noticed),
         cmocka_unit_test(targets_of_links_are_noticed),
         cmocka_unit_test(absent_files_are_waited_for),
+        cmocka_unit_test(removed_files_are_noticed_after_a_second),
+        cmocka_unit_test(files_are_waited_for_until_they_are_closed),
+        cmocka_unit_test(files_that_come_back_are_one_change),
         cmocka_unit_test(lists_keep_what_is_known),
         cmocka_unit_test(other_files_are_no_change),
     };
