@@ -5,12 +5,14 @@
  *
  * usage: rays SHARED [PART of the meshes' names [ISA]]
  */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "embree_racer.h"
+#include "referee.h"
 #include "sets.h"
 #include "shapes.h"
 
@@ -33,10 +35,8 @@
 /* Number of rays in a job. */
 #define CHUNK 4096
 
-/* Relative tolerance for distances of the same hit, and the tolerance near the
- * ray's origin, where coordinates are rounded. */
-#define T_TOLERANCE 1e-5f
-#define T_ROUNDING  0x1p-23f
+/* Rays of a set that differ and are decided. */
+#define DECIDED_MAX 1000
 
 /* Racers that trace, builders, and lines of output about builds. */
 enum {
@@ -118,27 +118,63 @@ static void time_heat(struct pool *pool, struct heat *h, struct times *times,
     times->cpu_s[repeat] = cpu_s(pool) - before_s;
 }
 
-/* Prints how many answers agree with glim's. */
+static float distance_of(struct answer a)
+{
+    return a.tri == NO_INDEX ? FLT_MAX : a.t;
+}
+
+static bool is_same(struct answer a, struct answer b)
+{
+    return referee_is_same(distance_of(a), distance_of(b));
+}
+
+/* Numbers of right answers. */
+struct verdict {
+    uint32_t glim, rounded, embree;
+};
+
+static void decide(const struct contest *c, const struct ray *r,
+                   struct answer glim, struct answer embree, struct verdict *v)
+{
+    float exact = referee_distance(&c->shape.world, r, false);
+    float rounded = referee_distance(&c->shape.world, r, true);
+
+    v->glim += referee_is_same(distance_of(glim), exact);
+    v->rounded += referee_is_same(distance_of(glim), rounded);
+    v->embree += referee_is_same(distance_of(embree), exact);
+}
+
+/* Prints how many answers agree with glim's, and which of the others are right.
+ */
 static void compare_answers(const struct contest *c, const struct ray_set *set,
                             int racer)
 {
     static const char *const names[RACERS] = {"", "robust", "fast"};
-    uint32_t hits = 0, ties = 0, faults = 0;
+    uint32_t hits = 0, ties = 0, faults = 0, decided = 0;
+    struct verdict verdict = {0, 0, 0};
 
     for (uint32_t i = 0; i < set->count; i++) {
         struct answer a = c->answers[GLIM][i], b = c->answers[racer][i];
 
         hits += a.tri != NO_INDEX;
-        if ((a.tri == NO_INDEX) != (b.tri == NO_INDEX) ||
-            (a.tri != NO_INDEX &&
-             fabsf(a.t - b.t) > T_TOLERANCE * fmaxf(a.t, b.t) + T_ROUNDING))
-            faults++;
-        else if (a.tri != b.tri)
-            ties++;
+        if (is_same(a, b)) {
+            ties += a.tri != b.tri;
+            continue;
+        }
+        faults++;
+        if (set == &c->sets[SET_SHADOW] || decided == DECIDED_MAX)
+            continue;
+        decide(c, &set->rays[i], a, b, &verdict);
+        decided++;
     }
     printf("    of %u rays %u hit; %s: %u at the same place name another "
            "triangle, %u differ\n",
            set->count, hits, names[racer], ties, faults);
+    if (decided > 0)
+        printf(
+            "    exactly, of %u that differ: glim is right in %u, in %u with "
+            "its rounded corners; Embree in %u\n",
+            decided, verdict.glim, verdict.rounded, verdict.embree);
 }
 
 /* Times one query per racer and compares the results of one thread. Adds the
