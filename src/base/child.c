@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -112,17 +113,55 @@ static bool read_some(int fd, const struct child_task *t,
     return t->is_cut;
 }
 
-static enum child_end read_output(int fd, const struct child_task *t,
+/* The time that a child has had. */
+struct child_time {
+    pid_t child;
+    uint64_t begin_ns,
+        active_ns; /* when it began, and last used the processor */
+    uint64_t cpu_ns;
+};
+
+/* Time of the clock for each limit of processor time: a share of the processor
+ * that even a busy machine gives. */
+#define CLOCK_FACTOR 10
+
+/* Returns the processor time of the child's threads; the last one known if it
+ * has ended. */
+static uint64_t child_cpu_ns(const struct child_time *time)
+{
+    struct timespec cpu;
+    clockid_t clock;
+
+    if (clock_getcpuclockid(time->child, &clock) != 0 ||
+        clock_gettime(clock, &cpu) != 0)
+        return time->cpu_ns;
+    return (uint64_t)cpu.tv_sec * 1000000000u + (uint64_t)cpu.tv_nsec;
+}
+
+static bool is_late(struct child_time *time, uint64_t limit_ns)
+{
+    uint64_t now_ns = clock_ns(), cpu_ns = child_cpu_ns(time);
+
+    if (cpu_ns != time->cpu_ns)
+        time->active_ns = now_ns;
+    time->cpu_ns = cpu_ns;
+    return cpu_ns > limit_ns || now_ns - time->active_ns > limit_ns ||
+           (now_ns - time->begin_ns) / CLOCK_FACTOR > limit_ns;
+}
+
+static enum child_end read_output(pid_t child, int fd,
+                                  const struct child_task *t,
                                   struct child_result *r)
 {
-    uint64_t end_ns = clock_ns() + t->time_ns;
+    uint64_t now_ns = clock_ns();
+    struct child_time time = {child, now_ns, now_ns, 0};
     enum child_end end = CHILD_ENDED;
     size_t capacity = 0;
 
     for (;;) {
         struct pollfd in = {.fd = fd, .events = POLLIN};
 
-        if (clock_ns() > end_ns ||
+        if (is_late(&time, t->time_ns) ||
             (t->is_unwanted != NULL && atomic_load(t->is_unwanted)))
             return CHILD_LATE;
         if (poll(&in, 1, LOOK_MS) <= 0)
@@ -180,7 +219,7 @@ enum child_end child_run(const struct child_task *t, struct child_result *r)
     r->reason = start_with_pipe(&child, t, &output);
     if (r->reason != 0)
         return CHILD_NOT_RUN;
-    end = read_output(output, t, r);
+    end = read_output(child, output, t, r);
     close(output);
     if (end != CHILD_ENDED)
         kill(child, SIGKILL);

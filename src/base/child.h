@@ -24,10 +24,12 @@ struct child_task {
     const char *const *arguments; /* with its name, and NULL at the end */
     const void *input;            /* standard input; may be NULL */
     size_t input_bytes;
-    bool has_errors;   /* standard error is read, too; else it is lost */
-    bool is_cut;       /* output beyond the limit is skipped */
-    uint64_t time_ns;  /* limit of time */
-    size_t size_bytes; /* limit of the output */
+    bool has_errors; /* standard error is read, too; else it is lost */
+    bool is_cut;     /* output beyond the limit is skipped */
+    /* Limit of the child's processor time, and of time without any. Ten times
+     * as much passes at most, so that a busy machine does not end it. */
+    uint64_t time_ns;
+    size_t size_bytes;              /* limit of the output */
     const atomic_bool *is_unwanted; /* ends the child if true; may be NULL */
 };
 
@@ -35,7 +37,7 @@ enum child_end {
     CHILD_ENDED,    /* by itself or by a signal: see status */
     CHILD_UNKNOWN,  /* its status is lost: errno */
     CHILD_NOT_RUN,  /* it could not be started: errno */
-    CHILD_LATE,     /* killed at the limit of time, or as unwanted */
+    CHILD_LATE,     /* killed at a limit of time, or as unwanted */
     CHILD_TOO_LONG, /* killed at the limit of its output */
     CHILD_NO_MEMORY /* killed, as there was no memory for its output */
 };

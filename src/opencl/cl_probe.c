@@ -14,7 +14,8 @@
 #include "opencl/cl_source.h"
 #include "opencl/selftest.h"
 
-/* Time limit: compilers take seconds, a hanging driver takes forever. */
+/* Limit of processor time: compilers take seconds, a hanging driver takes
+ * forever. */
 #define ANSWER_NS UINT64_C(60000000000)
 
 /* Limit for the copy's output, more than a compiler prints. */

@@ -238,6 +238,17 @@ static void handle_files(struct render_control *control)
         render_control_reload(control);
 }
 
+/* Says that the device is being tested, until there is a verdict, whenever
+ * nothing else is said. */
+static void say_device_test(struct render_control *control)
+{
+    if (!control->awaits_device || clock_ns() < control->message.until_ns)
+        return;
+    render_control_say(
+        control, "OpenCL: testing the device; the CPU renders until then");
+    control->message.until_ns = UINT64_MAX;
+}
+
 /* Says once that samples are black or cut: in the status line, and when the
  * screen is closed. */
 static void say_faults(struct render_control *control)
@@ -264,6 +275,7 @@ void render_control_update(struct render_control *control)
     if (control->progress.state != before)
         control->has_changed = true;
     say_faults(control);
+    say_device_test(control);
     if (control->progress.state == RENDER_FAILED && before != RENDER_FAILED)
         replace_device(control);
     /* A picture in progress is shown once before the restart. Otherwise a scene
@@ -420,6 +432,9 @@ void render_control_begin_device(struct render_control *control)
 
     if (!backends_begin_device(&control->session->backends, FEATURES_ALL, &err))
         render_control_say_error(control, err.text);
+    else
+        control->awaits_device =
+            control->session->options->backend == BACKEND_OPENCL;
 }
 
 void render_control_switch_backend(struct render_control *control)
@@ -433,9 +448,11 @@ void render_control_switch_backend(struct render_control *control)
     } else if (m->device != NULL) {
         use_backend(control, m->device);
     } else {
-        render_control_say_long(control, "OpenCL: waiting for the device");
+        render_control_clear_message(control);
         if (m->start == NULL)
             render_control_begin_device(control);
+        control->awaits_device = m->start != NULL;
+        say_device_test(control);
     }
 }
 
@@ -460,6 +477,7 @@ void render_control_end_device(struct render_control *control)
 
     if (backends_end_specialising(m))
         return;
+    control->awaits_device = false;
     if (backends_end_device(m, &log, &err)) {
         if (control->is_live && !control->has_gone_on)
             use_backend(control, m->device);

@@ -57,6 +57,7 @@ struct render_control {
     char saving_what[64];    /* description: size and samples */
 
     bool has_said_faults; /* of samples */
+    bool awaits_device;   /* asked for by an option or a key, in test */
 
     char **results; /* lines to print at the end */
     int result_count;

@@ -32,15 +32,16 @@ enum field {
     FIELDS
 };
 
-/* Fields in the order in which they are left out if there is no room. The first
- * ones are known or shown elsewhere, as in the progress panel; the last ones
- * tell the effect of a key. */
+/* Fields in the order in which they are left out if there is no room; that of
+ * the machine shrinks to one word, and the mode to its name. The first ones are
+ * known or shown elsewhere, as in the progress panel; the last ones tell the
+ * effect of a key. */
 static const enum field dispensable[] = {FIELD_MACHINE, FIELD_SIZE,
                                          FIELD_SPEED,   FIELD_LEFT,
                                          FIELD_ELAPSED, FIELD_GAUGE,
                                          FIELD_PERCENT, FIELD_TARGET,
-                                         FIELD_NOISE,   FIELD_COLORS,
-                                         FIELD_SAMPLES};
+                                         FIELD_NOISE,   FIELD_MODE,
+                                         FIELD_COLORS,  FIELD_SAMPLES};
 
 #define GAUGE_COLS 8
 
@@ -180,6 +181,18 @@ static void format_speed(char text[FIELD_BYTES],
         snprintf(text, FIELD_BYTES, "%.0f ksamples/s", speed * 1e-3);
 }
 
+static void format_machine(char text[FIELD_BYTES], const struct status_line *s,
+                           bool is_short)
+{
+    if (is_short)
+        snprintf(text, FIELD_BYTES, "%s", s->device ? "OpenCL" : "CPU");
+    else if (s->device)
+        snprintf(text, FIELD_BYTES, "OpenCL %.24s", s->device);
+    else
+        snprintf(text, FIELD_BYTES, "%d thread%s", s->thread_count,
+                 print_plural((uint64_t)s->thread_count));
+}
+
 static void format_fields(char text[FIELDS][FIELD_BYTES],
                           const struct status_line *s, double *part)
 {
@@ -191,11 +204,7 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
              s->is_orbiting ? " orbit" : "",
              s->passes_walls ? " through walls" : "",
              s->is_filtered ? " filtered" : "");
-    if (s->device)
-        snprintf(text[FIELD_MACHINE], FIELD_BYTES, "OpenCL %.24s", s->device);
-    else
-        snprintf(text[FIELD_MACHINE], FIELD_BYTES, "%d thread%s",
-                 s->thread_count, print_plural((uint64_t)s->thread_count));
+    format_machine(text[FIELD_MACHINE], s, false);
     if (s->load_key)
         snprintf(text[FIELD_FILES], FIELD_BYTES, "changed: %.8s loads",
                  s->load_key);
@@ -277,12 +286,26 @@ static void mark_mode(struct status_row *row, const struct status_line *s,
     add_span(row, 0, cols < room ? cols : room, mode_role(s));
 }
 
+/* Shortens a field to one word, or to nothing. The mode loses what follows it.
+ */
+static void leave_out(char text[FIELDS][FIELD_BYTES], enum field field,
+                      const struct status_line *s)
+{
+    if (field == FIELD_MACHINE)
+        format_machine(text[field], s, true);
+    else if (field == FIELD_MODE)
+        text[field][strlen(mode_word(s))] = '\0';
+    else
+        text[field][0] = '\0';
+}
+
 void status_line_format(struct status_row *row, int cols,
                         const struct status_line *s)
 {
     char fields[FIELDS][FIELD_BYTES] = {{0}};
     int room = begin_row(row, cols, ROLE_STATUS);
-    int hint = hint_columns(s);
+    int hint = hint_columns(s), length;
+    const char *mode = mode_word(s);
     int at = -1; /* the first field has a gap as well */
     double part = 0;
 
@@ -290,13 +313,19 @@ void status_line_format(struct status_row *row, int cols,
     for (size_t i = 0; i < sizeof dispensable / sizeof dispensable[0]; i++) {
         if (1 + length_of(fields) + hint <= room)
             break;
-        fields[dispensable[i]][0] = '\0';
+        leave_out(fields, dispensable[i], s);
     }
-    mark_mode(row, s, (int)strlen(mode_word(s)), room);
+    if (1 + length_of(fields) > room) /* what renders comes before its state */
+        fields[FIELD_MODE][strcspn(mode, " ")] = '\0';
+    if (1 + length_of(fields) > room)
+        fields[FIELD_FILES][0] = '\0';
+    length = (int)strlen(fields[FIELD_MODE]);
+    mark_mode(row, s, length < (int)strlen(mode) ? length : (int)strlen(mode),
+              room);
     for (int i = 0; i < FIELDS; i++) {
-        int length = (int)strlen(fields[i]);
         int begin = at + gap_before(i);
 
+        length = (int)strlen(fields[i]);
         if (length == 0 || begin + length > room)
             continue;
         memcpy(row->text + begin, fields[i], (size_t)length);
@@ -315,12 +344,14 @@ void status_line_message(struct status_row *row, int cols,
                          const struct status_line *s, const char *message,
                          enum text_role role)
 {
-    const char *mode = mode_word(s);
+    char mode[FIELD_BYTES];
     int room = begin_row(row, cols, role);
     int rest = room - text_width_of(message);
-    int length = (int)strlen(mode);
-    int begin = 1;
+    int length, begin = 1;
 
+    snprintf(mode, sizeof mode, "%s%s", mode_word(s),
+             s->device ? " OpenCL" : "");
+    length = (int)strlen(mode);
     if (length + 3 > rest)
         length = (int)strcspn(mode, " ");
     if (length + 3 <= rest) {

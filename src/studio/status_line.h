@@ -5,7 +5,8 @@
  * Units:     terminal columns, nanoseconds
  * Ownership: text goes to the caller's memory
  * Threads:   any
- * Errors:    fields without room are left out, the least important first
+ * Errors:    fields without room are left out, the least important first;
+ *            the mode and what renders stay
  */
 #ifndef GLIM_STATUS_LINE_H
 #define GLIM_STATUS_LINE_H
@@ -55,7 +56,8 @@ bool status_line_left(char *text, size_t size_bytes,
                       const struct render_progress *p);
 
 /* Formats a message, without its control characters and cut at `cols` columns,
- * beside the mode, or beside the mode's first word, or alone: as it fits. */
+ * beside the mode and OpenCL, if that renders, or beside the mode's first word,
+ * or alone: as it fits. */
 void status_line_message(struct status_row *row, int cols,
                          const struct status_line *s, const char *message,
                          enum text_role role);

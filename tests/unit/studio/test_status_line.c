@@ -266,6 +266,40 @@ static void eighty_columns_have_the_colors(void **state)
     }
 }
 
+/* What renders is in the line of any width that has room for it and one word of
+ * the mode, and beside messages if a device does. */
+static void every_width_has_the_backend(void **state)
+{
+    struct render_progress p = half_done();
+    struct status_line s = live_line(&p);
+    struct status_row row;
+    char text[STATUS_BYTES];
+
+    (void)state;
+    s.width_px = s.height_px = 65536;
+    for (int i = 0; i < 64; i++) {
+        s.is_live = i & 1;
+        s.is_orbiting = s.passes_walls = i & 2;
+        s.is_halted = s.is_started = i & 4;
+        s.load_key = i & 8 ? "l" : NULL;
+        s.device = i & 16 ? "NVIDIA GeForce RTX 4090 Ti" : NULL;
+        p.spp_limit = i & 32 ? 16 : 0;
+        for (int cols = 16; cols < 200; cols++) {
+            format(text, cols, &s);
+            if (s.device)
+                check_has(text, "OpenCL");
+            else
+                assert_true(strstr(text, "CPU") || strstr(text, " 1 thread"));
+        }
+    }
+    s = live_line(&p);
+    s.device = "GPU";
+    status_line_message(&row, 80, &s, "abcdef", ROLE_MESSAGE);
+    assert_string_equal(row.text, " LIVE OpenCL  abcdef");
+    status_line_message(&row, 19, &s, "abcdef", ROLE_MESSAGE);
+    assert_string_equal(row.text, " LIVE  abcdef");
+}
+
 static void messages_have_no_control_characters(void **state)
 {
     struct render_progress p = half_done();
@@ -303,6 +337,7 @@ int main(void)
         cmocka_unit_test(noise_outlives_its_target),
         cmocka_unit_test(narrow_windows_drop_fields),
         cmocka_unit_test(eighty_columns_have_the_colors),
+        cmocka_unit_test(every_width_has_the_backend),
         cmocka_unit_test(messages_have_no_control_characters),
     };
 
