@@ -389,8 +389,9 @@ static bool add_file(struct parser *p)
     return true;
 }
 
-/* Finds the dialect of the file and says it. The default material gets that of
- * the first file, because copies of it are saved there. */
+/* Finds the dialect of the file, and says it if the file does not: then it was
+ * concluded. The default material gets that of the first file, because copies
+ * of it are saved there. */
 static void find_dialect(struct parser *p, const char *text, size_t size_bytes)
 {
     struct mtl_dialect_found found = mtl_dialect_find(text, size_bytes);
@@ -398,11 +399,11 @@ static void find_dialect(struct parser *p, const char *text, size_t size_bytes)
     p->dialect = found.dialect;
     if (p->file == 0)
         p->scene->material_origins[0].source.dialect = found.dialect;
-    if (found.dialect == MTL_CLASSIC)
-        return;
-    warnings_add_named(p->report, "files of Blender", p->path,
-                       "%s: read as Blender %s%swrites it", p->path,
-                       found.version, *found.version != '\0' ? " " : "");
+    if (found.dialect != MTL_CLASSIC && *found.version == '\0')
+        warnings_add_named(p->report, "files of Blender", p->path,
+                           "%s: read as Blender writes it, by the order of its "
+                           "statements",
+                           p->path);
 }
 
 bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,

@@ -212,6 +212,9 @@ bool gltf_find(const struct gltf_document *document, const char *collection,
         if (name != NULL && strcmp(name, wanted) == 0)
             return true;
     }
+    if (count == 0)
+        return fail(err, "%s: found no %s at all, expected '%.80s'",
+                    document->path, what, wanted);
     return fail(err, "%s: found no %s '%.80s', expected a name or 1 to %zu",
                 document->path, what, wanted, count);
 }

@@ -58,6 +58,12 @@ void error_text_interval(char text[ERROR_TEXT_BYTES],
              low, high, e->is_resolved ? "" : ", unresolved");
 }
 
+const char *error_text_meaning(const struct film_error *e)
+{
+    return e->is_known && !e->is_resolved ? ": few pixels carry most of it"
+                                          : "";
+}
+
 void error_text_noise(char text[ERROR_TEXT_BYTES], const struct film_error *e)
 {
     char number[ERROR_TEXT_BYTES];

@@ -24,6 +24,9 @@ void error_text_percent(char text[ERROR_TEXT_BYTES], double error);
 void error_text_interval(char text[ERROR_TEXT_BYTES],
                          const struct film_error *e);
 
+/* Returns what explains the word behind the interval: text, or "". */
+const char *error_text_meaning(const struct film_error *e);
+
 /* Formats "noise 2.3 %", "noise 3 %, unresolved" or "noise unknown". */
 void error_text_noise(char text[ERROR_TEXT_BYTES], const struct film_error *e);
 

@@ -93,3 +93,5 @@ for name in lit watts lumens; do
 done
 same lit.pfm watts.pfm
 same lit.pfm lumens.pfm
+echo '{"asset":{"version":"2.0"},"scenes":[{"nodes":[]}],"scene":0}' >none.gltf
+run -b --animation 1 -o none.png none.gltf

@@ -159,7 +159,6 @@ static void check_suite(const char *name, enum mtl_dialect dialect,
     size_t size_bytes;
     char *text = read_suite(name, &size_bytes);
     struct mtl_dialect_found found = mtl_dialect_find(text, size_bytes);
-    char *said = xformat("a.mtl: read as Blender %s writes it", version);
     const struct material *m;
     struct loaded l;
 
@@ -179,16 +178,14 @@ static void check_suite(const char *name, enum mtl_dialect dialect,
     assert_string_equal(path_name(l.scene.texture_paths[m->bump_texture]),
                         "nrm.png");
     check_close((double)m->alpha, 1, 0);
-    assert_string_equal(l.report.entries[0].text, said);
     if (is_extended) {
         check_close((double)find(&l, "sheen")->sheen.x, .6, 1e-7);
         check_close((double)find(&l, "sheen")->sheen_alpha, .25, 0);
         check_close((double)find(&l, "aniso")->anisotropy, .8, 1e-7);
         check_close((double)find(&l, "aniso")->grain.x, 1, 0);
     }
-    assert_int_equal(l.report.entry_count, 1);
+    assert_int_equal(l.report.entry_count, 0);
     unload(&l);
-    free(said);
     free(text);
 }
 
