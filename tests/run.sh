@@ -7,6 +7,7 @@
 # hardening, a test_x, fuzz, api, cli, screen.
 set -u
 cd "$(dirname "$0")/.." || exit 1
+. tests/pool.sh
 export BUILD=${BUILD:-build/release/few}
 # PoCL's cache, apart from the user's
 POCL_CACHE_DIR=$(realpath "$BUILD")/pocl
@@ -17,37 +18,35 @@ export ASAN_OPTIONS=use_sigaltstack=0:${ASAN_OPTIONS-}
 export LSAN_OPTIONS=suppressions=$PWD/tests/tools/lsan.supp:print_suppressions=0
 export SAN=${SAN-}
 FILTER=${FILTER-}
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-
-passed=0
-failed=0
-begin=${EPOCHREALTIME/,/.}
-times='' # of each part, a line each
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 
 wanted()
 {
     [[ $1 == *"$FILTER"* ]]
 }
 
-# name, passed, failed: adds to the totals; shows the part's seconds, and the
-# log if something failed
-report()
+# Runs a part of the tests: a function with a name and a command, which writes the
+# counts of what passed and failed. Shows them with the part's seconds, and the
+# log if something failed, in one piece.
+part() # function, name, command
 {
-    local time
+    local name=${2##*/} begin=${EPOCHREALTIME/,/.} counts time
 
+    wanted "$2" || return
+    log=$work/$name.log
+    counts=$("$@" 2>&1) # the functions write to the log what they run
     time=$(awk "BEGIN { printf \"%.1f s\", ${EPOCHREALTIME/,/.} - $begin }")
-    begin=${EPOCHREALTIME/,/.}
-    times+="$time $1"$'\n'
-    passed=$((passed + $2))
-    failed=$((failed + $3))
-    if [ "$3" -gt 0 ]; then
-        tail -c 20000 "$log"
-        printf '%-26s %7s %4d passed, %d failed\n' "$1" "$time" "$2" "$3"
+    echo "$time $name" >>"$work/times"
+    echo "$counts" >>"$work/counts"
+    if [ "${counts#* }" -gt 0 ]; then
+        printf '%s\n%-26s %7s %4d passed, %d failed\n' \
+            "$(tail -c 20000 "$log")" "$name" "$time" "${counts% *}" "${counts#* }"
     else
-        printf '%-26s %7s %4d passed\n' "$1" "$time" "$2"
-        grep -ai skip "$log" | grep -av '^\[  SKIPPED \] [0-9]* test' |
-            grep -av 'SKIPPED TEST(S)$' | awk '!seen[$0]++ { print "    " $0 }'
+        printf '%-26s %7s %4d passed%s\n' "$name" "$time" "${counts% *}" \
+            "$(grep -ai skip "$log" | grep -av '^\[  SKIPPED \] [0-9]* test' |
+                grep -av 'SKIPPED TEST(S)$' |
+                awk '!seen[$0]++ { printf "\n    %s", $0 }')"
     fi
 }
 
@@ -57,7 +56,7 @@ run_unit()
 {
     local started ok skipped status bad
 
-    timeout --kill-after=5 600 "$1" >"$log" 2>&1 </dev/null
+    timeout --kill-after=5 600 "$2" >"$log" 2>&1 </dev/null
     status=$?
     started=$(sed -n 's/^\[=*\].* Running \([0-9]*\) test.*/\1/p' "$log" |
         awk '{ n += $1 } END { print n + 0 }')
@@ -65,10 +64,10 @@ run_unit()
     skipped=$(grep -a '^\[  SKIPPED \] [^ ]*$' "$log" | sort -u | wc -l)
     bad=$((started - ok - skipped))
     if [ $bad -le 0 ] && { [ $status != 0 ] || [ "$started" = 0 ]; }; then
-        echo "$1: exit status $status after $started tests" >>"$log"
+        echo "$2: exit status $status after $started tests" >>"$log"
         bad=1
     fi
-    report "${1##*/}" "$ok" "$bad"
+    echo "$ok $bad"
 }
 
 # Runs a script that ends with "NAME: N passed, N failed".
@@ -86,20 +85,17 @@ run_script()
         counts="${counts% *}"
         counts="${counts:-0} 1"
     fi
-    # shellcheck disable=SC2086 # two words
-    report "$name" $counts
+    echo "$counts"
 }
 
 # Runs a command that must end with status 0.
 run_check()
 {
-    local name=$1
-
     shift
     if "$@" >"$log" 2>&1 </dev/null; then
-        report "$name" 1 0
+        echo 1 0
     else
-        report "$name" 0 1
+        echo 0 1
     fi
 }
 
@@ -141,24 +137,32 @@ program_is_hardened()
     return $status
 }
 
-wanted layers && run_check layers tests/layers.sh
-wanted tour && run_check tour tests/tour.sh
-wanted mutants && run_check mutants tests/mutants/check.sh
-wanted links && run_check links tests/links.sh
-wanted results && run_check results tests/bench/results/draw.sh --check
-wanted man && run_check man-lint mandoc -T lint -W warning man/glim.1 man/libglim.3
-wanted scenes && run_check scenes scenes_are_generated
-wanted hardening && run_check hardening program_is_hardened
+# Tests whose limits are of time, and which therefore run alone
+timed=' '
+
+in_pool part run_check layers tests/layers.sh
+in_pool part run_check tour tests/tour.sh
+in_pool part run_check mutants tests/mutants/check.sh
+in_pool part run_check links tests/links.sh
+in_pool part run_check results tests/bench/results/draw.sh --check
+in_pool part run_check man-lint mandoc -T lint -W warning man/glim.1 man/libglim.3
+in_pool part run_check scenes scenes_are_generated
+in_pool part run_check hardening program_is_hardened
+in_pool part run_script api tests/api/run.sh
+in_pool part run_script fuzz tests/fuzz/run.sh
 for program in tests/unit/*/test_*.c; do
     name=${program#tests/unit/}
     name=${name%.c}
-    wanted "$name" && run_unit "$BUILD/unit/$name"
+    [[ $timed == *" $name "* ]] || in_pool part run_unit "$name" "$BUILD/unit/$name"
 done
-wanted fuzz && run_script fuzz tests/fuzz/run.sh
-wanted api && run_script api tests/api/run.sh
-wanted cli && run_script cli tests/cli/run.sh
-wanted screen && run_script screen tests/screen/run.sh
+wait
+part run_script cli tests/cli/run.sh
+part run_script screen tests/screen/run.sh
+for name in $timed; do
+    part run_unit "$name" "$BUILD/unit/$name"
+done
 
-echo "slowest: $(printf '%s' "$times" | sort -rn | head -5 | paste -sd ,)"
-echo "$passed passed, $failed failed"
-[ "$failed" = 0 ] && [ "$passed" -gt 0 ]
+echo "slowest: $(sort -rn "$work/times" | head -5 | paste -sd ,)"
+awk '{ passed += $1; failed += $2 }
+    END { print passed + 0 " passed, " failed + 0 " failed"
+          exit failed > 0 || passed == 0 }' "$work/counts"

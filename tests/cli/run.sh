@@ -1,13 +1,15 @@
-#!/bin/sh
+#!/bin/bash
 # SPDX-License-Identifier: MIT
 # run.sh - command line tests: scripts with the expected output beside them
 #
 # Runs cases/NAME.sh in an empty folder and compares its output (standard output
 # and error together) with cases/NAME.out. A script that ends with status 77 is
 # skipped; its last line is the reason. BUILD is the folder of the program
-# (build/release); arguments name the cases (default: all).
+# (build/release), JOBS the number of cases that run at once; arguments name the
+# cases (default: all).
 set -u
 cd "$(dirname "$0")/../.." || exit 1
+. tests/pool.sh
 root=$PWD
 build=${BUILD:-build/release}
 case $build in
@@ -34,17 +36,15 @@ if [ ! -x "$build/glim" ]; then
     exit 1
 fi
 work=$(mktemp -d) || exit 1
-XDG_STATE_HOME=$work/state
-export XDG_STATE_HOME
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
-passed=0
-failed=0
+mkdir "$work/passed" "$work/failed"
 
 run_case()
 {
-    name=$1
-    out=$work/$name.out
+    local name=$1 out=$work/$1.out status
+
     mkdir "$work/$name"
+    export XDG_STATE_HOME=$work/$name.state
     (cd "$work/$name" && timeout --kill-after=5 120 \
         sh -u -c '. "$CLI/lib.sh"; . "$CLI/cases/$0.sh"' "$name") \
         >"$out" 2>&1 </dev/null
@@ -53,11 +53,11 @@ run_case()
         echo "skip $name ($(tail -n 1 "$out"))"
     elif [ $status = 0 ] && cmp -s "$out" "$CLI/cases/$name.out"; then
         echo "ok $name"
-        passed=$((passed + 1))
+        : >"$work/passed/$name"
     else
-        echo "FAIL $name (exit $status)"
-        diff -u "$CLI/cases/$name.out" "$out" | tail -n +3
-        failed=$((failed + 1))
+        printf '%s\n%s\n' "FAIL $name (exit $status)" \
+            "$(diff -u "$CLI/cases/$name.out" "$out" | tail -n +3)"
+        : >"$work/failed/$name"
     fi
 }
 
@@ -66,8 +66,11 @@ if [ $# = 0 ]; then
         set -- "$@" "$(basename "$script" .sh)"
     done
 fi
-for case_name in "$@"; do
-    run_case "$case_name"
+for name in "$@"; do
+    in_pool run_case "$name"
 done
+wait
+passed=$(find "$work/passed" -type f | wc -l)
+failed=$(find "$work/failed" -type f | wc -l)
 echo "cli: $passed passed, $failed failed"
-[ $failed = 0 ] && [ $passed -gt 0 ]
+[ "$failed" = 0 ] && [ "$passed" -gt 0 ]

@@ -9,6 +9,7 @@
 # name the cases (default: all).
 set -u
 cd "$(dirname "$0")/../.." || exit 1
+. tests/pool.sh
 root=$PWD
 build=${BUILD:-build/release}
 case $build in
@@ -82,11 +83,9 @@ run_case()
     tmux -S "$SOCKET" kill-server 2>/dev/null
 }
 
-running=0
+JOBS=${JOBS:-$(($(nproc) + 1))}
 for name in "$@"; do
-    [ $running -lt "${JOBS:-$(($(nproc) + 1))}" ] || wait -n
-    run_case "$name" &
-    running=$(jobs -r | wc -l)
+    in_pool run_case "$name"
 done
 wait
 passed=$(find "$work/passed" -type f | wc -l)
