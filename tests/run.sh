@@ -17,6 +17,8 @@ export POCL_CACHE_DIR
 export ASAN_OPTIONS=use_sigaltstack=0:${ASAN_OPTIONS-}
 export LSAN_OPTIONS=suppressions=$PWD/tests/tools/lsan.supp:print_suppressions=0
 export SAN=${SAN-}
+# the slowest tests take all of their trials
+[ "${BUILDS-}" = all ] && export THOROUGH=1
 FILTER=${FILTER-}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

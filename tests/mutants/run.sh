@@ -10,6 +10,7 @@ set -u
 cd "$(dirname "$0")/../.." || exit 1
 copy=$PWD/build/mutants
 # the copy stands elsewhere, where tests would skip what they do not find
+export THOROUGH=1
 export GLIM_SHARED=${GLIM_SHARED:-$PWD/../shared}
 passed=0
 failed=0

@@ -11,14 +11,32 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
 #undef fail /* error.h has a function of this name */
+
+/* Says whether tests take their whole time: THOROUGH is set, as by `make test
+ * BUILDS=all`. Otherwise the slowest take a part of their trials. */
+static inline bool check_is_thorough(void)
+{
+    return getenv("THOROUGH") != NULL;
+}
+
+/* Says whether the next case of a long list is due: every case in a thorough
+ * test, otherwise one of n. */
+static inline bool check_is_due(unsigned n)
+{
+    static unsigned next;
+
+    return next++ % n == 0 || check_is_thorough();
+}
 
 static inline void check_close_at(double got, double want, double bound,
                                   const char *what, const char *file, int line)

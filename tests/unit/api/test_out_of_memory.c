@@ -190,13 +190,16 @@ static void run(struct outcome *o, const char *scene, long n)
 static void check_scene(const char *scene)
 {
     struct outcome good, now;
-    long count, errors = 0;
+    long count, tried = 0, errors = 0;
 
     run(&good, scene, 0);
     assert_true(good.is_done);
     count = call_count;
     assert_in_range(count, 10, RUNS_MAX);
     for (long n = 1; n <= count; n++) {
+        if (!check_is_due(4))
+            continue;
+        tried++;
         run(&now, scene, n);
         errors += !now.is_done;
         if (!now.is_done && strstr(now.err.text, "emory") == NULL)
@@ -205,8 +208,9 @@ static void check_scene(const char *scene)
             memcmp(now.rgb, good.rgb, BYTES) != 0)
             fail_msg("%s, allocation %ld: another picture", scene, n);
     }
-    print_message("%s: %ld allocations, %ld errors\n", scene, count, errors);
-    assert_true(errors >= count * 8 / 10);
+    print_message("%s: %ld of %ld allocations, %ld errors\n", scene, tried,
+                  count, errors);
+    assert_true(errors >= tried * 8 / 10);
 }
 
 static void every_allocation_may_fail(void **state)

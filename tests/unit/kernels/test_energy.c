@@ -95,7 +95,7 @@ static void albedo_of_stretched_facets_is_that_of_quadrature(void **state)
 {
     uint64_t seed = 5;
     double error = 0, schlick_error = 0;
-    const int n = 150;
+    const int n = check_is_thorough() ? 150 : 30;
 
     (void)state;
     for (int i = 0; i < n; i++) {
@@ -174,9 +174,11 @@ static void albedo_of_glass_is_that_of_quadrature(void **state)
     for (int i = 0; i < POINTS; i++)
         for (size_t k = 0; k < COUNT(etas); k++) {
             struct point p = point(i, &seed);
-            double e =
-                albedo_by_quadrature(FACETS_GLASS, p.alpha, p.mu, etas[k]);
+            double e;
 
+            if (!check_is_due(7))
+                continue;
+            e = albedo_by_quadrature(FACETS_GLASS, p.alpha, p.mu, etas[k]);
             check_close((double)glass_albedo((float)p.mu, (float)p.alpha,
                                              (float)etas[k]) /
                             e,

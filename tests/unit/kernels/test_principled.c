@@ -82,6 +82,8 @@ static void white_mixtures_lose_nothing(void **state)
         struct vec3 e;
 
         m.color = white;
+        if (!check_is_due(4))
+            continue;
         e = albedo(&m, cosines[i % (int)COUNT(cosines)]);
         check_at_most(fmax((double)e.x, fmax((double)e.y, (double)e.z)),
                       1 + 5e-3);
@@ -102,6 +104,8 @@ static void coloured_mixtures_add_no_light(void **state)
         m.film = i % 2 == 0 ? m.film : 0;
         if (i / 2 % 2 == 0)
             m.coat_normal = any_direction(&seed, 0.3f);
+        if (!check_is_due(3))
+            continue;
         e = albedo(&m, cosines[i % (int)COUNT(cosines)]);
 
         check_at_most(fmax((double)e.x, fmax((double)e.y, (double)e.z)), 1);
@@ -202,7 +206,8 @@ static void stretched_facets_keep_all_light(void **state)
                          .kind = MATERIAL_PRINCIPLED};
 
         wo = v3(wo.x * cosf(phi), wo.x * sinf(phi), wo.z);
-        check_close((double)sampled_albedo_from(&m, wo, 150).x, 1, 5e-3);
+        if (check_is_due(3))
+            check_close((double)sampled_albedo_from(&m, wo, 150).x, 1, 5e-3);
     }
 }
 
@@ -274,10 +279,13 @@ static void coats_reflect_their_albedo(void **state)
                              .eta = 1,
                              .kind = MATERIAL_PRINCIPLED};
             double alpha = (double)alphas[a], mu = (double)cosines[c];
-            double e = albedo_by_quadrature(FACETS_WHITE, alpha, mu, 0);
-            double s = albedo_by_quadrature(FACETS_SCHLICK, alpha, mu, 0);
-            double coat = 0.8 * (0.04 * (e - s) + s);
+            double e, s, coat;
 
+            if (!check_is_due(3))
+                continue;
+            e = albedo_by_quadrature(FACETS_WHITE, alpha, mu, 0);
+            s = albedo_by_quadrature(FACETS_SCHLICK, alpha, mu, 0);
+            coat = 0.8 * (0.04 * (e - s) + s);
             check_close((double)albedo(&m, cosines[c]).x, coat, 4e-3);
             m.color = v3(0.6f, 0.6f, 0.6f);
             check_close((double)albedo(&m, cosines[c]).x,
