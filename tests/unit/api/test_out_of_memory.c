@@ -2,17 +2,10 @@
 /* libglim with the first, the second, ... allocation failing: an error each
  * time, nothing leaks, and what is made is right. The linker sends the calls
  * of the library's objects to the functions here (--wrap in tests.mk). */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdatomic.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
+#include "tests/unit/check.h"
 
-#include <cmocka.h>
+#include <stdatomic.h>
+#include <unistd.h>
 
 #include "glim/glim.h"
 #include "tests/unit/folder.h"

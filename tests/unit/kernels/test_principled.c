@@ -240,8 +240,11 @@ static void sheen_has_the_albedo_of_its_table(void **state)
     (void)state;
     for (float alpha = SHEEN_ALPHA_MIN; alpha <= 1; alpha += 0.0731f)
         for (float mu = 0.0023f; mu <= 1; mu *= 1.31f) {
-            double e = hemisphere_integral(sheen_of, &alpha, mu, 400);
+            double e;
 
+            if (!check_is_due(5))
+                continue;
+            e = hemisphere_integral(sheen_of, &alpha, mu, 400);
             check_at_most(e, 1);
             check_close((double)sheen_albedo(mu, alpha), e,
                         mu < 0.02f ? 0.015 : 4e-3);
