@@ -257,8 +257,8 @@ GLIM_API bool glim_is_denoised(struct glim *g);
 
 /* Renders until every pixel has `spp` samples, `seconds` have passed, or the
  * upper end of the error is at its limit; 0 is no limit, and `seconds` below 0
- * are an error. Blocks until then. Continues the previous picture if no setting has changed since. `progress`
- * may be NULL. */
+ * are an error. Blocks until then. Continues the previous picture if no setting
+ * has changed since. `progress` may be NULL. */
 GLIM_API enum glim_result glim_render(struct glim *g, uint64_t spp,
                                       double seconds,
                                       glim_progress_fn *progress, void *context,

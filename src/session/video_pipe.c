@@ -117,7 +117,7 @@ static void end_now(void)
 {
     const struct timespec look = {.tv_nsec = LOOK_NS};
     struct video_pipe v = running;
-    int looks = 0, status;
+    int looks = 0, status = 0;
     pid_t ended = 0;
 
     if (!atomic_load(&is_running))
