@@ -27,6 +27,13 @@
  * (Bitterli et al. 2016, "Nonlinearly weighted first-order regression for
  * denoising Monte Carlo renderings") has the same aim.
  *
+ * Before all that, the features themselves are averaged in
+ * FILTER_FEATURE_LEVELS levels with filter_weight() of
+ * filter_pixel_distance() of their own noise. Where samples meet one surface or
+ * another by chance, at partial coverage or glass, features have noise that the
+ * product of light and albedo would have as well. Features without noise have a
+ * distance without limit unless they are equal, so edges stay as they are.
+ *
  * Units: light scaled by a power of two so that its greatest number is about
  *        2^FILTER_TOP; features divided by the differences that are edges
  */
@@ -36,6 +43,9 @@
 #include "kernels/vec.h"
 
 #define FILTER_LEVELS 6
+
+/* Levels of the features. */
+#define FILTER_FEATURE_LEVELS 3
 
 /* Exponent of the greatest light: its squares, and sums of 25 of them, are
  * finite, and differences down to 2^-100 of it have squares above 0. */

@@ -26,7 +26,8 @@ struct first_surface {
      * it reflects */
     struct vec3 direct;
     /* part of it: the sky and emission that a pinhole sees with nothing
-     * between, without noise but for edges; 0 with a lens */
+     * between, not even partial coverage, without noise but for edges; 0 with a
+     * lens */
     struct vec3 seen;
     struct vec3 albedo;
     struct vec3 normal; /* shading normal on the eye's side */

@@ -183,6 +183,17 @@ static inline bool path_extend(const struct world *w, struct path *p,
     return goes_on;
 }
 
+/* Returns true if the ray meets partial coverage first, where its further way
+ * is chance. */
+static inline bool ray_is_divided(const struct world *w, struct ray r)
+{
+    struct hit h;
+
+    r.from = RAY_STOPS_EARLY;
+    hit_closest(w, r, &h);
+    return h.tri != NO_INDEX && coverage_at(w, h) < 1.0f;
+}
+
 /* Returns the radiance along the camera ray r, whose hit is h, or the AOV of
  * the hit. Radiance is capped at the largest float, and the film counts it as
  * saturated. *surface is set if the world's samples have first surfaces. */
@@ -202,6 +213,11 @@ path_follow(const struct world *w, struct ray r, struct sampler sampler,
         v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), p.out.radiance);
     if (has_first_surface(w)) {
         first_surface_end(w, &p.surface, vertex, p.out.radiance);
+        if (has_coverage(w) && !v3_is_zero(p.surface.seen)) {
+            p.out.rays++;
+            if (ray_is_divided(w, r))
+                p.surface.seen = v3(0.0f, 0.0f, 0.0f);
+        }
         *surface = p.surface;
     }
     return p.out;

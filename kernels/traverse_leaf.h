@@ -49,12 +49,18 @@ static inline bool ray_is_finite(struct ray r)
     return fabsf(v3_dot(r.o, r.d)) <= FLOAT_MAX;
 }
 
+/* Value of ray.from for a ray that leaves no triangle and that all coverage
+ * above 0 stops. */
+#define RAY_STOPS_EARLY NO_INDEX
+
 /* Decides by the random key of the ray whether partial coverage stops it. */
 static inline bool hit_is_solid(const struct world *w, struct ray r,
                                 struct hit h)
 {
     float coverage = coverage_at(w, h);
 
+    if (r.from == RAY_STOPS_EARLY)
+        return coverage > 0.0f;
     return coverage >= 1.0f ||
            unit_float(hash_u32(r.key ^ hash_u32(h.tri + 1u))) < coverage;
 }

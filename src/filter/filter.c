@@ -81,8 +81,8 @@ bool filter_init(struct filter *f, int width, int height, struct error *err)
         for (int k = 0; k < FILTER_PAIRS; k++)
             p->opposite[h][k] = take(p, &next);
     for (int i = 0; i < FILTER_FEATURES; i++)
-        p->features[i] = take(p, &next);
-    p->feature_noise = take(p, &next);
+        p->features.means[i] = take(p, &next);
+    p->features.noise = take(p, &next);
     p->samples = take(p, &next);
     for (int h = 0; h < 2; h++)
         f->count[h] = take(p, &next);
@@ -106,9 +106,9 @@ static void load_features(void *context, uint32_t item, int worker)
     const struct filter_planes *p = &j->filter->planes;
     ptrdiff_t at = (int)item * p->pitch;
     float *normal_noise = p->halves[1].light[0][0] + at;
-    float *noise = p->feature_noise + at;
+    float *noise = p->features.noise + at;
     struct filter_row to = {
-        .depth = p->features[6] + at,
+        .depth = p->features.means[6] + at,
         .albedo_noise = noise,
         .normal_noise = normal_noise,
         .depth_noise = p->halves[1].light[0][1] + at,
@@ -117,8 +117,8 @@ static void load_features(void *context, uint32_t item, int worker)
 
     (void)worker;
     for (int c = 0; c < 3; c++) {
-        to.albedo[c] = p->features[c] + at;
-        to.normal[c] = p->features[3 + c] + at;
+        to.albedo[c] = p->features.means[c] + at;
+        to.normal[c] = p->features.means[3 + c] + at;
     }
     j->source->features(j->source->context, (int)item, &to);
     for (int x = 0; x < p->width; x++) {
@@ -165,15 +165,28 @@ static void load_light(void *context, uint32_t item, int worker)
     const struct filter_planes *p = &j->filter->planes;
     ptrdiff_t at = (int)item * p->pitch;
     float *to[2][3];
-    float max = 0;
 
     (void)worker;
     for (int h = 0; h < 2; h++)
         for (int c = 0; c < 3; c++)
             to[h][c] = p->halves[0].light[h][c] + at;
     j->source->light(j->source->context, j->component, (int)item, to);
+}
+
+static void divide_light(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter_planes *p = &j->filter->planes;
+    ptrdiff_t at = (int)item * p->pitch;
+    float *to[2][3];
+    float max = 0;
+
+    (void)worker;
+    for (int h = 0; h < 2; h++)
+        for (int c = 0; c < 3; c++)
+            to[h][c] = p->halves[0].light[h][c] + at;
     for (int c = 0; c < 3; c++) {
-        divide(p->features[c] + at, p->width, to[0][c], to[1][c]);
+        divide(p->features.means[c] + at, p->width, to[0][c], to[1][c]);
         for (int h = 0; h < 2; h++)
             max = largest(to[h][c], p->width, max);
     }
@@ -196,9 +209,9 @@ static void scale_features(void *context, uint32_t item, int worker)
     const struct filter_planes *p = &f->planes;
     struct filter_tile row = whole_row(p, (int)item);
     ptrdiff_t at = (int)item * p->pitch;
-    float *depth = p->features[6] + at;
+    float *depth = p->features.means[6] + at;
     const float *depth_noise = p->halves[1].light[0][1] + at;
-    float *noise = p->feature_noise + at;
+    float *noise = p->features.noise + at;
     float scale = j->depth_scale;
 
     (void)worker;
@@ -209,8 +222,8 @@ static void scale_features(void *context, uint32_t item, int worker)
             (f->count[0][at + x] + f->count[1][at + x]) / j->mean_samples;
     }
     for (int i = 0; i < FILTER_FEATURES; i++)
-        filter_extend(p, p->features[i], row);
-    filter_extend(p, p->feature_noise, row);
+        filter_extend(p, p->features.means[i], row);
+    filter_extend(p, p->features.noise, row);
     filter_extend(p, p->samples, row);
 }
 
@@ -222,7 +235,7 @@ static float depth_scale(const struct filter_planes *p)
 
     for (int y = 0; y < p->height; y++)
         for (int x = 0; x < p->width; x++)
-            sum += p->features[6][y * p->pitch + x];
+            sum += p->features.means[6][y * p->pitch + x];
     return sum > 0 ? (float)(FILTER_DEPTH_SCALE * pixels / sum) : 0;
 }
 
@@ -247,7 +260,7 @@ static float mean_samples(const struct filter *f)
 /* Returns the number by which light of a pixel is divided. */
 static float divisor(const struct filter_planes *p, int c, ptrdiff_t at)
 {
-    return p->features[c][at] * (1.0f / FILTER_ALBEDO_SCALE) +
+    return p->features.means[c][at] * (1.0f / FILTER_ALBEDO_SCALE) +
            FILTER_ALBEDO_MIN;
 }
 
@@ -259,7 +272,8 @@ static float gap_weight(const struct filter_planes *planes, ptrdiff_t p,
     float square = 0.0f;
 
     for (int i = 0; i < FILTER_FEATURES; i++) {
-        float difference = planes->features[i][p] - planes->features[i][q];
+        float difference =
+            planes->features.means[i][p] - planes->features.means[i][q];
 
         square += difference * difference;
     }
@@ -335,43 +349,7 @@ static void scale_light(void *context, uint32_t item, int worker)
         }
 }
 
-/* ---- tiles ---- */
-
-/* Returns the width of tiles: about the same for all, in whole cache lines. */
-static int tile_width(const struct filter_planes *p)
-{
-    int columns = (p->width + FILTER_TILE_WIDTH - 1) / FILTER_TILE_WIDTH;
-    int width = (p->width + columns - 1) / columns;
-
-    return (width + FILTER_LINE - 1) / FILTER_LINE * FILTER_LINE;
-}
-
-static uint32_t tile_columns(const struct filter_planes *p)
-{
-    return (uint32_t)((p->width + tile_width(p) - 1) / tile_width(p));
-}
-
-static uint32_t tile_count(const struct filter_planes *p)
-{
-    return (uint32_t)((p->height + FILTER_TILE_HEIGHT - 1) /
-                      FILTER_TILE_HEIGHT) *
-           tile_columns(p);
-}
-
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
-
-static struct filter_tile tile_at(const struct filter_planes *p, uint32_t i)
-{
-    int width = tile_width(p);
-    int x = (int)(i % tile_columns(p)) * width;
-    int y = (int)(i / tile_columns(p)) * FILTER_TILE_HEIGHT;
-
-    return (struct filter_tile){x, y, smaller(width, p->width - x),
-                                smaller(FILTER_TILE_HEIGHT, p->height - y)};
-}
+/* ---- levels ---- */
 
 static void run_variance(void *context, uint32_t item, int worker)
 {
@@ -379,7 +357,7 @@ static void run_variance(void *context, uint32_t item, int worker)
     const struct filter *f = j->filter;
 
     (void)worker;
-    f->loops->variance(&f->planes, tile_at(&f->planes, item));
+    f->loops->variance(&f->planes, filter_tile_at(&f->planes, item));
 }
 
 static void run_weights(void *context, uint32_t item, int worker)
@@ -389,7 +367,8 @@ static void run_weights(void *context, uint32_t item, int worker)
 
     (void)worker;
     if (!is_cancelled(j))
-        f->loops->weigh(&f->planes, tile_at(&f->planes, item), &j->level);
+        f->loops->weigh(&f->planes, filter_tile_at(&f->planes, item),
+                        &j->level);
 }
 
 static void run_average(void *context, uint32_t item, int worker)
@@ -399,7 +378,71 @@ static void run_average(void *context, uint32_t item, int worker)
 
     (void)worker;
     if (!is_cancelled(j))
-        f->loops->average(&f->planes, tile_at(&f->planes, item), &j->level);
+        f->loops->average(&f->planes, filter_tile_at(&f->planes, item),
+                          &j->level);
+}
+
+/* Returns features in the planes of halves[1], which are free until the first
+ * level of light. */
+static struct filter_features spare_features(const struct filter_planes *p)
+{
+    const struct filter_halves *h = &p->halves[1];
+
+    return (struct filter_features){.means = {h->light[0][0], h->light[0][1],
+                                              h->light[0][2], h->light[1][0],
+                                              h->light[1][1], h->light[1][2],
+                                              h->variance[0]},
+                                    .noise = h->variance[1]};
+}
+
+static void set_spare_features(struct filter_planes *p,
+                               const struct filter_features *f)
+{
+    struct filter_halves *h = &p->halves[1];
+
+    for (int c = 0; c < 3; c++) {
+        h->light[0][c] = f->means[c];
+        h->light[1][c] = f->means[3 + c];
+    }
+    h->variance[0] = f->means[6];
+    h->variance[1] = f->noise;
+}
+
+static void run_feature_weights(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter *f = j->filter;
+
+    (void)worker;
+    f->loops->weigh_features(&f->planes, filter_tile_at(&f->planes, item),
+                             j->level.step);
+}
+
+static void run_feature_average(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter *f = j->filter;
+    struct filter_features to = spare_features(&f->planes);
+
+    (void)worker;
+    f->loops->average_features(&f->planes, filter_tile_at(&f->planes, item),
+                               j->level.step, &to);
+}
+
+/* Averages features over pixels that differ by noise only. */
+static void smooth_features(struct job *j, struct pool *pool)
+{
+    struct filter_planes *p = &j->filter->planes;
+
+    for (int l = 0; l < FILTER_FEATURE_LEVELS && !is_cancelled(j); l++) {
+        struct filter_features to = spare_features(p);
+
+        j->level.step = 1 << l;
+        pool_each(pool, filter_tile_count(p), run_feature_weights, j);
+        pool_each(pool, filter_tile_count(p), run_feature_average, j);
+        set_spare_features(p, &p->features);
+        p->features = to;
+    }
 }
 
 /* Runs a level in this thread, row of tiles after row of tiles, while weights
@@ -407,9 +450,9 @@ static void run_average(void *context, uint32_t item, int worker)
 static void run_level(struct job *j)
 {
     const struct filter_planes *p = &j->filter->planes;
-    uint32_t columns = tile_columns(p);
+    uint32_t columns = filter_tile_columns(p);
 
-    for (uint32_t first = 0; first < tile_count(p); first += columns) {
+    for (uint32_t first = 0; first < filter_tile_count(p); first += columns) {
         for (uint32_t i = 0; i < columns; i++)
             run_weights(j, first + i, 0);
         for (uint32_t i = 0; i < columns; i++)
@@ -476,10 +519,11 @@ static void run_component(struct job *j, enum filter_form form,
 
     if (j->component > 0)
         pool_each(pool, rows, load_light, j);
+    pool_each(pool, rows, divide_light, j);
     pool_each(pool, rows, fill_gaps, j);
     j->light_scale = light_scale(j->filter);
     pool_each(pool, rows, scale_light, j);
-    pool_each(pool, tile_count(p), run_variance, j);
+    pool_each(pool, filter_tile_count(p), run_variance, j);
     for (int l = 0; l < forms[form].levels; l++) {
         j->level =
             (struct filter_level){.from = l & 1,
@@ -491,8 +535,8 @@ static void run_component(struct job *j, enum filter_form form,
             run_level(j);
             continue;
         }
-        pool_each(pool, tile_count(p), run_weights, j);
-        pool_each(pool, tile_count(p), run_average, j);
+        pool_each(pool, filter_tile_count(p), run_weights, j);
+        pool_each(pool, filter_tile_count(p), run_average, j);
     }
     j->level.from = forms[form].levels & 1;
     pool_each(pool, rows, add_row, j);
@@ -517,6 +561,7 @@ void filter_run(struct filter *f, const struct filter_source *source,
     j.depth_scale = depth_scale(p);
     j.mean_samples = mean_samples(f);
     pool_each(pool, rows, scale_features, &j);
+    smooth_features(&j, pool);
     for (; j.component < source->component_count && !is_cancelled(&j);
          j.component++)
         run_component(&j, form, pool);

@@ -5,19 +5,11 @@
 
 #include <string.h>
 
+#include "filter/feature_loops.h"
+
 #ifndef LOOPS
 #define LOOPS filter_loops_plain
 #endif
-
-enum {
-    WIDTH = FILTER_TILE_WIDTH,
-    HEIGHT = FILTER_TILE_HEIGHT,
-    PAIRS = FILTER_PAIRS,
-    TAPS = 2 * PAIRS
-};
-
-/* Values of a tile's pixels, and of the rows above and below. */
-typedef float tile_rows[HEIGHT + 2][WIDTH];
 
 /* A tile, and the halves that a level reads. */
 struct tile {
@@ -25,20 +17,6 @@ struct tile {
     const struct filter_halves *from;
     struct filter_tile at;
 };
-
-/* The other pixel of pair k, as seen from the first one. */
-static const struct {
-    int x, y;
-    float tap;
-} pairs[PAIRS] = {{1, 0, 0.125f},
-                  {-1, 1, 0.0625f},
-                  {0, 1, 0.125f},
-                  {1, 1, 0.0625f}};
-
-static ptrdiff_t index_of(const struct filter_planes *p, int x, int y)
-{
-    return y * p->pitch + x;
-}
 
 /* ---- weights ---- */
 
@@ -78,13 +56,6 @@ opposite_distances(const float *restrict r, const float *restrict g,
     }
 }
 
-VECTORISED static void add_three(const float *restrict from, int width,
-                                 float *restrict to)
-{
-    for (int x = 0; x < width; x++)
-        to[x] = from[x] + from[x + 1] + from[x + 2];
-}
-
 /* Computes distances of light of half h, summed over three pixels of a row, for
  * all rows of the tile and their neighbours. */
 static void row_distances(const struct tile *t, int h, ptrdiff_t away,
@@ -102,22 +73,6 @@ static void row_distances(const struct tile *t, int h, ptrdiff_t away,
                                         t->at.width, distance);
         add_three(distance, t->at.width, rows[y + 1]);
     }
-}
-
-/* Features of a row, and their noise. */
-struct feature_row {
-    const float *features[FILTER_FEATURES];
-    const float *noise;
-};
-
-static struct feature_row features_at(const struct filter_planes *p,
-                                      ptrdiff_t at)
-{
-    struct feature_row row = {.noise = p->feature_noise + at};
-
-    for (int i = 0; i < FILTER_FEATURES; i++)
-        row.features[i] = p->features[i] + at;
-    return row;
 }
 
 /* Computes the distances of features of a row and the row `away`. */
@@ -162,19 +117,6 @@ VECTORISED static void opposite_features(const struct feature_row *row,
     }
 }
 
-VECTORISED static void weight_row(const float *restrict above,
-                                  const float *restrict row,
-                                  const float *restrict below,
-                                  const float *restrict features, float tap,
-                                  int width, float *restrict weights)
-{
-    for (int x = 0; x < width; x++)
-        weights[x] =
-            filter_weight(tap,
-                          filter_light_distance(above[x] + row[x] + below[x]),
-                          features[x]);
-}
-
 /* Computes the weights of the pixels of a tile in pair k, or of their opposite
  * pixels. All of these are in the picture. */
 static void weigh_part(const struct tile *t, int k, ptrdiff_t away,
@@ -203,47 +145,20 @@ static void weigh_part(const struct tile *t, int k, ptrdiff_t away,
     }
 }
 
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
-
-static int larger(int a, int b)
-{
-    return a > b ? a : b;
-}
-
-/* Sets weights of a tile to 0. */
-static void clear(const struct filter_planes *p, struct filter_tile t,
-                  float *const weights[FILTER_PAIRS], int k)
-{
-    for (int y = t.y; y < t.y + t.height; y++)
-        memset(weights[k] + index_of(p, t.x, y), 0,
-               (size_t)t.width * sizeof(float));
-}
-
 /* Computes the weights of a tile in pair k. Those with pixels outside of the
  * picture are 0. */
 static void weigh_pair(const struct tile *whole, int k, int step,
                        bool is_opposite)
 {
     const struct filter_planes *p = whole->planes;
-    struct filter_tile at = whole->at;
-    float *const(*weights)[FILTER_PAIRS] =
-        is_opposite ? p->opposite : p->weights;
-    int dx = pairs[k].x * step, dy = pairs[k].y * step;
-    int before = is_opposite ? larger(dx, -dx) : larger(-dx, 0);
-    int after = is_opposite ? before : larger(dx, 0);
-    int left = larger(at.x, before), top = larger(at.y, is_opposite ? dy : 0);
-    int right = smaller(at.x + at.width, p->width - after);
-    int bottom = smaller(at.y + at.height, p->height - dy);
-    struct tile t = {p, whole->from, {left, top, right - left, bottom - top}};
+    struct pair_tile pair = pair_inside(p, whole->at, k, step, is_opposite);
+    struct tile t = {p, whole->from, pair.at};
 
-    if (t.at.width < at.width || t.at.height < at.height)
-        for (int h = 0; h < 2; h++)
-            clear(p, at, weights[h], k);
-    if (t.at.width > 0 && t.at.height > 0)
-        weigh_part(&t, k, index_of(p, dx, dy), is_opposite);
+    for (int h = 0; h < 2; h++)
+        clear_outside(p, whole->at, pair.at,
+                      (is_opposite ? p->opposite : p->weights)[h][k]);
+    if (is_filled(pair.at))
+        weigh_part(&t, k, pair.away, is_opposite);
 }
 
 static void weigh(const struct filter_planes *p, struct filter_tile at,
@@ -259,77 +174,6 @@ static void weigh(const struct filter_planes *p, struct filter_tile at,
 }
 
 /* ---- averages ---- */
-
-/* The eight pixels around each pixel of a row. */
-struct taps {
-    ptrdiff_t away[TAPS];
-    const float *weights[TAPS];
-};
-
-VECTORISED static void inverse_sums(const struct taps *t, int width,
-                                    float *restrict inverse)
-{
-    const struct taps taps = *t;
-
-    for (int x = 0; x < width; x++) {
-        float sum = FILTER_CENTRE;
-
-        for (int k = 0; k < TAPS; k++)
-            sum += taps.weights[k][x];
-        inverse[x] = 1.0f / sum;
-    }
-}
-
-VECTORISED static void average_light(const struct taps *t,
-                                     const float *restrict light,
-                                     const float *restrict inverse, int width,
-                                     float *restrict to)
-{
-    const struct taps taps = *t;
-
-    for (int x = 0; x < width; x++) {
-        float sum = FILTER_CENTRE * light[x];
-
-        for (int k = 0; k < TAPS; k++)
-            sum += taps.weights[k][x] * light[x + taps.away[k]];
-        to[x] = sum * inverse[x];
-    }
-}
-
-VECTORISED static void average_variance(const struct taps *t,
-                                        const float *restrict variance,
-                                        const float *restrict inverse,
-                                        int width, float *restrict to)
-{
-    const struct taps taps = *t;
-
-    for (int x = 0; x < width; x++) {
-        float sum = FILTER_CENTRE * FILTER_CENTRE * variance[x];
-
-        for (int k = 0; k < TAPS; k++)
-            sum += taps.weights[k][x] * taps.weights[k][x] *
-                   variance[x + taps.away[k]];
-        to[x] = sum * (inverse[x] * inverse[x]);
-    }
-}
-
-/* Returns the pixels around those of row `at` with the weights of half h: each
- * pair, and the pairs whose second pixel they are. */
-static struct taps taps_of(const struct filter_planes *p, int h, ptrdiff_t at,
-                           int step)
-{
-    struct taps t;
-
-    for (int k = 0; k < PAIRS; k++) {
-        ptrdiff_t away = index_of(p, pairs[k].x * step, pairs[k].y * step);
-
-        t.away[k] = away;
-        t.weights[k] = p->weights[h][k] + at;
-        t.away[PAIRS + k] = -away;
-        t.weights[PAIRS + k] = p->weights[h][k] + at - away;
-    }
-    return t;
-}
 
 /* Computes the weights of both pixels of opposite ones. */
 VECTORISED static void join(const float *restrict opposite,
@@ -466,4 +310,6 @@ VECTORISED static void convert(const struct sum *restrict sums, int count,
 }
 
 extern const struct filter_loops LOOPS;
-const struct filter_loops LOOPS = {variance, weigh, average, convert};
+const struct filter_loops LOOPS = {variance,         weigh,
+                                   average,          weigh_features,
+                                   average_features, convert};

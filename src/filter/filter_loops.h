@@ -38,6 +38,16 @@ struct filter_loops {
     void (*average)(const struct filter_planes *p, struct filter_tile t,
                     const struct filter_level *level);
 
+    /* Computes the weights in planes.weights[0] with which features of a tile
+     * are averaged. */
+    void (*weigh_features)(const struct filter_planes *p, struct filter_tile t,
+                           int step);
+
+    /* Averages features of a tile with the weights of all tiles. */
+    void (*average_features)(const struct filter_planes *p,
+                             struct filter_tile t, int step,
+                             const struct filter_features *to);
+
     /* Converts sums to floats. */
     void (*convert)(const struct sum *sums, int count, float *to);
 };

@@ -46,6 +46,12 @@ struct filter_halves {
     float *variance[2];
 };
 
+/* Features, scaled by FILTER_x_SCALE. */
+struct filter_features {
+    float *means[FILTER_FEATURES];
+    float *noise; /* variance of the means, summed */
+};
+
 struct filter_planes {
     int width, height;
     ptrdiff_t pitch;                /* floats from a row to the next */
@@ -53,14 +59,18 @@ struct filter_planes {
     /* of a level, from the light of each half */
     float *weights[2][FILTER_PAIRS];
     float *opposite[2][FILTER_PAIRS];
-    float *features[FILTER_FEATURES]; /* scaled by FILTER_x_SCALE */
-    float *feature_noise; /* variance of the mean, summed over features */
-    float *samples;       /* of each pixel, over the mean of all */
+    struct filter_features features;
+    float *samples; /* of each pixel, over the mean of all */
 };
 
 struct filter_tile {
     int x, y, width, height;
 };
+
+/* Tiles cover the picture row by row. */
+uint32_t filter_tile_columns(const struct filter_planes *p);
+uint32_t filter_tile_count(const struct filter_planes *p);
+struct filter_tile filter_tile_at(const struct filter_planes *p, uint32_t i);
 
 /* Copies the outermost pixels of the tile to the pixels outside of the picture
  * that are beside it. */

@@ -374,13 +374,75 @@ static void noise_of_features_is_no_edge(void **state)
     picture_free(&p);
 }
 
+/* Sets samples of a pixel that each meet one of two surfaces, the first with a
+ * probability of `cover`, under light that is 1 on average. Features have the
+ * mean of all samples. */
+static void set_divided(struct picture *p, int i, double cover,
+                        const double albedos[2], uint64_t *seed)
+{
+    int samples = 2 * (int)p->count[0], met = 0;
+
+    for (int k = 0; k < samples; k++) {
+        bool is_first = check_random(seed) < cover;
+        double albedo = albedos[is_first ? 0 : 1];
+        double light = albedo * (1 + 0.3 * noise(seed)) / p->count[0];
+
+        met += is_first;
+        for (int c = 0; c < 3; c++)
+            p->light[0][k % 2][i][c] += (float)light;
+    }
+    for (int f = 0; f < 3; f++)
+        p->features[i][f] =
+            (float)(albedos[1] + (albedos[0] - albedos[1]) * met / samples);
+}
+
+/* Surfaces that samples meet by chance, as at partial coverage, have albedos
+ * with as much noise as light. It falls in the picture as that of
+ * light does, and the mean is that of the surfaces by coverage. */
+static void chance_between_surfaces_falls(void **state)
+{
+    static const double albedos[][2] = {{0.02, 0.8}, {0.9, 0.1}};
+    static const double covers[] = {0.3, 0.6};
+    uint64_t seed = 11;
+
+    (void)state;
+    for (int n = 0; n < 4; n++) {
+        const double *a = albedos[n % 2];
+        double cover = covers[n / 2], sample = cover * (1 - cover);
+        double want = cover * a[0] + (1 - cover) * a[1];
+        double before = 0, after = 0, mean = 0, pixels = 96 * 96;
+        struct picture p;
+        float *rgb;
+
+        picture_init(&p, 96, 96);
+        p.count[0] = p.count[1] = 8;
+        for (int i = 0; i < 96 * 96; i++)
+            set_divided(&p, i, cover, a, &seed);
+        p.feature_noise = (float)(sample * (a[0] - a[1]) * (a[0] - a[1]) / 16);
+        rgb = filtered_well(&p);
+        for (int i = 0; i < 96 * 96; i++) {
+            double raw =
+                ((double)p.light[0][0][i][0] + p.light[0][1][i][0]) / 2;
+
+            before += (raw - want) * (raw - want);
+            after += (rgb[3 * i] - want) * (rgb[3 * i] - want);
+            mean += rgb[3 * i] / pixels;
+        }
+        check_at_most(20, before / after);
+        check_close(mean, want, 5 * sqrt(before) / pixels);
+        free(rgb);
+        picture_free(&p);
+    }
+}
+
 /* ---- the definition, in double precision ---- */
 
 struct truth {
     const struct picture *p;
     double light[2][3][64 * 64];
-    double variance[2][64 * 64]; /* summed over channels */
-    double depth_scale;
+    double variance[2][64 * 64];               /* summed over channels */
+    double features[FILTER_FEATURES][64 * 64]; /* scaled */
+    double noise[64 * 64];                     /* summed over features */
 };
 
 static int clamped(int i, int count)
@@ -415,27 +477,39 @@ static double light_distance(const struct truth *t, int h, int x, int y, int dx,
     return fmax(sum / 9, 0);
 }
 
-static double feature_scale(const struct truth *t, int i)
+static double feature_square(const struct truth *t, int p, int q)
 {
-    return i < 3 ? sqrt(1 / 0.02) : i < 6 ? sqrt(1 / 0.32) : t->depth_scale;
-}
+    double sum = 0;
 
-/* Returns the variance of the features of each pixel. */
-static double feature_noise(const struct truth *t)
-{
-    return t->p->feature_noise *
-           (1 / 0.02 + 1 / 0.32 + t->depth_scale * t->depth_scale);
+    for (int i = 0; i < FILTER_FEATURES; i++)
+        sum += pow(t->features[i][p] - t->features[i][q], 2);
+    return sum;
 }
 
 static double feature_distance(const struct truth *t, int p, int q)
 {
-    const float *fp = t->p->features[p], *fq = t->p->features[q];
-    double n = feature_noise(t);
+    double np = t->noise[p], nq = t->noise[q];
+
+    return fmax((feature_square(t, p, q) - 2 * fmin(np, nq)) / (1 + np + nq),
+                0);
+}
+
+/* The distance of features around (x, y) and those a step away, in units of
+ * their noise. */
+static double noise_distance(const struct truth *t, int x, int y, int dx,
+                             int dy)
+{
     double sum = 0;
 
-    for (int i = 0; i < FILTER_FEATURES; i++)
-        sum += pow((fp[i] - (double)fq[i]) * feature_scale(t, i), 2);
-    return fmax((sum - 2 * n) / (1 + 2 * n), 0);
+    for (int j = y - 1; j <= y + 1; j++)
+        for (int i = x - 1; i <= x + 1; i++) {
+            int p = at(t, i, j), q = at(t, i + dx, j + dy);
+            double np = t->noise[p], nq = t->noise[q];
+
+            sum += (feature_square(t, p, q) - 2 * fmin(np, nq)) /
+                   (1e-40 + 2.56 * (np + nq));
+        }
+    return fmax(sum / 9, 0);
 }
 
 /* The distance of half h between the pixels around (x, y) and the means of
@@ -464,16 +538,17 @@ static double opposite_light(const struct truth *t, int h, int x, int y, int dx,
 
 static double opposite_features(const struct truth *t, int p, int q, int r)
 {
-    const float(*f)[FILTER_FEATURES] =
-        (const float(*)[FILTER_FEATURES])t->p->features;
-    double n = feature_noise(t);
+    const double *n = t->noise;
     double sum = 0;
 
-    for (int i = 0; i < FILTER_FEATURES; i++)
-        sum += pow(((double)f[q][i] + (double)f[r][i] - 2 * (double)f[p][i]) *
-                       feature_scale(t, i),
-                   2);
-    return 4 * fmax((sum - 6 * n) / (1 + 6 * n), 0);
+    for (int i = 0; i < FILTER_FEATURES; i++) {
+        const double *f = t->features[i];
+
+        sum += pow(f[q] + f[r] - 2 * f[p], 2);
+    }
+    return 4 * fmax((sum - 6 * fmin(fmin(n[p], n[q]), n[r])) /
+                        (1 + n[q] + n[r] + 4 * n[p]),
+                    0);
 }
 
 static bool is_inside(const struct picture *p, int x, int y)
@@ -502,6 +577,47 @@ static double truth_weight(const struct truth *t, int h, int x, int y, int dx,
                                  opposite_features(t, p, q, r));
     }
     return opposite + (1 - opposite) * own;
+}
+
+/* The weight of the pixel of index k in 0 to 8 around (x, y) for features, and
+ * its place. */
+static double feature_weight(const struct truth *t, int x, int y, int k,
+                             int step, int *q)
+{
+    static const double tap[] = {0.25, 0.5, 0.25};
+    int dx = (k % 3 - 1) * step, dy = (k / 3 - 1) * step;
+    double w = tap[k % 3] * tap[k / 3];
+
+    *q = at(t, x + dx, y + dy);
+    if (k == 4)
+        return w;
+    return is_inside(t->p, x + dx, y + dy)
+               ? w * weight_of(noise_distance(t, x, y, dx, dy))
+               : 0;
+}
+
+static void truth_features(const struct truth *from, struct truth *to, int step)
+{
+    const struct picture *p = from->p;
+
+    *to = *from;
+    for (int i = 0; i < p->width * p->height; i++) {
+        double sums[FILTER_FEATURES] = {0}, noise = 0, all = 0;
+
+        for (int k = 0; k < 9; k++) {
+            int q;
+            double w =
+                feature_weight(from, i % p->width, i / p->width, k, step, &q);
+
+            all += w;
+            for (int f = 0; f < FILTER_FEATURES; f++)
+                sums[f] += w * from->features[f][q];
+            noise += w * w * from->noise[q];
+        }
+        for (int f = 0; f < FILTER_FEATURES; f++)
+            to->features[f][i] = sums[f] / all;
+        to->noise[i] = noise / (all * all);
+    }
 }
 
 static void truth_level(const struct truth *from, struct truth *to, int step,
@@ -534,19 +650,38 @@ static void truth_level(const struct truth *from, struct truth *to, int step,
         }
 }
 
+static double albedo(const struct truth *t, int c, int i)
+{
+    return t->features[c][i] * sqrt(0.02) + 1e-3;
+}
+
+/* Features, before they are averaged. */
 static void truth_begin(struct truth *t, const struct picture *p)
 {
-    double depths = 0;
+    double depths = 0, scale;
 
     t->p = p;
-    for (int i = 0; i < p->width * p->height; i++) {
+    for (int i = 0; i < p->width * p->height; i++)
         depths += p->features[i][6];
+    scale = p->width * p->height / (0.2 * depths);
+    for (int i = 0; i < p->width * p->height; i++) {
+        for (int f = 0; f < FILTER_FEATURES; f++)
+            t->features[f][i] = p->features[i][f] * (f < 3   ? sqrt(1 / 0.02)
+                                                     : f < 6 ? sqrt(1 / 0.32)
+                                                             : scale);
+        t->noise[i] = p->feature_noise * (1 / 0.02 + 1 / 0.32 + scale * scale);
+    }
+}
+
+/* Light, after features were averaged. */
+static void truth_light(struct truth *t)
+{
+    const struct picture *p = t->p;
+
+    for (int i = 0; i < p->width * p->height; i++)
         for (int h = 0; h < 2; h++)
             for (int c = 0; c < 3; c++)
-                t->light[h][c][i] =
-                    p->light[0][h][i][c] / (p->features[i][c] + 1e-3);
-    }
-    t->depth_scale = p->width * p->height / (0.2 * depths);
+                t->light[h][c][i] = p->light[0][h][i][c] / albedo(t, c, i);
     for (int i = 0; i < p->width * p->height; i++) {
         double sum = 0;
 
@@ -583,20 +718,23 @@ static void result_is_the_definition(void **state)
         p.count[0] = 3;
         p.uneven = n > 0 ? 5 : 0;
         fill_any(&p, 7);
-        truth_begin(&t[0], &p);
+        truth_begin(&t[1], &p);
+        for (int l = 0; l < 3; l++)
+            truth_features(&t[1 - l % 2], &t[l % 2], 1 << l);
+        truth_light(&t[0]);
         for (int l = 0; l < (is_full ? 6 : 4); l++)
             truth_level(&t[l % 2], &t[1 - l % 2], 1 << l, is_full);
         rgb = filtered_with(&p, is_full ? FILTER_FULL : FILTER_FAST, NULL,
                             filter_loops_at(0), variance);
         for (int i = 0; i < 3 * p.width * p.height; i++) {
             int c = i % 3;
-            double albedo = p.features[i / 3][c] + 1e-3;
+            double factor = albedo(&t[0], c, i / 3);
             double want =
                 (3 * t[0].light[0][c][i / 3] + 2 * t[0].light[1][c][i / 3]) /
-                5 * albedo;
+                5 * factor;
             double rest =
                 (9 * t[0].variance[0][i / 3] + 4 * t[0].variance[1][i / 3]) /
-                25 / 3 * albedo * albedo;
+                25 / 3 * factor * factor;
 
             check_close(rgb[i], want, 1e-4 * want);
             check_close(variance[i], rest, 1e-3 * rest);
@@ -742,6 +880,7 @@ int main(void)
         cmocka_unit_test(edges_of_features_survive),
         cmocka_unit_test(edges_of_light_survive),
         cmocka_unit_test(noise_of_features_is_no_edge),
+        cmocka_unit_test(chance_between_surfaces_falls),
         cmocka_unit_test(result_is_the_definition),
         cmocka_unit_test(bits_depend_on_the_picture_only),
         cmocka_unit_test(halves_are_alike),

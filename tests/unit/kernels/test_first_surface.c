@@ -88,6 +88,53 @@ static void surfaces_are_found(void **state)
     mesh_free(&m);
 }
 
+/* The sky at x > 0, and a lamp at x < 0, are seen past coverage of 0, which a
+ * cutoff makes of less, but not through partial coverage before the lamp or of
+ * it: whether a sample meets them is chance. All their light is direct. */
+static void light_behind_coverage_is_not_seen(void **state)
+{
+    enum { SHEET, LAMP };
+    static const struct {
+        float opacity, cutoff, lamp_opacity;
+        bool sky_is_seen, lamp_is_seen;
+    } sheets[] = {{0, 0, 1, true, true},       {0.3f, 0.5f, 1, true, true},
+                  {0.5f, 0, 1, false, false},  {0.5f, 0.25f, 1, false, false},
+                  {0.99f, 0, 1, false, false}, {0.01f, 0, 1, false, false},
+                  {0, 0, 0.5f, true, false}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof sheets / sizeof sheets[0]; k++) {
+        struct mesh m = {0};
+
+        m.materials[SHEET] = mesh_material(MATERIAL_DIFFUSE, 0.5f);
+        m.materials[SHEET].opacity = sheets[k].opacity;
+        m.materials[SHEET].cutoff = sheets[k].cutoff;
+        m.materials[LAMP] = mesh_material(MATERIAL_DIFFUSE, 0);
+        m.materials[LAMP].opacity = sheets[k].lamp_opacity;
+        m.materials[LAMP].emission = v3(2, 2, 2);
+        m.world.settings.sky.color = v3(4, 4, 4);
+        m.world.settings.features = FEATURES_ALL;
+        mesh_add_quad(&m, v3(-9, 3, 9), v3(9, 3, 9), v3(9, 3, -9),
+                      v3(-9, 3, -9), SHEET);
+        mesh_add_quad(&m, v3(-9, 4, 9), v3(0, 4, 9), v3(0, 4, -9),
+                      v3(-9, 4, -9), LAMP);
+        mesh_finish(&m);
+        for (uint64_t i = 0; i < 200; i++) {
+            bool is_sky = i % 2 == 0;
+            bool is_seen =
+                is_sky ? sheets[k].sky_is_seen : sheets[k].lamp_is_seen;
+            struct first_surface s;
+            struct path_sample all =
+                follow(&m, v3(is_sky ? 0.1f : -0.2f, 1, 0), i, &s);
+
+            check_close(s.seen.x, !is_seen ? 0 : is_sky ? 4 : 2, 0);
+            if (is_seen || s.state == SURFACE_AHEAD)
+                check_close(s.direct.x, all.radiance.x, 0);
+        }
+        mesh_free(&m);
+    }
+}
+
 /* Direct light is the radiance of paths that end at the vertex after the
  * surface, to the bit; the rest is more, and the sum is that of a world without
  * first surfaces. */
@@ -156,6 +203,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(surfaces_are_found),
+        cmocka_unit_test(light_behind_coverage_is_not_seen),
         cmocka_unit_test(direct_light_is_that_of_short_paths),
         cmocka_unit_test(sums_are_of_what_was_added),
     };
