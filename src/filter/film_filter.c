@@ -116,14 +116,33 @@ static void add_seen(struct film *f, int y, float *rgb)
     film_unlock_row(f, y);
 }
 
-static void store_row(struct film *to, int y, const float *rgb)
+/* Pixels that are stored at once. */
+#define STORED 64
+
+/* A filtered picture on its way to a film. */
+struct result {
+    struct film *film, *to;
+    float *rgb;
+};
+
+static void store_row(void *context, uint32_t item, int worker)
 {
-    static const int one = 1;
+    const struct result *r = context;
+    int y = (int)item, width = r->film->width;
+    float *rgb = r->rgb + 3 * row_index(r->film, y);
+    struct path_sample samples[STORED];
+    int ones[STORED];
 
-    for (int x = 0; x < to->width; x++, rgb += 3) {
-        struct path_sample sample = {{rgb[0], rgb[1], rgb[2]}, 0, 0};
+    (void)worker;
+    add_seen(r->film, y, rgb);
+    for (int x = 0; x < width; x += STORED) {
+        int count = width - x < STORED ? width - x : STORED;
 
-        film_add_row(to, x, y, 1, 1, &sample, NULL, &one);
+        for (int i = 0; i < count; i++, rgb += 3) {
+            samples[i] = (struct path_sample){{rgb[0], rgb[1], rgb[2]}, 0, 0};
+            ones[i] = 1;
+        }
+        film_add_row(r->to, x, y, 1, count, samples, NULL, ones);
     }
 }
 
@@ -144,10 +163,8 @@ bool film_filter(struct film *f, struct pool *pool, struct film *filtered,
     if (ok) {
         filter_run(&filter, &source, FILTER_FULL, pool, rgb, NULL);
         filter_free(&filter);
-        for (int y = 0; y < f->height; y++) {
-            add_seen(f, y, rgb + 3 * row_index(f, y));
-            store_row(filtered, y, rgb + 3 * row_index(f, y));
-        }
+        pool_each(pool, (uint32_t)f->height, store_row,
+                  &(struct result){f, filtered, rgb});
     }
     free(rgb);
     return ok;

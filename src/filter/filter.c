@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "filter/filter.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,6 +48,14 @@ static float *take(const struct filter_planes *p, float **next)
     return first;
 }
 
+/* Returns the first float that begins a cache line. */
+static float *first_line(float *memory)
+{
+    size_t rest = (uintptr_t)memory / sizeof *memory % FILTER_LINE;
+
+    return memory + (FILTER_LINE - rest) % FILTER_LINE;
+}
+
 bool filter_init(struct filter *f, int width, int height, struct error *err)
 {
     struct filter_planes *p = &f->planes;
@@ -56,18 +65,18 @@ bool filter_init(struct filter *f, int width, int height, struct error *err)
     float *next;
 
     *f = (struct filter){.loops = filter_loops_at(0)};
-    f->memory = alloc_aligned(floats, PLANES * sizeof *f->memory);
+    /* zeroed by the system when workers touch it, not by this thread */
+    f->memory = alloc_array(floats * PLANES + FILTER_LINE, sizeof *f->memory);
     f->row_max = alloc_array((size_t)height, sizeof *f->row_max);
     if (f->memory == NULL || f->row_max == NULL) {
         filter_free(f);
         return fail(err, "out of memory for filtering %dx%d pixels", width,
                     height);
     }
-    memset(f->memory, 0, floats * PLANES * sizeof *f->memory);
     p->width = width;
     p->height = height;
     p->pitch = pitch;
-    next = f->memory;
+    next = first_line(f->memory);
     for (int i = 0; i < 2; i++)
         for (int h = 0; h < 2; h++) {
             for (int c = 0; c < 3; c++)
