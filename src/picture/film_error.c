@@ -2,11 +2,13 @@
 #include "picture/film_error.h"
 
 #include <math.h>
+#include <stdalign.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/simd4.h"
 
 /* Pixels of a tile, which is processed in memory on the stack. */
 #define SIDE 32
@@ -54,44 +56,91 @@ struct tile {
     float is_inside[WIDE][WIDE];
 };
 
+/* Numbers of a pixel's samples, and what its error needs of them. Most pixels
+ * have as many as the one before. */
+struct counts {
+    uint64_t count;
+    f4 all, even, odd;
+    f4 factor; /* for unequal halves, var(x) is var(a - b) times its square */
+};
+
+static void counts_set(struct counts *c, uint64_t count)
+{
+    float odd = (float)film_odd_count(count);
+    float even = (float)film_even_count(count);
+
+    c->count = count;
+    c->all = f4_set1((float)count);
+    c->even = f4_set1(even);
+    c->odd = f4_set1(odd);
+    c->factor = f4_set1(sqrtf(even * odd) / (float)count);
+}
+
+/* Limits numbers to `most` and above its negative. */
+static inline f4 limited(f4 x, float most)
+{
+    return f4_max(f4_min(x, f4_set1(most)), f4_set1(-most));
+}
+
+static inline f4 sums_f4(const struct sum *s)
+{
+    return f4_set3(sum_float(s[0]), sum_float(s[1]), sum_float(s[2]));
+}
+
+/* Reads the mean and e of pixel `at`, whose number of samples is in `c`. */
+static inline void pixel_error(const struct film *f, size_t at,
+                               const struct counts *c, f4 *mean, f4 *e)
+{
+    f4 sum = sums_f4(f->sums + 3 * at);
+    f4 odd = sums_f4(f->odd_sums + 3 * at);
+    f4 difference =
+        f4_sub(f4_div(f4_sub(sum, odd), c->even), f4_div(odd, c->odd));
+
+    *mean = f4_min(f4_div(sum, c->all), f4_set1(LARGEST));
+    *e = limited(f4_mul(difference, c->factor), LARGEST);
+}
+
 bool film_pixel_error(const struct film *f, size_t at, float mean[3],
                       float e[3])
 {
-    uint64_t count = f->counts[at];
-    float odd_count = (float)film_odd_count(count);
-    float even_count = (float)film_even_count(count);
-    /* for unequal counts, var(x) is var(a - b) times this factor squared */
-    float factor = sqrtf(even_count * odd_count) / (float)count;
+    alignas(16) float lanes[2][4];
+    struct counts c;
+    f4 m, d;
 
-    if (count < 2)
+    if (f->counts[at] < 2)
         return false;
-    for (size_t c = 0; c < 3; c++) {
-        float sum = sum_float(f->sums[3 * at + c]);
-        float odd = sum_float(f->odd_sums[3 * at + c]);
-        float difference = (sum - odd) / even_count - odd / odd_count;
-
-        mean[c] = f_min(sum / (float)count, LARGEST);
-        e[c] = f_max(f_min(difference * factor, LARGEST), -LARGEST);
-    }
+    counts_set(&c, f->counts[at]);
+    pixel_error(f, at, &c, &m, &d);
+    f4_store(lanes[0], m);
+    f4_store(lanes[1], d);
+    memcpy(mean, lanes[0], 3 * sizeof *mean);
+    memcpy(e, lanes[1], 3 * sizeof *e);
     return true;
 }
 
 /* Reads pixel (x, y) of the film, unless it has another colour. Returns false
  * if a half of it has no sample. */
-static bool read_pixel(struct tile *t, int row, int column,
-                       const struct film *f, int x, int y)
+static inline bool read_pixel(struct tile *t, int row, int column,
+                              const struct film *f, int x, int y,
+                              struct counts *counts)
 {
     size_t at = (size_t)y * (size_t)f->width + (size_t)x;
-    float mean[3], e[3];
+    alignas(16) float lanes[2][4];
+    f4 mean, e;
 
     if (t->colour != ALL && ((x + y) & 1) != t->colour)
         return true;
-    if (!film_pixel_error(f, at, mean, e))
+    if (f->counts[at] < 2)
         return false;
+    if (f->counts[at] != counts->count)
+        counts_set(counts, f->counts[at]);
+    pixel_error(f, at, counts, &mean, &e);
+    mean = f4_mul(mean, f4_set1(t->factor));
+    f4_store(lanes[0], f4_min(mean, f4_set1(LARGEST)));
+    f4_store(lanes[1], limited(f4_mul(e, f4_set1(t->factor)), LARGEST));
     for (int c = 0; c < 3; c++) {
-        t->mean[c][row][column] = f_min(mean[c] * t->factor, LARGEST);
-        t->e[c][row][column] =
-            f_max(f_min(e[c] * t->factor, LARGEST), -LARGEST);
+        t->mean[c][row][column] = lanes[0][c];
+        t->e[c][row][column] = lanes[1][c];
     }
     t->is_inside[row][column] = 1.0f;
     return true;
@@ -102,6 +151,7 @@ static void read_row(struct tile *t, struct film *f, int row)
     int y = t->y0 + row - HALO;
     int first = t->x0 >= HALO ? 0 : HALO;
     int last = t->width + 2 * HALO;
+    struct counts counts = {.count = 0};
 
     if (y < 0 || y >= f->height)
         return;
@@ -109,7 +159,7 @@ static void read_row(struct tile *t, struct film *f, int row)
         last = f->width - t->x0 + HALO;
     film_lock_row(f, y);
     for (int i = first; i < last; i++)
-        if (!read_pixel(t, row, i, f, t->x0 + i - HALO, y))
+        if (!read_pixel(t, row, i, f, t->x0 + i - HALO, y, &counts))
             t->is_known = false;
     film_unlock_row(f, y);
 }
