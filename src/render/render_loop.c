@@ -118,6 +118,8 @@ bool render_start(struct render *r, const struct render_job *job,
     r->job = *job;
     r->begun_film = NULL;
     r->error_halts = 0;
+    r->estimate_end_ns = 0;
+    r->estimate_ns = 0;
     pthread_mutex_lock(&r->lock);
     r->limits = job->limits;
     r->spp_done = 0;

@@ -48,6 +48,8 @@ struct render {
     /* set while the render thread is parked */
     struct render_job job;
     struct render_limits limits;
+    uint64_t estimate_ns;     /* time of the last estimate of the error */
+    uint64_t estimate_end_ns; /* when it ended; 0: none */
     int error_halts; /* halts since the last pass that came before its error */
     /* film of the backend's last begin(); NULL: a new picture */
     const struct film *begun_film;
