@@ -26,28 +26,44 @@ struct tally {
  * higher bits. */
 #define SUM_LARGE 0x5e800000u
 
-/* Adds one channel of a sample. What sum_accepts() refuses counts as 0. */
-static inline void channel_add(GLOBAL struct sum *sum, float x, uint32_t *bad,
-                               uint32_t *full)
+/* Converts one channel of a sample. What sum_accepts() refuses counts as 0. */
+static inline struct sum channel_sum(float x, uint32_t *bad, uint32_t *full)
 {
     if (float_bits(x) > SUM_LARGE) { /* rare, and found with one comparison */
         if (!sum_accepts(x)) {
             *bad = 1;
-            return;
+            return sum_of(0.0f);
         }
         if (x > 0x1p62f)
             *full = 1;
     }
-    if (!sum_add(sum, x))
-        *full = 1;
+    return sum_of(x);
 }
 
-static inline void rgb_add(GLOBAL struct sum *sums, struct vec3 rgb,
-                           uint32_t *bad, uint32_t *full)
+/* Returns false if one of the sums is saturated. */
+static inline bool rgb_join(GLOBAL struct sum *sums, struct sum r, struct sum g,
+                            struct sum b)
 {
-    channel_add(&sums[0], rgb.x, bad, full);
-    channel_add(&sums[1], rgb.y, bad, full);
-    channel_add(&sums[2], rgb.z, bad, full);
+    bool r_fits = sum_join(&sums[0], r);
+    bool g_fits = sum_join(&sums[1], g);
+
+    return sum_join(&sums[2], b) && g_fits && r_fits;
+}
+
+/* Adds a colour to three sums, and to those of the odd samples if it is of
+ * one. */
+static inline void rgb_add(GLOBAL struct sum *sums, GLOBAL struct sum *odd_sums,
+                           bool is_odd, struct vec3 rgb, uint32_t *bad,
+                           uint32_t *full)
+{
+    struct sum r = channel_sum(rgb.x, bad, full);
+    struct sum g = channel_sum(rgb.y, bad, full);
+    struct sum b = channel_sum(rgb.z, bad, full);
+
+    if (!rgb_join(sums, r, g, b))
+        *full = 1;
+    if (is_odd)
+        rgb_join(odd_sums, r, g, b);
 }
 
 /* Adds sample `index` to the three sums of its pixel, to those of its odd
@@ -59,9 +75,7 @@ static inline void pixel_add(GLOBAL struct sum *sums,
     uint32_t bad = 0;
     uint32_t full = 0;
 
-    rgb_add(sums, p.radiance, &bad, &full);
-    if ((index & 1) != 0)
-        rgb_add(odd_sums, p.radiance, &bad, &full);
+    rgb_add(sums, odd_sums, (index & 1) != 0, p.radiance, &bad, &full);
     t->samples++;
     t->rays += p.rays;
     t->non_finite += bad;

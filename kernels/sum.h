@@ -39,16 +39,16 @@ static inline bool sum_join(GLOBAL struct sum *s, struct sum x)
     return false;
 }
 
-/* Adds x, which sum_accepts() has accepted. Bits below 2^-64 are cut off.
- * Values above 2^62 count as 2^62. Returns false if the sum is saturated. */
-static inline bool sum_add(GLOBAL struct sum *s, float x)
+/* Converts x, which sum_accepts() has accepted. Bits below 2^-64 are cut off.
+ * Values above 2^62 count as 2^62. */
+static inline struct sum sum_of(float x)
 {
     uint32_t exponent = float_bits(x) >> 23 & 255u;
     uint64_t mantissa = (float_bits(x) & 0x7fffffu) | 0x800000u;
     struct sum value = {0, 0};
 
     if (exponent < 127 - 64) /* 0 and denormal numbers as well */
-        return true;
+        return value;
     if (exponent < 127) { /* below 1 */
         value.lo = mantissa << 40 >> (126 - exponent);
     } else if (exponent < 150) {
@@ -59,7 +59,13 @@ static inline bool sum_add(GLOBAL struct sum *s, float x)
     } else {
         value.hi = (uint64_t)1 << 62;
     }
-    return sum_join(s, value);
+    return value;
+}
+
+/* Adds x. Returns false if the sum is saturated. */
+static inline bool sum_add(GLOBAL struct sum *s, float x)
+{
+    return sum_join(s, sum_of(x));
 }
 
 /* Returns x - part, for sums of which one is a part of the other. */

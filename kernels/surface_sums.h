@@ -85,6 +85,7 @@ static inline void surface_add_features(GLOBAL struct surface_sums *sums,
 static inline void surface_add(GLOBAL struct surface_sums *sums, uint64_t index,
                                struct first_surface s, struct vec3 radiance)
 {
+    bool is_odd = (index & 1) != 0;
     uint32_t bad = 0, full = 0;
 
     if (!sum_accepts(radiance.x))
@@ -95,12 +96,8 @@ static inline void surface_add(GLOBAL struct surface_sums *sums, uint64_t index,
         s.direct.z = s.seen.z = 0.0f;
     if (s.seen.x + s.seen.y + s.seen.z > 0.0f || !(s.depth > 0.0f))
         sums->seen_count++;
-    rgb_add(sums->direct, s.direct, &bad, &full);
-    rgb_add(sums->seen, s.seen, &bad, &full);
-    if ((index & 1) != 0) {
-        rgb_add(sums->odd_direct, s.direct, &bad, &full);
-        rgb_add(sums->odd_seen, s.seen, &bad, &full);
-    }
+    rgb_add(sums->direct, sums->odd_direct, is_odd, s.direct, &bad, &full);
+    rgb_add(sums->seen, sums->odd_seen, is_odd, s.seen, &bad, &full);
     if (index < SURFACE_SAMPLES_MAX)
         surface_add_features(sums, s);
 }
