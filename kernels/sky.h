@@ -6,6 +6,17 @@
  * (light/sky_table.h) by inversion of its cdf, which keeps stratification. They
  * are uniform by solid angle within a texel.
  *
+ * The table, world.sky_cdf, is an array of floats:
+ *     height + 1             cdf over the rows, from 0 to 1
+ *     height (width + 1)     cdf of each row over its columns
+ *     height                 solid angle of a texel of each row
+ *     height + 1             squared sine of half the polar angle at each edge
+ *                            between rows
+ *     SKY_STARTS + 1         for the cdf over the rows, and for each row over
+ *     for each cdf           its columns: the interval in which k / SKY_STARTS
+ *                            is (Chen and Asau 1974, "On generating random
+ *                            variates from an empirical distribution")
+ *
  * Units:     radiance; densities per solid angle
  */
 #ifndef KERNELS_SKY_H
@@ -61,6 +72,14 @@ static inline struct vec3 sky_radiance(const struct world *w, struct vec3 d)
     return sky_image_at(w, sky_uv(s, d));
 }
 
+/* Squared sine of half the polar angle at the edge above a row. */
+static inline float sky_edge_height(struct sky s, uint32_t row)
+{
+    float sine = cos_sin_turns(0.25f * (float)row / (float)s.height).y;
+
+    return sine * sine;
+}
+
 /* Solid angle of a texel of this row. The difference of its edges' cosines is
  * written as a product, so that nothing cancels at the poles. */
 static inline float sky_texel_angle(struct sky s, uint32_t row)
@@ -71,15 +90,53 @@ static inline float sky_texel_angle(struct sky s, uint32_t row)
     return 4.0f * PI / (float)s.width * sine * cos_sin_turns(0.25f * height).y;
 }
 
-/* Inverts a cdf of n intervals, whose n + 1 ends from 0 to 1 begin at
- * sky_cdf[first]. Returns the last interval that begins at or below u, and in
- * *rest how far u is into it, in [0, 1]. Empty intervals are never found. */
-static inline uint32_t sky_cdf_find(const struct world *w, uint32_t first,
-                                    uint32_t n, float u, float *rest)
+/* Parts into which the starts of a cdf divide [0, 1]. A power of two, so that
+ * the part of a float is exact. The search is 8 steps shorter. */
+#define SKY_STARTS 256u
+
+/* Index in sky_cdf of a row's cdf over its columns. For the row behind the last
+ * it is the end of these. */
+static inline uint32_t sky_row_cdf(struct sky s, uint32_t row)
 {
-    uint32_t low = first;
+    return s.height + 1u + row * (s.width + 1u);
+}
+
+/* Indices in sky_cdf of the solid angles, and of the squared sines. */
+static inline uint32_t sky_angles(struct sky s)
+{
+    return sky_row_cdf(s, s.height);
+}
+
+static inline uint32_t sky_heights(struct sky s)
+{
+    return sky_angles(s) + s.height;
+}
+
+/* Index in sky_cdf of the starts of a cdf: 0 is that over the rows, row + 1
+ * that of a row. For the one behind the last it is the length of sky_cdf. */
+static inline uint32_t sky_starts(struct sky s, uint32_t cdf)
+{
+    return sky_heights(s) + s.height + 1u + cdf * (SKY_STARTS + 1u);
+}
+
+static inline uint32_t sky_table_length(struct sky s)
+{
+    return sky_starts(s, s.height + 1u);
+}
+
+/* Inverts a cdf whose ends from 0 to 1 begin at sky_cdf[first], and whose
+ * starts begin at sky_cdf[starts]. Returns the last interval that begins at or
+ * below u, and in *rest how far u is into it, in [0, 1]. Empty intervals are
+ * never found. */
+static inline uint32_t sky_cdf_find(const struct world *w, uint32_t first,
+                                    uint32_t starts, float u, float *rest)
+{
+    uint32_t part = starts + (uint32_t)(u * (float)SKY_STARTS);
+    uint32_t low = (uint32_t)w->sky_cdf[part];
+    uint32_t n = (uint32_t)w->sky_cdf[part + 1u] - low + 1u;
     float begin;
 
+    low += first;
     while (n > 1) {
         uint32_t jump = n / 2;
 
@@ -92,22 +149,15 @@ static inline uint32_t sky_cdf_find(const struct world *w, uint32_t first,
     return low - first;
 }
 
-/* Index in sky_cdf of a row's cdf over its columns. These follow the cdf over
- * the rows. For the row behind the last it is the length of sky_cdf. */
-static inline uint32_t sky_row_cdf(struct sky s, uint32_t row)
-{
-    return s.height + 1u + row * (s.width + 1u);
-}
-
-/* Samples a direction with density sky_table_pdf(). The world must have a
- * table. */
+/* Samples a direction with density sky_table_pdf(). u is in [0, 1). The world
+ * must have a table. */
 static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
 {
     struct sky s = w->settings.sky;
     float right, down, low, high, haversine, radius, y;
-    uint32_t row = sky_cdf_find(w, 0, s.height, u.y, &down);
-    uint32_t column =
-        sky_cdf_find(w, sky_row_cdf(s, row), s.width, u.x, &right);
+    uint32_t row = sky_cdf_find(w, 0, sky_starts(s, 0), u.y, &down);
+    uint32_t column = sky_cdf_find(w, sky_row_cdf(s, row),
+                                   sky_starts(s, row + 1u), u.x, &right);
     bool is_below = 2u * row >= s.height;
     struct vec2 turn = cos_sin_turns(((float)column + right) / (float)s.width);
     struct vec3 d;
@@ -118,10 +168,8 @@ static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
         row = s.height - 1u - row;
         down = 1.0f - down;
     }
-    low = cos_sin_turns(0.25f * (float)row / (float)s.height).y;
-    high = cos_sin_turns(0.25f * (float)(row + 1u) / (float)s.height).y;
-    low *= low;
-    high *= high;
+    low = w->sky_cdf[sky_heights(s) + row];
+    high = w->sky_cdf[sky_heights(s) + row + 1u];
     haversine = low + (high - low) * down;
     radius = 2.0f * sqrtf(haversine * (1.0f - haversine));
     y = 1.0f - 2.0f * haversine;
@@ -150,7 +198,7 @@ static inline float sky_table_pdf(const struct world *w, struct vec2 uv)
     first = sky_row_cdf(s, row) + column;
     return (w->sky_cdf[row + 1] - w->sky_cdf[row]) *
            (w->sky_cdf[first + 1] - w->sky_cdf[first]) /
-           sky_texel_angle(s, row);
+           w->sky_cdf[sky_angles(s) + row];
 }
 
 /* sky_radiance() and the density of sky_sample() at the unit vector d. The

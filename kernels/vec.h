@@ -148,68 +148,6 @@ static inline float cos_small(float x)
            0.5f * z + 1.0f;
 }
 
-/* (cosine, sine) of an angle of u turns, u in [0, 1]. */
-static inline struct vec2 cos_sin_turns(float u)
-{
-    float quarter = floorf(u * 4.0f + 0.5f);
-    float x = (u * 4.0f - quarter) * (PI * 0.5f);
-    float c = cos_small(x);
-    float s = sin_small(x);
-    int32_t q = (int32_t)quarter & 3;
-
-    if (q == 0)
-        return v2(c, s);
-    if (q == 1)
-        return v2(-s, c);
-    if (q == 2)
-        return v2(-c, -s);
-    return v2(s, -c);
-}
-
-/* Unit vector of cosine z to the z axis, at an azimuth of u turns. */
-static inline struct vec3 v3_around_z(float z, float u)
-{
-    float r = sqrtf(f_max((1.0f - z) * (1.0f + z), 0.0f));
-    struct vec2 turn = cos_sin_turns(u);
-
-    return v3(r * turn.x, r * turn.y, z);
-}
-
-/* Arc tangent of y/x for 0 <= y <= x and x > 0. */
-static inline float atan_octant(float y, float x)
-{
-    float base = 0.0f;
-    float r = y / x;
-    float z;
-
-    if (r > 0.41421356f) { /* tan(pi/8) */
-        base = PI * 0.25f;
-        r = (r - 1.0f) / (r + 1.0f);
-    }
-    z = r * r;
-    return base + ((((8.05374449538e-2f * z - 1.38776856032e-1f) * z +
-                     1.99777106478e-1f) *
-                        z -
-                    3.33329491539e-1f) *
-                       z * r +
-                   r);
-}
-
-/* Angle of the point (x, y), in (-pi, pi]; 0 for (0, 0). */
-static inline float atan2_rad(float y, float x)
-{
-    float ay = fabsf(y);
-    float ax = fabsf(x);
-    float a;
-
-    if (ax == 0.0f && ay == 0.0f)
-        return 0.0f;
-    a = ay <= ax ? atan_octant(ay, ax) : PI * 0.5f - atan_octant(ax, ay);
-    if (x < 0.0f)
-        a = PI - a;
-    return y < 0.0f ? -a : a;
-}
-
 /* -1 if is_minus, else 1. Without a branch: processors cannot predict the sides
  * of surfaces, and a misprediction costs as much as a square root. */
 static inline float minus_if(bool is_minus)
@@ -224,6 +162,53 @@ static inline struct vec2 v2_swap_if(bool is_swapped, struct vec2 v)
     uint32_t changes = (x ^ y) & (0u - (uint32_t)is_swapped);
 
     return v2(bits_float(x ^ changes), bits_float(y ^ changes));
+}
+
+/* (cosine, sine) of an angle of u turns, u in [0, 1]. Without branches, as no
+ * processor can predict the quadrant. */
+static inline struct vec2 cos_sin_turns(float u)
+{
+    float quarter = floorf(u * 4.0f + 0.5f);
+    float x = (u * 4.0f - quarter) * (PI * 0.5f);
+    uint32_t q = (uint32_t)(int32_t)quarter;
+    struct vec2 v = v2_swap_if((q & 1u) != 0, v2(cos_small(x), sin_small(x)));
+
+    return v2(minus_if(((q + 1u) & 2u) != 0) * v.x,
+              minus_if((q & 2u) != 0) * v.y);
+}
+
+/* Unit vector of cosine z to the z axis, at an azimuth of u turns. */
+static inline struct vec3 v3_around_z(float z, float u)
+{
+    float r = sqrtf(f_max((1.0f - z) * (1.0f + z), 0.0f));
+    struct vec2 turn = cos_sin_turns(u);
+
+    return v3(r * turn.x, r * turn.y, z);
+}
+
+/* Angle of the point (x, y), in (-pi, pi]; 0 for (0, 0). Without branches, as
+ * no processor can predict the octant: a number minus 0 or divided by 1 keeps
+ * its bits. */
+static inline float atan2_rad(float y, float x)
+{
+    bool is_steep = !(fabsf(y) <= fabsf(x));
+    float most = f_max(fabsf(x), fabsf(y));
+    float r = f_min(fabsf(x), fabsf(y)) / (most + (most == 0.0f ? 1.0f : 0.0f));
+    float is_wide = r > 0.41421356f ? 1.0f : 0.0f; /* tan(pi/8) */
+    float z, a;
+
+    r = (r - is_wide) / (is_wide * r + 1.0f);
+    z = r * r;
+    a = is_wide * (PI * 0.25f) +
+        ((((8.05374449538e-2f * z - 1.38776856032e-1f) * z +
+           1.99777106478e-1f) *
+              z -
+          3.33329491539e-1f) *
+             z * r +
+         r);
+    a = (is_steep ? PI * 0.5f : 0.0f) + minus_if(is_steep) * a;
+    a = (x < 0.0f ? PI : 0.0f) + minus_if(x < 0.0f) * a;
+    return minus_if(y < 0.0f) * a;
 }
 
 /* Completes the unit vector n to a right-handed orthonormal frame t, b, n (Duff

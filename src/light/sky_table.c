@@ -128,6 +128,31 @@ static void fill_rows(const double *rows, uint32_t height, double total,
     sums[height] = 1;
 }
 
+/* Fills the starts of a cdf of n intervals. */
+static void fill_starts(const float *cdf, uint32_t n, float *starts)
+{
+    uint32_t i = 0;
+
+    for (uint32_t k = 0; k <= SKY_STARTS; k++) {
+        while (i + 1 < n && cdf[i + 1] <= (float)k / SKY_STARTS)
+            i++;
+        starts[k] = (float)i;
+    }
+}
+
+/* Fills what the table has beside the cdfs. */
+static void fill_rest(float *sums, struct sky sky)
+{
+    for (uint32_t y = 0; y < sky.height; y++)
+        sums[sky_angles(sky) + y] = sky_texel_angle(sky, y);
+    for (uint32_t y = 0; y <= sky.height; y++)
+        sums[sky_heights(sky) + y] = sky_edge_height(sky, y);
+    fill_starts(sums, sky.height, sums + sky_starts(sky, 0));
+    for (uint32_t y = 0; y < sky.height; y++)
+        fill_starts(sums + sky_row_cdf(sky, y), sky.width,
+                    sums + sky_starts(sky, y + 1));
+}
+
 static void free_sums(struct sky_table *table)
 {
     free(table->sums);
@@ -147,16 +172,19 @@ static void fill_table(struct sky_table *table, const struct image *im,
         rows[y] = fill_row(im, y, floor, sums) * row_angle(im, y);
         total += rows[y];
     }
-    if (total > ROUNDING * 4 * M_PI * table->mean)
-        fill_rows(rows, im->height, total, table->sums);
-    else
+    if (!(total > ROUNDING * 4 * M_PI * table->mean)) {
         free_sums(table);
+        return;
+    }
+    fill_rows(rows, im->height, total, table->sums);
+    fill_rest(table->sums, sky);
 }
 
 bool sky_table_build(struct sky_table *table, const struct vec3 *texels,
                      uint32_t width, uint32_t height, enum sky_use use,
                      struct error *err)
 {
+    const struct sky sky = {.width = width, .height = height};
     struct image im = {texels, width, height, NULL};
     double *rows;
     bool ok;
@@ -170,9 +198,7 @@ bool sky_table_build(struct sky_table *table, const struct vec3 *texels,
     if (ok)
         table->mean = mean_radiance(&im);
     if (ok && table->mean > 0) {
-        table->sums = alloc_array((size_t)height + 1 +
-                                      (size_t)height * ((size_t)width + 1),
-                                  sizeof *table->sums);
+        table->sums = alloc_array(sky_table_length(sky), sizeof *table->sums);
         ok = table->sums != NULL;
         if (ok)
             fill_table(table, &im, use == SKY_WITH_MIS ? table->mean : 0, rows);
@@ -216,7 +242,7 @@ void sky_table_lend(const struct sky_table *table, struct world *world)
     s->sky_power = (float)(SKY_POWER_PART * M_PI * sky_mean(table, &s->sky));
     s->sky_cdf_count = 0;
     if (table->sums != NULL && s->sky_share > 0 && !v3_is_zero(s->sky.color))
-        s->sky_cdf_count = sky_row_cdf(s->sky, s->sky.height);
+        s->sky_cdf_count = sky_table_length(s->sky);
     if (s->sky_cdf_count > 0 || s->directional_light_count > 0)
         s->light_share = 1 - s->sky_share;
 }

@@ -36,7 +36,7 @@
     X(lights, s->light_count, WORLD_LIGHTS)                             \
     X(tri_lights, s->light_count > 0 ? s->tri_count : 0, WORLD_LIGHTS)  \
     X(light_nodes, s->light_node_count, WORLD_LIGHTS)                   \
-    X(sky_cdf, sky_row_cdf(s->sky, s->sky.height), WORLD_SKY)           \
+    X(sky_cdf, sky_table_length(s->sky), WORLD_SKY)                     \
     X(guide_cells, guide_cell_count(&s->guide), WORLD_GUIDE)            \
     X(guide_cdf, (size_t)s->guide.table_count *GUIDE_BINS, WORLD_GUIDE) \
     X(point_lights, s->point_light_count, WORLD_LIGHTS)                 \

@@ -6,9 +6,12 @@ THREADS ?= 1
 ROUNDS ?= 5
 rounds = $(if $(filter file,$(origin ROUNDS)),3,$(ROUNDS))
 
-## bench: measures speed, halting and threads; FILTER=NAME selects one
+## bench: measures speed, halting and threads; FILTER=NAME selects one;
+##        FILTER=cost RENEW=1 records instructions a sample; AGAINST=COMMIT
+##        measures speed beside it in turns
 bench: $(L)/glim $(BENCHES) $(B)/rays/scaling
-	@BUILD=$(L) FILTER='$(FILTER)' tests/bench/run.sh
+	@BUILD=$(L) CC='$(CC)' FILTER='$(FILTER)' RENEW='$(RENEW)' \
+		AGAINST='$(AGAINST)' tests/bench/run.sh
 
 ## bench-mpi: measures one and two ranks of a cluster, if Open MPI is installed;
 ##            ROUNDS=3

@@ -122,6 +122,20 @@ bench_instructions() {
     done
 }
 
+# Compares instructions a sample with recorded ones.
+bench_cost() {
+    echo
+    tests/bench/cost.sh "$build/glim" ${RENEW:+renew}
+}
+
+# Compares the time of a sample with that of the commit AGAINST, in turns.
+bench_turns() {
+    [ -z "${AGAINST:-}" ] || {
+        echo
+        tests/bench/turns.sh "$build/glim" "$AGAINST"
+    }
+}
+
 # Measures samples per pixel at 60 pictures per second.
 bench_frames() {
     echo
@@ -218,7 +232,7 @@ bench_triangles() {
 }
 
 machine
-for name in builds instructions frames threads sharing halts previews screens filters load device sampling triangles; do
+for name in cost turns builds instructions frames threads sharing halts previews screens filters load device sampling triangles; do
     if wanted "$name"; then
         "bench_$name"
     fi

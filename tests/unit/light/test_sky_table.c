@@ -365,6 +365,64 @@ static void poles_keep_their_digits(void **state)
     }
 }
 
+/* Returns the last of n intervals of a cdf that begins at or below u. */
+static uint32_t last_at_or_below(const float *cdf, uint32_t n, float u)
+{
+    uint32_t found = 0;
+
+    for (uint32_t i = 1; i < n; i++)
+        if (cdf[i] <= u)
+            found = i;
+    return found;
+}
+
+/* Checks the search at an end of an interval or of a part, and beside it. */
+static void check_search_at(const struct world *w, uint32_t cdf, float u)
+{
+    struct sky s = w->settings.sky;
+    uint32_t first = cdf == 0 ? 0 : sky_row_cdf(s, cdf - 1);
+    uint32_t n = cdf == 0 ? s.height : s.width;
+    const float places[] = {nextafterf(u, 0), u, nextafterf(u, 1)};
+
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        float at = fminf(places[i], UNIT_FLOAT_MAX), rest;
+
+        assert_int_equal(sky_cdf_find(w, first, sky_starts(s, cdf), at, &rest),
+                         last_at_or_below(w->sky_cdf + first, n, at));
+        assert_true(rest >= 0 && rest <= 1);
+    }
+}
+
+/* A search that begins near its end finds what one from the first to the last
+ * interval finds, at every end of an interval and of a part. */
+static void searches_find_the_interval(void **state)
+{
+    const uint32_t sizes[][2] = {{600, 9}, {3, 700}, {1, 1}, {37, 19}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++)
+        for (int use = SKY_WITH_MIS; use <= SKY_ALONE; use++) {
+            struct dome d;
+            struct sky s;
+
+            dome_init(&d, sizes[k][0], sizes[k][1], (enum sky_use)use, spots,
+                      NULL);
+            s = d.world.settings.sky;
+            for (uint32_t cdf = 0; d.world.sky_cdf != NULL && cdf <= s.height;
+                 cdf++) {
+                uint32_t n = cdf == 0 ? s.height : s.width;
+                const float *ends =
+                    d.world.sky_cdf + (cdf == 0 ? 0 : sky_row_cdf(s, cdf - 1));
+
+                for (uint32_t i = 0; i <= n && ends[n] > 0; i++)
+                    check_search_at(&d.world, cdf, ends[i]);
+                for (int i = 0; i <= 256; i++)
+                    check_search_at(&d.world, cdf, (float)i / 256);
+            }
+            dome_free(&d);
+        }
+}
+
 /* Without a table, samples follow the cosine, and a single one is exact. */
 static void flat_skies_have_no_table(void **state)
 {
@@ -416,6 +474,7 @@ int main(void)
         cmocka_unit_test(hot_texels_make_no_fireflies),
         cmocka_unit_test(samples_go_where_the_image_says),
         cmocka_unit_test(poles_keep_their_digits),
+        cmocka_unit_test(searches_find_the_interval),
         cmocka_unit_test(flat_skies_have_no_table),
     };
 
