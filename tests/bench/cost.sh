@@ -38,13 +38,13 @@ printf '%-28s %12s %9s %7s\n' 'instructions a sample' recorded now ratio
 for scene in cornell lights200 skylit glass_mirror materials interior; do
     scene=scenes/$scene.obj
     now=$(instructions "$scene")
-    then=$(awk -v s="$scene" '$1 == s { print $2 }' "$recorded" 2>/dev/null)
+    then=$(awk -v s="$scene" '$1 == s { print $2 }' "$recorded" 2>/dev/null || :)
     printf '%s %s\n' "$scene" "$now" >>"$work/new"
     printf '%-28s %12s %9s %7s\n' "$scene" "${then:--}" "$now" \
         "$(awk "BEGIN { if (${then:-0}) printf \"%.3f\", $now / ${then:-1} }")"
 done
 if [ "$renew" = renew ]; then
     cp "$work/new" "$recorded"
-elif ! grep -q "gcc $compiler;" "$recorded"; then
-    echo "recorded with another compiler: $(head -n 1 "$recorded")"
+elif ! grep -qs "gcc $compiler;" "$recorded"; then
+    echo "$recorded is not by gcc $compiler"
 fi
