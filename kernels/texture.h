@@ -226,8 +226,8 @@ static inline bool has_coverage(const struct world *w)
            (w->settings.features & FEATURE_COVERAGE) != 0;
 }
 
-/* The opacity times the alphas of the colour texture and of the opacity
- * texture. */
+/* The opacity times the alphas of the opacity texture and, unless it has the
+ * same image, of the colour texture. */
 static inline float opacity_at(const struct world *w, struct material m,
                                struct tri t, struct hit h)
 {
@@ -235,7 +235,9 @@ static inline float opacity_at(const struct world *w, struct material m,
         (m.color_texture != NO_INDEX || m.opacity_texture != NO_INDEX)) {
         struct vec2 uv = uv_of(w->uvs, t, h);
 
-        return m.opacity * alpha_at(w, m.color_texture, t, h, uv) *
+        uint32_t color = m.color_is_opaque != 0u ? NO_INDEX : m.color_texture;
+
+        return m.opacity * alpha_at(w, color, t, h, uv) *
                alpha_at(w, m.opacity_texture, t, h, uv);
     }
     return m.opacity;

@@ -66,6 +66,7 @@ struct material {
     uint32_t alpha_texture;    /* its square multiplies alpha; NO_INDEX: none */
     uint32_t metal_texture;    /* multiplies metalness; NO_INDEX: none */
     uint32_t opacity_texture;  /* its alpha multiplies opacity */
+    uint32_t color_is_opaque;  /* 1: the alpha of color_texture does not */
     float metalness;           /* these four of MATERIAL_PRINCIPLED */
     float transmission;
     float coat; /* weight of the clear coat */

@@ -3,7 +3,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/file.h"
 #include "base/memory.h"
 #include "formats/scene_lists.h"
 
@@ -29,13 +31,30 @@ static uint32_t name_texture(struct texture_table *table, const char *path,
     return index;
 }
 
+/* Returns the number of the image: that of the file, which may have several
+ * paths, or of a path without a file. NO_NAME when memory is out. */
+static uint32_t number_image(struct texture_table *table, const char *path)
+{
+    struct file_identity file = file_identify(path);
+    char *key = file.exists ? format_text("%ju %ju", (uintmax_t)file.device,
+                                          (uintmax_t)file.inode)
+                            : strdup(path);
+    uint32_t number =
+        key == NULL ? NO_NAME : name_table_add(&table->images, key);
+
+    free(key);
+    return number;
+}
+
 bool texture_table_init(struct texture_table *table, struct scene *scene)
 {
     *table = (struct texture_table){.scene = scene,
                                     .capacity = scene->texture_count};
     for (uint32_t i = 0; i < scene->texture_count; i++)
         if (name_texture(table, scene->texture_paths[i], &scene->textures[i]) ==
-            NO_NAME)
+                NO_NAME ||
+            (scene->texture_origins[i].image =
+                 number_image(table, scene->texture_paths[i])) == NO_NAME)
             return false;
     return true;
 }
@@ -45,12 +64,16 @@ uint32_t texture_table_add(struct texture_table *table, const char *path,
                            const struct texture_origin *origin)
 {
     uint32_t index = name_texture(table, path, texture);
+    struct texture_origin numbered = *origin;
 
     if (index == NO_NAME)
         return NO_INDEX;
-    if (index >= table->scene->texture_count &&
+    if (index < table->scene->texture_count)
+        return index;
+    numbered.image = number_image(table, path);
+    if (numbered.image == NO_NAME ||
         !scene_add_texture(table->scene, &table->capacity, path, texture,
-                           origin))
+                           &numbered))
         return NO_INDEX;
     return index;
 }
@@ -58,6 +81,7 @@ uint32_t texture_table_add(struct texture_table *table, const char *path,
 void texture_table_free(struct texture_table *table)
 {
     name_table_free(&table->names);
+    name_table_free(&table->images);
 }
 
 struct texture texture_default(void)

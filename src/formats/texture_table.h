@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
  * texture_table.h - the textures of a scene while materials are read: each
- * image with its options is listed once
+ * image with its options is listed once, under each of its paths
  *
  * Units:     degrees
  * Ownership: texture_table_free() frees the table; the scene keeps textures
@@ -17,6 +17,7 @@
 struct texture_table {
     struct scene *scene;
     struct name_table names; /* with the numbers of the scene's textures */
+    struct name_table images; /* files, or paths of images that are no file */
     size_t capacity;
 };
 
@@ -25,7 +26,8 @@ struct texture_table {
 bool texture_table_init(struct texture_table *table, struct scene *scene);
 
 /* Returns the number of the texture with this path and these options; adds one
- * without texels if it is new. NO_INDEX when memory is out. */
+ * without texels if it is new. The table sets the image of its origin. NO_INDEX
+ * when memory is out. */
 uint32_t texture_table_add(struct texture_table *table, const char *path,
                            const struct texture *texture,
                            const struct texture_origin *origin);

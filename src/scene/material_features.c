@@ -65,7 +65,9 @@ uint32_t material_features(const struct material *m,
         features |= FEATURE_BUMPS;
     if (has_coat_bumps(m))
         features |= FEATURE_COAT_NORMALS;
-    if (m->opacity < 1 || is_translucent(textures, m->color_texture) ||
+    if (m->opacity < 1 ||
+        (m->color_is_opaque == 0 &&
+         is_translucent(textures, m->color_texture)) ||
         is_translucent(textures, m->opacity_texture))
         features |= FEATURE_COVERAGE;
     if (m->kind == MATERIAL_METAL)

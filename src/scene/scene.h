@@ -28,6 +28,7 @@ struct texture_origin {
     uint32_t file; /* index into mtl_paths */
     uint64_t line;
     double rotation_deg; /* as the statement has it */
+    uint32_t image;      /* equal in textures of one image, however spelled */
 };
 
 /* Statements that a material was made from. */

@@ -99,7 +99,8 @@ static bool shares_texels(struct host_world *host, const struct scene *scene,
         const struct texture *other = &host->textures[i];
 
         if (other->width == 0 || has_numbers(other) != has_numbers(t) ||
-            strcmp(scene->texture_paths[i], scene->texture_paths[index]) != 0)
+            scene->texture_origins[i].image !=
+                scene->texture_origins[index].image)
             continue;
         t->first = other->first;
         t->width = other->width;
@@ -211,12 +212,13 @@ static const struct reading *find_original(const struct scene *scene,
                                            uint32_t index)
 {
     const struct texture *t = scene->textures;
+    const struct texture_origin *o = scene->texture_origins;
     const struct reading *r = &readings[index];
 
     for (uint32_t i = 0; i < index; i++)
         if (has_numbers(&t[readings[i].texture]) ==
                 has_numbers(&t[r->texture]) &&
-            strcmp(readings[i].path, r->path) == 0)
+            o[readings[i].texture].image == o[r->texture].image)
             return &readings[i];
     return NULL;
 }

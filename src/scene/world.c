@@ -84,9 +84,19 @@ static bool find_used_materials(struct host_world *host,
     return true;
 }
 
-/* Converts the lengths of a material to normalised units. */
-static struct material normalised(const struct scene *scene, struct material m)
+/* Returns true if both textures show one image. */
+static bool is_one_image(const struct scene *scene, uint32_t a, uint32_t b)
 {
+    return a != NO_INDEX && b != NO_INDEX &&
+           scene->texture_origins[a].image == scene->texture_origins[b].image;
+}
+
+/* Converts the lengths of a material to normalised units. An image that gives
+ * its colour and its opacity counts once. */
+static struct material in_world(const struct scene *scene, struct material m)
+{
+    m.color_is_opaque =
+        is_one_image(scene, m.color_texture, m.opacity_texture);
     m.attenuation = v3_min(v3(FLT_MAX, FLT_MAX, FLT_MAX),
                            v3_scale(m.attenuation, (float)(1 / scene->scale)));
     return m;
@@ -99,7 +109,7 @@ struct material world_material(const struct scene *scene,
     struct material m = material_from_source(source, scene->path, &ignored);
 
     warnings_free(&ignored);
-    return normalised(scene, m);
+    return in_world(scene, m);
 }
 
 static bool copy_materials(struct host_world *host, const struct scene *scene,
@@ -112,7 +122,7 @@ static bool copy_materials(struct host_world *host, const struct scene *scene,
     if (host->materials == NULL || host->sources == NULL)
         return fail(err, "%s: out of memory for its materials", scene->path);
     for (uint32_t i = 0; i < count; i++) {
-        host->materials[i] = normalised(scene, scene->materials[i]);
+        host->materials[i] = in_world(scene, scene->materials[i]);
         host->sources[i] = scene->material_origins[i].source;
     }
     host->material_count = count;

@@ -29,7 +29,8 @@
       M(material, opacity) M(material, specular)                              \
       M(material, specular_texture)                                           \
       M(material, alpha_texture) M(material, metal_texture)                   \
-      M(material, opacity_texture) M(material, metalness)                     \
+      M(material, opacity_texture) M(material, color_is_opaque)               \
+      M(material, metalness)                                                  \
       M(material, normal_texture) M(material, bump_texture)                   \
       M(material, bump_scale) M(material, normal_strength)                    \
       M(material, normal_depth) M(material, coat_normal_texture)              \

@@ -19,6 +19,13 @@ static double stopped(const struct loaded *l, float u, float v)
     return count / 10000.0;
 }
 
+static double coverage(const struct loaded *l)
+{
+    struct hit h = {.b0 = 0.4f, .b1 = 0.3f, .b2 = 0.3f, .tri = 0};
+
+    return (double)coverage_at(&l->world, h);
+}
+
 /* IEC 61966-2-1. */
 static double linear(uint8_t byte)
 {
@@ -449,6 +456,47 @@ static void maps_are_the_share_of_stopped_rays(void **state)
     unload(&l);
 }
 
+/* Blender names one image as map_Kd and map_d. Its alpha is opacity, once: by
+ * whatever path, with whatever options, and as the colour of metal too. Another
+ * image multiplies. */
+static void one_image_counts_once(void **state)
+{
+    static const char *const statements[] = {
+        "map_Kd leaf.tga\nmap_d leaf.tga",
+        "map_d leaf.tga\nmap_Kd leaf.tga",
+        "map_Kd leaf.tga\nmap_d -imfchan m leaf.tga",
+        "map_Kd -clamp on leaf.tga\nmap_d -s 2 2 2 leaf.tga",
+        "map_Kd ./leaf.tga\nmap_d .\\LEAF.TGA",
+        "map_Kd leaf.tga\nmap_d six.tga", /* a second name of the file */
+        "illum 3\nmap_Ks leaf.tga\nmap_d leaf.tga",
+        "map_Kd -alpha off leaf.tga\nmap_d leaf.tga",
+        "map_Kd leaf.tga",
+        "map_d leaf.tga",
+        "map_Ke leaf.tga\nmap_d leaf.tga",
+    };
+    const uint8_t half[4] = {255, 0, 0, 128};
+    struct loaded l;
+
+    (void)state;
+    write_image("leaf.tga", 1, 1, 4, half);
+    write_image("two.tga", 1, 1, 4, half);
+    unlink("six.tga");
+    assert_int_equal(symlink("leaf.tga", "six.tga"), 0);
+    for (size_t i = 0; i < sizeof statements / sizeof statements[0]; i++) {
+        load(&l, statements[i]);
+        check_close(coverage(&l), 128 / 255., 1e-6);
+        unload(&l);
+    }
+    load(&l, "map_Kd two.tga\nmap_d leaf.tga");
+    check_close(coverage(&l), pow(128 / 255., 2), 1e-6);
+    unload(&l);
+    /* opacity is in red; the alpha of the same image is none */
+    load(&l, "map_Kd leaf.tga\nmap_d -imfchan r leaf.tga");
+    check_close(coverage(&l), 1, 0);
+    unload(&l);
+    unlink("six.tga");
+}
+
 /* Colours of vertices are mixed linearly over a triangle, and multiply the
  * colour of the material. */
 static void vertices_have_colors(void **state)
@@ -504,6 +552,7 @@ int main(void)
         cmocka_unit_test(metal_is_mixed_by_its_map),
         cmocka_unit_test(layers_are_weighed_by_their_maps),
         cmocka_unit_test(maps_are_the_share_of_stopped_rays),
+        cmocka_unit_test(one_image_counts_once),
         cmocka_unit_test(vertices_have_colors),
     };
 
