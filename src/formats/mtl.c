@@ -215,7 +215,9 @@ static char *map_path(const struct parser *p, const char *name)
 static bool read_map(struct parser *p, struct word key, bool is_data,
                      uint32_t *texture, double *scale)
 {
-    struct texture_origin origin = {p->file, p->lex.line, 0};
+    struct texture_origin origin = {.file = p->file,
+                                    .line = p->lex.line,
+                                    .is_opacity = word_is(key, "map_d")};
     struct mtl_map_options o;
     char *name = mtl_map_read(&p->lex, &o);
     char *path;

@@ -11,20 +11,20 @@
 
 /* Returns a text that identifies a texture by its path and its options, for
  * free(); NULL when memory is out. */
-static char *key_of(const char *path, const struct texture *t)
+static char *key_of(const char *path, const struct texture *t, bool is_opacity)
 {
-    return format_text("%a %a %a %a %a %a %u %u %u %s", (double)t->scale.x,
+    return format_text("%a %a %a %a %a %a %u %u %u %d %s", (double)t->scale.x,
                        (double)t->scale.y, (double)t->offset.x,
                        (double)t->offset.y, (double)t->rotation.x,
                        (double)t->rotation.y, t->flags, t->is_data, t->channel,
-                       path);
+                       is_opacity, path);
 }
 
 /* Returns the number of the texture in the table, or NO_NAME. */
 static uint32_t name_texture(struct texture_table *table, const char *path,
-                             const struct texture *texture)
+                             const struct texture *texture, bool is_opacity)
 {
-    char *key = key_of(path, texture);
+    char *key = key_of(path, texture, is_opacity);
     uint32_t index = key == NULL ? NO_NAME : name_table_add(&table->names, key);
 
     free(key);
@@ -51,8 +51,8 @@ bool texture_table_init(struct texture_table *table, struct scene *scene)
     *table = (struct texture_table){.scene = scene,
                                     .capacity = scene->texture_count};
     for (uint32_t i = 0; i < scene->texture_count; i++)
-        if (name_texture(table, scene->texture_paths[i], &scene->textures[i]) ==
-                NO_NAME ||
+        if (name_texture(table, scene->texture_paths[i], &scene->textures[i],
+                         scene->texture_origins[i].is_opacity) == NO_NAME ||
             (scene->texture_origins[i].image =
                  number_image(table, scene->texture_paths[i])) == NO_NAME)
             return false;
@@ -63,7 +63,7 @@ uint32_t texture_table_add(struct texture_table *table, const char *path,
                            const struct texture *texture,
                            const struct texture_origin *origin)
 {
-    uint32_t index = name_texture(table, path, texture);
+    uint32_t index = name_texture(table, path, texture, origin->is_opacity);
     struct texture_origin numbered = *origin;
 
     if (index == NO_NAME)

@@ -16,7 +16,7 @@
 
 struct texture_table {
     struct scene *scene;
-    struct name_table names; /* with the numbers of the scene's textures */
+    struct name_table names;  /* with the numbers of the scene's textures */
     struct name_table images; /* files, or paths of images that are no file */
     size_t capacity;
 };

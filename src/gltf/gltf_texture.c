@@ -260,7 +260,7 @@ bool gltf_texture_read(struct gltf_textures *t, const struct gltf_value *object,
                        struct error *err)
 {
     struct texture to = texture_default();
-    struct texture_origin origin = {NO_INDEX, 0, 0};
+    struct texture_origin origin = {.file = NO_INDEX};
     uint64_t set = 0;
     const char *path;
     uint32_t index;

@@ -121,7 +121,9 @@ static void roughen(struct material *m, const struct mtl_source *s,
     m->alpha_texture = mtl_source_map(s, MTL_MAP_PR);
 }
 
-/* Returns the opacity of d, or without d that of Tr. */
+/* Returns the opacity of d, or without d that of Tr. A file that says Tr 1
+ * alone means what MeshLab did, an opaque surface, and no one draws a scene
+ * that is not to be seen: Blender does not read Tr. */
 static double opacity(const struct mtl_source *s,
                       const struct statement_place *at)
 {
@@ -131,7 +133,13 @@ static double opacity(const struct mtl_source *s,
                                     ? 1
                                     : statement_clamped(s->d.value),
                                 at);
-    return 1 - statement_unit(&s->tr, "Tr", at);
+    if (s->tr.value < 1)
+        return 1 - statement_unit(&s->tr, "Tr", at);
+    warnings_add(at->report, "transparencies of 1",
+                 "%s:%" PRIu64 ": found Tr %g without d, expected d 0 for an "
+                 "invisible surface: read as opaque",
+                 at->path, s->tr.line, s->tr.value);
+    return 1;
 }
 
 static int illumination(const struct mtl_source *s,
@@ -427,10 +435,8 @@ static void make_opaque(struct material *m, int illum,
     if (m->opacity <= 0)
         warnings_add(at->report, "invisible materials",
                      "%s:%" PRIu64
-                     ": found %s %g: surfaces with this material are invisible",
-                     at->path, s->d.line != 0 ? s->d.line : s->tr.line,
-                     s->d.line != 0 ? "d" : "Tr",
-                     s->d.line != 0 ? s->d.value : s->tr.value);
+                     ": found d %g: surfaces with this material are invisible",
+                     at->path, s->d.line, s->d.value);
     m->opacity_texture = mtl_source_map(s, MTL_MAP_D);
     m->cutoff = (float)statement_unit(&s->d_cutoff, "d_cutoff", at);
     m->color = statement_reflectance(&s->kd, "Kd", MATERIAL_GREY, at);

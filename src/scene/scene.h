@@ -29,6 +29,7 @@ struct texture_origin {
     uint64_t line;
     double rotation_deg; /* as the statement has it */
     uint32_t image;      /* equal in textures of one image, however spelled */
+    bool is_opacity;     /* its numbers are the image's alpha, if it has some */
 };
 
 /* Statements that a material was made from. */

@@ -26,16 +26,28 @@ static bool has_alpha(const struct image *image)
     return false;
 }
 
-/* True if texels have numbers of data (roughness, opacity, height) in place of
- * alpha, because no channel was chosen. */
-static bool has_numbers(const struct texture *t)
+/* What the fourth byte of a texel is. Opacity is often stored in the alpha
+ * channel of a white or coloured picture; other numbers are grey. */
+enum fourth { FOURTH_ALPHA, FOURTH_GREY, FOURTH_OPACITY };
+
+static enum fourth fourth_of(const struct scene *scene, uint32_t texture)
 {
-    return t->is_data != 0 && t->channel == CHANNEL_DEFAULT;
+    const struct texture *t = &scene->textures[texture];
+
+    if (t->is_data == 0 || t->channel != CHANNEL_DEFAULT)
+        return FOURTH_ALPHA;
+    return scene->texture_origins[texture].is_opacity ? FOURTH_OPACITY
+                                                      : FOURTH_GREY;
 }
 
-/* Returns the number of a texel of data: alpha or the mean of the channels.
- * Opacity is often stored in the alpha channel of a white or coloured
- * picture. */
+/* Returns true if two textures have the same texels. */
+static bool is_same_image(const struct scene *scene, uint32_t a, uint32_t b)
+{
+    return scene->texture_origins[a].image == scene->texture_origins[b].image &&
+           fourth_of(scene, a) == fourth_of(scene, b);
+}
+
+/* Returns the fourth byte of a texel: alpha or the mean of the channels. */
 static uint32_t number_of(const uint8_t *texel, bool by_alpha)
 {
     if (by_alpha)
@@ -57,19 +69,22 @@ static void find_alpha(const struct host_world *host, struct texture *t)
 }
 
 static bool append(struct host_world *host, const struct image *image,
-                   struct texture *texture, const char *path, struct error *err)
+                   const struct scene *scene, uint32_t index, struct error *err)
 {
+    struct texture *texture = &host->textures[index];
+    enum fourth fourth = fourth_of(scene, index);
     size_t count = (size_t)image->width * (size_t)image->height;
     size_t total = host->texel_count + count;
-    bool by_alpha = !has_numbers(texture) || has_alpha(image);
+    bool by_alpha = fourth == FOURTH_ALPHA ||
+                    (fourth == FOURTH_OPACITY && has_alpha(image));
     uint32_t *texels;
 
     texels = total > SIZE_MAX / sizeof *texels
                  ? NULL
                  : realloc(host->texels, total * sizeof *texels);
     if (texels == NULL)
-        return fail(err, "%s: out of memory for the textures: %zu MB", path,
-                    total * sizeof *texels >> 20);
+        return fail(err, "%s: out of memory for the textures: %zu MB",
+                    scene->path, total * sizeof *texels >> 20);
     host->texels = texels;
     texels += host->texel_count;
     texture->first = (uint32_t)host->texel_count;
@@ -98,9 +113,7 @@ static bool shares_texels(struct host_world *host, const struct scene *scene,
     for (uint32_t i = 0; i < scene->texture_count; i++) {
         const struct texture *other = &host->textures[i];
 
-        if (other->width == 0 || has_numbers(other) != has_numbers(t) ||
-            scene->texture_origins[i].image !=
-                scene->texture_origins[index].image)
+        if (other->width == 0 || !is_same_image(scene, i, index))
             continue;
         t->first = other->first;
         t->width = other->width;
@@ -196,8 +209,7 @@ static bool copy_image(struct host_world *host, const struct scene *scene,
         report_missing(scene, r, report,
                        "found more than 4e9 texels in all textures");
     else
-        return append(host, image, &host->textures[r->texture], scene->path,
-                      err);
+        return append(host, image, scene, r->texture, err);
     return true;
 }
 
@@ -211,14 +223,8 @@ static const struct reading *find_original(const struct scene *scene,
                                            const struct reading *readings,
                                            uint32_t index)
 {
-    const struct texture *t = scene->textures;
-    const struct texture_origin *o = scene->texture_origins;
-    const struct reading *r = &readings[index];
-
     for (uint32_t i = 0; i < index; i++)
-        if (has_numbers(&t[readings[i].texture]) ==
-                has_numbers(&t[r->texture]) &&
-            o[readings[i].texture].image == o[r->texture].image)
+        if (is_same_image(scene, readings[i].texture, readings[index].texture))
             return &readings[i];
     return NULL;
 }

@@ -227,6 +227,9 @@ static void d_and_tr_are_the_opacity(void **state)
     check_close((double)only_material("d -halo .25", 0).opacity, .25, 0);
     check_close((double)only_material("Tr .25", 0).opacity, .75, 0);
     check_close((double)only_material("Tr 1\nd 1", 0).opacity, 1, 0);
+    /* MeshLab's opacity; Blender does not read it */
+    check_close((double)only_material("Tr 1", 1).opacity, 1, 0);
+    check_close((double)only_material("d 0\nTr 1", 1).opacity, 0, 0);
     check_close((double)only_material("d .5\nTr 0", 0).opacity, .5, 0);
     check_close((double)only_material("d 7", 1).opacity, 1, 0);
     check_close((double)only_material("d nan", 1).opacity, 1, 0);
@@ -567,17 +570,18 @@ static void maps_of_numbers_are_data(void **state)
 
     (void)state;
     assert_true(l.ok);
-    assert_int_equal(l.scene.texture_count, 4);
+    assert_int_equal(l.scene.texture_count, 5);
     assert_int_equal(l.scene.textures[0].is_data, 1);
-    assert_int_equal(l.scene.textures[1].is_data, 0);
+    assert_int_equal(l.scene.textures[1].is_data, 1);
+    assert_int_equal(l.scene.textures[2].is_data, 0);
     assert_int_equal(m[1].alpha_texture, 0);
-    assert_int_equal(m[1].opacity_texture, 0);
-    assert_int_equal(m[1].color_texture, 1);
+    assert_int_equal(m[1].opacity_texture, 1); /* its alpha, if it has some */
+    assert_int_equal(m[1].color_texture, 2);
     check_close((double)m[1].alpha, 1, 0);
-    assert_int_equal(m[2].alpha_texture, 2);
+    assert_int_equal(m[2].alpha_texture, 3);
     check_close((double)m[2].alpha, .25, 0);
     assert_int_equal(m[3].kind, MATERIAL_PRINCIPLED);
-    assert_int_equal(m[3].metal_texture, 3);
+    assert_int_equal(m[3].metal_texture, 4);
     check_close((double)m[3].metalness, 1, 0);
     check_close((double)m[3].alpha, .25, 0);
     check_close((double)m[4].metalness, .75, 0);

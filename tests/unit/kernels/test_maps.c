@@ -494,6 +494,12 @@ static void one_image_counts_once(void **state)
     load(&l, "map_Kd leaf.tga\nmap_d -imfchan r leaf.tga");
     check_close(coverage(&l), 1, 0);
     unload(&l);
+    /* roughness and metal are grey, as Blender reads them; alpha is opacity */
+    load(&l, "map_Kd leaf.tga\nPr 1\nmap_Pr leaf.tga\nmap_Pm leaf.tga");
+    check_close(coverage(&l), 128 / 255., 1e-6);
+    check_close((double)surface(&l, 0.3f, 0.3f).metalness, 1 / 3., 1e-6);
+    check_close((double)surface(&l, 0.3f, 0.3f).alpha, 1 / 9., 1e-6);
+    unload(&l);
     unlink("six.tga");
 }
 
