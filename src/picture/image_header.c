@@ -2,10 +2,15 @@
 #include "picture/image_header.h"
 
 #include <limits.h>
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "picture/image_bytes.h"
+#include "picture/image_exr_read.h"
 #include "picture/image_gif.h"
+#include "picture/image_hdr.h"
+#include "picture/image_pfm.h"
 #include "picture/image_pnm.h"
 #include "picture/image_psd.h"
 #include "picture/image_webp.h"
@@ -44,6 +49,18 @@ bool image_expect_limits(const struct image_file *f, struct error *err)
     return true;
 }
 
+bool image_take_side(const struct image_file *f, double number, int *side,
+                     struct error *err)
+{
+    if (!(number >= 1 && number <= INT_MAX) || number != floor(number))
+        return fail(err,
+                    "%s: found a side of %g pixels, expected a whole number "
+                    "from 1 to %d",
+                    f->path, number, IMAGE_SIDE_MAX);
+    *side = (int)number;
+    return true;
+}
+
 static bool take_sides(struct image_file *f, uint32_t width, uint32_t height,
                        struct error *err)
 {
@@ -69,8 +86,10 @@ static bool fail_kind(const struct image_file *f, const char *reason,
 
 /* ---- PNG ---- */
 
-static bool is_png(struct bytes b)
+static bool is_png(const struct image_file *f)
 {
+    struct bytes b = bytes_of(f);
+
     return b.size >= 8 && memcmp(b.data, "\x89PNG\r\n\x1a\n", 8) == 0;
 }
 
@@ -116,8 +135,10 @@ static bool png_header(struct image_file *f, struct error *err)
 
 /* ---- JPEG ---- */
 
-static bool is_jpeg(struct bytes b)
+static bool is_jpeg(const struct image_file *f)
 {
+    struct bytes b = bytes_of(f);
+
     return b.size >= 3 && memcmp(b.data, "\xff\xd8\xff", 3) == 0;
 }
 
@@ -189,8 +210,10 @@ static bool jpeg_header(struct image_file *f, struct error *err)
 
 /* ---- BMP ---- */
 
-static bool is_bmp(struct bytes b)
+static bool is_bmp(const struct image_file *f)
 {
+    struct bytes b = bytes_of(f);
+
     return b.size >= 26 && memcmp(b.data, "BM", 2) == 0;
 }
 
@@ -223,8 +246,9 @@ enum { TGA_INDEXED = 1, TGA_COLOR = 2, TGA_GREY = 3, TGA_RUNS = 8 };
 
 /* Detects TGA by the allowed values of its fields, since the format has no
  * signature. */
-static bool is_tga(struct bytes b)
+static bool is_tga(const struct image_file *f)
 {
+    struct bytes b = bytes_of(f);
     uint32_t type = byte_at(b, 2) & ~(uint32_t)TGA_RUNS, bits = byte_at(b, 16);
 
     if (b.size < 18 || big16(b, 12) == 0 || big16(b, 14) == 0)
@@ -268,42 +292,66 @@ static bool tga_header(struct image_file *f, struct error *err)
     return expect_bytes(f, b.size, at + pixel_bytes * pixels_of(f), err);
 }
 
-/* Our own decoders take the result's memory only. */
-static bool own_decoder(struct image_file *f)
+/* ---- all kinds ---- */
+
+/* Readers, in the order in which they are tried: TGA, which has no signature,
+ * is the last one. An empty name is that of a kind that this build lacks. */
+static const struct reader {
+    const char *name;
+    bool (*is)(const struct image_file *f);
+    bool (*header)(struct image_file *f, struct error *err);
+    enum image_kind kind;
+    bool is_8bit;
+} readers[] = {
+    {"PNG", is_png, png_header, IMAGE_PNG, true},
+    {"JPEG", is_jpeg, jpeg_header, IMAGE_JPEG, true},
+    {"BMP", is_bmp, bmp_header, IMAGE_BMP, true},
+    {image_webp_name, image_webp_is, image_webp_header, IMAGE_WEBP, true},
+    {"PNM", image_pnm_is, image_pnm_header, IMAGE_PNM, true},
+    {"GIF", image_gif_is, image_gif_header, IMAGE_GIF, true},
+    {"PSD", image_psd_is, image_psd_header, IMAGE_PSD, true},
+    {"Radiance HDR", image_hdr_is, image_hdr_header, IMAGE_HDR, false},
+    {"PFM", image_pfm_is, image_pfm_header, IMAGE_PFM, false},
+    {"OpenEXR", image_exr_is, image_exr_header, IMAGE_EXR, false},
+    {"TGA", is_tga, tga_header, IMAGE_TGA, true},
+};
+
+enum { READER_COUNT = sizeof readers / sizeof readers[0] };
+
+/* Fails with the kinds that are read. */
+static bool fail_unknown(const struct image_file *f, struct error *err)
 {
-    f->decoder_bytes = 4 * (size_t)pixels_of(f);
-    return true;
+    char known[256] = "";
+    size_t length = 0;
+
+    for (int i = 0; i < READER_COUNT; i++)
+        if (*readers[i].name != '\0')
+            length +=
+                (size_t)snprintf(known + length, sizeof known - length, "%s%s",
+                                 length == 0            ? ""
+                                 : i < READER_COUNT - 1 ? ", "
+                                                        : " or ",
+                                 readers[i].name);
+    return fail(err, "%s: found no image that can be read, expected %s",
+                f->path, known);
 }
 
 bool image_header(struct image_file *f, struct error *err)
 {
-    struct bytes b = bytes_of(f);
+    const struct reader *r = readers;
 
-    if (b.size > INT_MAX)
+    while (r < readers + READER_COUNT && !r->is(f))
+        r++;
+    if (r == readers + READER_COUNT)
+        return fail_unknown(f, err);
+    if (r->is_8bit && f->size_bytes > INT_MAX)
         return fail(err, "%s: found %.1f GiB, expected 2 GiB at most", f->path,
-                    (double)b.size / (1 << 30));
-    f->kind = is_png(b)          ? IMAGE_PNG
-              : image_pnm_is(f)  ? IMAGE_PNM
-              : image_gif_is(f)  ? IMAGE_GIF
-              : image_psd_is(f)  ? IMAGE_PSD
-              : image_webp_is(f) ? IMAGE_WEBP
-              : is_bmp(b)        ? IMAGE_BMP
-              : is_jpeg(b)       ? IMAGE_JPEG
-              : is_tga(b)        ? IMAGE_TGA
-                                 : IMAGE_UNKNOWN;
-    switch (f->kind) {
-    case IMAGE_PNG: return png_header(f, err);
-    case IMAGE_JPEG: return jpeg_header(f, err);
-    case IMAGE_BMP: return bmp_header(f, err);
-    case IMAGE_TGA: return tga_header(f, err);
-    case IMAGE_PNM: return image_pnm_header(f, err) && own_decoder(f);
-    case IMAGE_GIF: return image_gif_header(f, err) && own_decoder(f);
-    case IMAGE_PSD: return image_psd_header(f, err) && own_decoder(f);
-    case IMAGE_WEBP: return image_webp_header(f, err);
-    default: break;
-    }
-    return fail(err,
-                "%s: found no image that can be read, expected PNG, JPEG, BMP, "
-                "TGA, PNM, GIF, PSD, Radiance HDR, PFM or OpenEXR",
-                f->path);
+                    (double)f->size_bytes / (1 << 30));
+    f->kind = r->kind;
+    if (!r->header(f, err))
+        return false;
+    /* our own decoders take the result's memory only */
+    if (r->is_8bit && f->decoder_bytes == 0)
+        f->decoder_bytes = 4 * (size_t)pixels_of(f);
+    return true;
 }

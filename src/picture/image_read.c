@@ -9,9 +9,11 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "picture/color.h"
-#include "picture/image_float.h"
+#include "picture/image_exr_read.h"
 #include "picture/image_gif.h"
+#include "picture/image_hdr.h"
 #include "picture/image_header.h"
+#include "picture/image_pfm.h"
 #include "picture/image_pnm.h"
 #include "picture/image_psd.h"
 #include "picture/image_webp.h"
@@ -83,8 +85,7 @@ static uint64_t memory_of(const struct image_file *f)
 static bool open_data(struct image_file *f, uint64_t held_bytes,
                       struct error *err)
 {
-    f->kind = image_float_kind(f);
-    if (is_float(f) ? !image_float_header(f, err) : !image_header(f, err))
+    if (!image_header(f, err))
         return false;
     f->memory_bytes = memory_of(f);
     return expect_memory(f, held_bytes, err);
@@ -186,6 +187,15 @@ static uint8_t *decode_own(const struct image_file *f, struct error *err)
     }
 }
 
+static float *decode_float(const struct image_file *f, struct error *err)
+{
+    switch (f->kind) {
+    case IMAGE_EXR: return image_exr_decode(f, err);
+    case IMAGE_PFM: return image_pfm_decode(f, err);
+    default: return image_hdr_decode(f, err);
+    }
+}
+
 /* Returns linear floats of an image of our own decoders. */
 static float *decode_own_linear(const struct image_file *f, struct error *err)
 {
@@ -206,7 +216,7 @@ static float *decode_linear(struct image_file *f, struct error *err)
     int width, height, channels;
 
     if (is_float(f))
-        return image_float_decode(f, err);
+        return decode_float(f, err);
     if (is_own(f))
         return decode_own_linear(f, err);
     stb_limit(f->decoder_bytes);

@@ -56,7 +56,7 @@ struct image_file {
     enum image_kind kind;
     int width, height;
 
-    /* HDR, PFM and PNM */
+    /* PFM and PNM */
     size_t pixels_at; /* offset in the data */
     int channels;
     uint32_t value_max; /* of PNM */

@@ -17,6 +17,8 @@ static const uint8_t *bytes_of(const struct image_file *f)
     return (const uint8_t *)f->data;
 }
 
+const char image_webp_name[] = "WebP";
+
 bool image_webp_is(const struct image_file *f)
 {
     return f->size_bytes >= 12 && memcmp(f->data, "RIFF", 4) == 0 &&

@@ -17,6 +17,9 @@
 
 #include "picture/image_read.h"
 
+/* The name of the kind in messages; empty without libwebp. */
+extern const char image_webp_name[];
+
 bool image_webp_is(const struct image_file *file);
 
 /* Finds the sides and the memory of the decoder. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "picture/image_webp.h"
 
+const char image_webp_name[] = "";
+
 bool image_webp_is(const struct image_file *f)
 {
     (void)f;

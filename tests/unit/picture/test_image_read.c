@@ -166,20 +166,114 @@ static void packed_hdr_rows_are_unpacked(void **state)
     assert_string_equal(err.text, "cut.hdr: found no end of row 2 of 2");
 }
 
+/* Reads a file of one pixel or more with these lines and pixels of 4 bytes. */
+static struct image read_hdr(const char *lines, const char *pixels,
+                             size_t size_bytes)
+{
+    char text[256];
+    size_t length = strlen(lines);
+    struct image image;
+    struct error err;
+    uint64_t clamped;
+
+    memcpy(text, lines, length);
+    memcpy(text + length, pixels, size_bytes);
+    put_bytes("a.hdr", text, length + size_bytes);
+    check_or_say(image_read_linear(&image, "a.hdr", &clamped, &err), err.text);
+    return image;
+}
+
+/* Radiance: pixels were multiplied by all of EXPOSURE and COLORCORR. Lines may
+ * end with CRLF. */
+static void hdr_factors_are_divided_by(void **state)
+{
+    struct image image = read_hdr("#?RADIANCE\nEXPOSURE=2.0\n"
+                                  "FORMAT=32-bit_rle_rgbe\nEXPOSURE= 4\n"
+                                  "COLORCORR=1 .5 .25\nEXPOSURE=x\n\n"
+                                  "-Y 1 +X 1\n",
+                                  "\x80\x40\x20\x84", 4);
+
+    (void)state;
+    check_close((double)image.rgb[0], 8 / 8., 0);
+    check_close((double)image.rgb[1], 4 / (8 * .5), 0);
+    check_close((double)image.rgb[2], 2 / (8 * .25), 0);
+    image_free(&image);
+    image = read_hdr("#?RGBE\r\nFORMAT=32-bit_rle_rgbe\r\n\r\n"
+                     "-Y 1 +X 1\r\n",
+                     "\x80\x40\x20\x81", 4);
+    check_close((double)image.rgb[1], .5, 0);
+    image_free(&image);
+}
+
+/* The white of D65 in XYZ is white, and the primaries are those of Rec.709:
+ * red has x = .64, y = .33 and Y = .2126. */
+static void xyz_pixels_are_converted(void **state)
+{
+    struct image image = read_hdr("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n"
+                                  "-Y 1 +X 2\n",
+                                  "\xf3\xff\xff\x80"
+                                  "\xd3\x6d\x0a\x7f",
+                                  8);
+
+    (void)state;
+    check_close((double)image.rgb[3], 1, 5e-3);
+    check_close((double)image.rgb[4], 0, 5e-3);
+    check_close((double)image.rgb[5], 0, 5e-3);
+    check_close(0.2126 * (double)image.rgb[0] + 0.7152 * (double)image.rgb[1] +
+                    0.0722 * (double)image.rgb[2],
+                255 / 256., 1e-3); /* Y is luminance */
+    image_free(&image);
+}
+
+/* The first axis is that of the file's rows. +Y goes up, +X to the right. */
+static void hdr_rows_come_in_eight_orders(void **state)
+{
+    /* for each order, where the pixels 1 to 6 of a 3x2 image are in the file */
+    static const struct {
+        const char *line;
+        unsigned char pixels[6];
+    } orders[8] = {{"-Y 2 +X 3\n", {1, 2, 3, 4, 5, 6}},
+                   {"-Y 2 -X 3\n", {3, 2, 1, 6, 5, 4}},
+                   {"+Y 2 +X 3\n", {4, 5, 6, 1, 2, 3}},
+                   {"+Y 2 -X 3\n", {6, 5, 4, 3, 2, 1}},
+                   {"+X 3 -Y 2\n", {1, 4, 2, 5, 3, 6}},
+                   {"-X 3 -Y 2\n", {3, 6, 2, 5, 1, 4}},
+                   {"+X 3 +Y 2\n", {4, 1, 5, 2, 6, 3}},
+                   {"-X 3 +Y 2\n", {6, 3, 5, 2, 4, 1}}};
+
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        char lines[80], pixels[24];
+        struct image image;
+
+        snprintf(lines, sizeof lines, HDR_HEAD "%s", orders[i].line);
+        for (int k = 0; k < 6; k++)
+            memcpy(pixels + 4 * k,
+                   (const char[]){(char)orders[i].pixels[k], 0, 0, (char)136},
+                   4);
+        image = read_hdr(lines, pixels, sizeof pixels);
+        assert_int_equal(image.width, 3);
+        assert_int_equal(image.height, 2);
+        for (int k = 0; k < 6; k++)
+            check_close((double)image.rgb[3 * k], k + 1, 0);
+        image_free(&image);
+    }
+}
+
 static void broken_hdr_files_have_their_message(void **state)
 {
     static const char no_end[] = HDR_HEAD "-Y 1 +X 8\n\2\2\0\x08\0\0\0\0";
     static const char repeat[] = HDR_HEAD "-Y 1 +X 2\n\1\1\1\1\0\0\0\0";
 
     (void)state;
-    put_text("e.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n1234");
+    put_text("e.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_hsve\n\n-Y 1 +X 1\n1234");
     both_fail("e.hdr", "e.hdr: expected a header with FORMAT=32-bit_rle_rgbe");
     put_text("e.hdr", "#?RADIANCE\n");
     both_fail("e.hdr", "e.hdr: expected a header");
-    put_text("e.hdr", HDR_HEAD "+X 1 -Y 1\n1234");
-    both_fail("e.hdr", "e.hdr: expected '-Y height +X width'");
+    put_text("e.hdr", HDR_HEAD "+X 1 -X 1\n1234");
+    both_fail("e.hdr", "e.hdr: expected a line such as '-Y height +X width'");
     put_text("e.hdr", HDR_HEAD "-Y 1");
-    both_fail("e.hdr", "e.hdr: expected '-Y height +X width'");
+    both_fail("e.hdr", "e.hdr: expected a line such as '-Y height +X width'");
     put_text("e.hdr", HDR_HEAD "-Y nan +X 1\n1234");
     both_fail("e.hdr", "e.hdr: found a side of nan pixels, expected a whole");
     put_text("e.hdr", HDR_HEAD "-Y 1.5 +X 1\n1234");
@@ -473,6 +567,9 @@ int main(void)
         cmocka_unit_test(png_gives_its_bytes_and_linear_light),
         cmocka_unit_test(hdr_values_are_exact),
         cmocka_unit_test(packed_hdr_rows_are_unpacked),
+        cmocka_unit_test(hdr_factors_are_divided_by),
+        cmocka_unit_test(xyz_pixels_are_converted),
+        cmocka_unit_test(hdr_rows_come_in_eight_orders),
         cmocka_unit_test(broken_hdr_files_have_their_message),
         cmocka_unit_test(jpeg_tables_too_large_are_refused),
         cmocka_unit_test(hdr_values_are_clamped),
