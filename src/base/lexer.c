@@ -22,13 +22,22 @@ static bool is_line_end(char c)
     return c == '\n' || c == '\r';
 }
 
+void lexer_trim(const char **text, size_t *size_bytes)
+{
+    if (*size_bytes >= 3 && memcmp(*text, "\xef\xbb\xbf", 3) == 0) {
+        *text += 3;
+        *size_bytes -= 3;
+    }
+    while (*size_bytes > 0 && (*text)[*size_bytes - 1] == '\0')
+        --*size_bytes;
+}
+
 void lexer_init(struct lexer *lex, const char *text, size_t size_bytes)
 {
+    lexer_trim(&text, &size_bytes);
     lex->p = text;
     lex->end = text + size_bytes;
     lex->line = 1;
-    if (size_bytes >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
-        lex->p += 3;
 }
 
 /* Pairs of bytes that show UTF-16 without a byte order mark. */

@@ -34,7 +34,11 @@ struct word {
 /* Returns true for blanks within a line. */
 bool lexer_is_blank(char c);
 
-/* Skips a UTF-8 byte order mark. */
+/* Removes a UTF-8 byte order mark at the start of a text and NULs at its end,
+ * with which some programs fill a file. */
+void lexer_trim(const char **text, size_t *size_bytes);
+
+/* Begins a text, which is trimmed. */
 void lexer_init(struct lexer *lex, const char *text, size_t size_bytes);
 
 /* Returns true for text in UTF-16, with a byte order mark or with a NUL in

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "formats/mesh_finish.h"
 
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -146,18 +148,66 @@ static char *material_path(const char *path)
     return format_text("%.*s.mtl", (int)length, path);
 }
 
-/* Returns the text that defines the material, for free(). Colours of vertices
- * and textures multiply it. */
-static char *clay_text(const struct scene *s, struct word texture)
+/* Writes the name of an image. */
+static void write_image(FILE *to, struct word name, const char *stem)
 {
-    bool is_white = s->color_count > 0 || texture.length > 0;
+    static const char mark[] = "<this>";
+    const char *p = name.start, *end = p + name.length, *found;
 
-    return format_text("newmtl clay\nKd %g %g %g\nKd_roughness 0.5\n%s%.*s\n",
-                       is_white ? 1.0 : (double)clay.x,
-                       is_white ? 1.0 : (double)clay.y,
-                       is_white ? 1.0 : (double)clay.z,
-                       texture.length > 0 ? "map_Kd " : "", (int)texture.length,
-                       texture.length > 0 ? texture.start : "");
+    while ((found = memmem(p, (size_t)(end - p), mark, strlen(mark))) != NULL) {
+        fprintf(to, "%.*s%s", (int)(found - p), p, stem);
+        p = found + strlen(mark);
+    }
+    fprintf(to, "%.*s\n", (int)(end - p), p);
+}
+
+/* Writes clay, or white if colours multiply it. */
+static void write_clay(FILE *to, bool is_white)
+{
+    fprintf(to, "Kd %g %g %g\nKd_roughness 0.5\n",
+            is_white ? 1.0 : (double)clay.x, is_white ? 1.0 : (double)clay.y,
+            is_white ? 1.0 : (double)clay.z);
+}
+
+static void write_materials(FILE *to, const struct scene *s,
+                            const struct mesh_textures *t, const char *stem)
+{
+    bool has_colors = s->color_count > 0;
+
+    for (uint32_t i = 0; i < t->count; i++) {
+        if (i == 0)
+            fputs("newmtl clay\n", to);
+        else
+            fprintf(to, "newmtl clay-%" PRIu32 "\n", i + 1);
+        write_clay(to, has_colors || t->names[i].length > 0);
+        if (t->names[i].length == 0)
+            continue;
+        fputs("map_Kd ", to);
+        write_image(to, t->names[i], stem);
+    }
+    if (t->count == 0 || t->has_plain) {
+        fprintf(to, "newmtl clay%s\n", t->count == 0 ? "" : "-plain");
+        write_clay(to, has_colors);
+    }
+}
+
+/* Returns the text that defines the materials, for free(). */
+static char *clay_text(const struct scene *s, const struct mesh_textures *t)
+{
+    char *stem = path_stem_of_input(path_name(s->path));
+    char *text = NULL;
+    size_t size_bytes;
+    FILE *to = stem == NULL ? NULL : open_memstream(&text, &size_bytes);
+
+    if (to != NULL) {
+        write_materials(to, s, t, stem);
+        if (fclose(to) != 0) {
+            free(text);
+            text = NULL;
+        }
+    }
+    free(stem);
+    return text;
 }
 
 bool mesh_mtl_begin(struct scene *scene, const char *text,
@@ -190,10 +240,10 @@ bool mesh_mtl_read(struct scene *scene, struct warnings *report,
     return ok;
 }
 
-static bool add_clay(struct scene *scene, struct word texture,
+static bool add_clay(struct scene *scene, const struct mesh_textures *textures,
                      struct warnings *report, struct error *err)
 {
-    char *text = clay_text(scene, texture);
+    char *text = clay_text(scene, textures);
     bool ok = text != NULL ? mesh_mtl_begin(scene, text, report, err) &&
                                  mesh_mtl_read(scene, report, err)
                            : out_of_memory(scene, err);
@@ -216,12 +266,12 @@ bool mesh_add_normals(struct scene *scene, struct error *err)
 }
 
 bool mesh_finish(struct scene *scene, const struct vec3 *face_colors,
-                 struct word texture, struct warnings *report,
+                 const struct mesh_textures *textures, struct warnings *report,
                  struct error *err)
 {
     if (!mesh_add_normals(scene, err))
         return false;
     if (face_colors != NULL && !color_faces(scene, face_colors))
         return out_of_memory(scene, err);
-    return add_clay(scene, texture, report, err);
+    return add_clay(scene, textures, report, err);
 }

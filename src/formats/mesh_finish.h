@@ -36,11 +36,21 @@ bool mesh_mtl_begin(struct scene *scene, const char *text,
 bool mesh_mtl_read(struct scene *scene, struct warnings *report,
                    struct error *err);
 
-/* Adds the material, smooth normals if there are none, and the linear colours
+/* Image files of a mesh. "<this>" in a name stands for that of the scene file,
+ * without its ending. Faces have the material MESH_MATERIAL plus the number of
+ * their image, and behind the last one, with has_plain, that without an
+ * image. */
+struct mesh_textures {
+    const struct word *names;
+    uint32_t count;
+    bool has_plain;
+};
+
+/* Adds the materials, smooth normals if there are none, and the linear colours
  * of faces, if face_colors is not NULL, to the vertices: those with several
- * colours are doubled. `texture` is the name of an image file, or empty. */
+ * colours are doubled. */
 bool mesh_finish(struct scene *scene, const struct vec3 *face_colors,
-                 struct word texture, struct warnings *report,
+                 const struct mesh_textures *textures, struct warnings *report,
                  struct error *err);
 
 #endif

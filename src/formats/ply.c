@@ -37,6 +37,8 @@ struct reader {
     double *uvs;
     size_t index_capacity, uv_capacity, scene_uv_capacity;
     uint64_t index_count, uv_count;
+    double texture; /* number of the texture of the present face */
+    struct mesh_textures textures;
     bool has_uvs; /* of vertices */
 };
 
@@ -102,6 +104,7 @@ static bool read_face_row(struct reader *r, const struct ply_table *t,
     double rgb[3] = {0, 0, 0}, ignored;
 
     r->index_count = r->uv_count = 0;
+    r->texture = 0;
     for (uint32_t i = 0; i < t->element->property_count; i++) {
         const struct ply_property *p = &t->items[i];
         double *to = &ignored;
@@ -111,6 +114,8 @@ static bool read_face_row(struct reader *r, const struct ply_table *t,
         for (int k = 0; k < 3; k++)
             if (t->numbers[PLY_RED + k] == i)
                 to = &rgb[k];
+        if (t->numbers[PLY_TEXTURE] == i)
+            to = &r->texture;
         if (i == t->lists[PLY_LIST_VERTICES])
             ok = read_indices(r, p);
         else if (i == t->lists[PLY_LIST_UVS])
@@ -159,6 +164,26 @@ static bool put_uvs(struct reader *r)
     return true;
 }
 
+/* Returns the material of the present face. MeshLab writes texture -1 for a
+ * face without one. */
+static uint32_t material_of(struct reader *r)
+{
+    uint32_t count = r->header.texture_count;
+
+    if (count == 0)
+        return MESH_MATERIAL;
+    if (r->texture >= 0 && r->texture < count)
+        return MESH_MATERIAL + (uint32_t)r->texture;
+    r->textures.has_plain = true;
+    if (r->texture != -1)
+        warnings_add(r->report, "faces with a bad texture",
+                     "%s%s: found texture %g of a face, expected 0 to %" PRIu32
+                     " or -1: it has none",
+                     r->path, file_place_text(ply_data_place(&r->data)).text,
+                     r->texture, count - 1);
+    return MESH_MATERIAL + count;
+}
+
 /* Adds the face of some indices. The place is that behind it. */
 static bool add_face(struct reader *r, const int64_t *indices, uint64_t count)
 {
@@ -180,7 +205,7 @@ static bool add_face(struct reader *r, const int64_t *indices, uint64_t count)
     f->corner_count = (uint32_t)count;
     if (r->uv_count > 0 && !put_uvs(r))
         return false;
-    return face_tris_add(f, 0, MESH_MATERIAL, ply_data_place(&r->data)) ||
+    return face_tris_add(f, 0, material_of(r), ply_data_place(&r->data)) ||
            out_of_memory(r);
 }
 
@@ -395,7 +420,9 @@ static bool read_body(struct reader *r)
                     r->path, r->vertices.count,
                     print_plural(r->vertices.count));
     r->scene->up_is_z = r->header.is_of_blender;
-    return mesh_finish(r->scene, r->face_colors, r->header.texture, r->report,
+    r->textures.names = r->header.textures;
+    r->textures.count = r->header.texture_count;
+    return mesh_finish(r->scene, r->face_colors, &r->textures, r->report,
                        r->err);
 }
 
@@ -413,7 +440,8 @@ bool ply_parse(struct scene *scene, const char *bytes, size_t size_bytes,
               ply_header_parse(&r.header, bytes, size_bytes, path, err);
 
     if (ok) {
-        r.data = ply_data_begin(&r.header, bytes, size_bytes, path, err);
+        r.data =
+            ply_data_begin(&r.header, bytes, size_bytes, path, report, err);
         ok = read_body(&r);
     }
     ply_header_free(&r.header);

@@ -20,10 +20,12 @@ static bool is_little_endian(void)
 
 struct ply_data ply_data_begin(const struct ply_header *header,
                                const char *bytes, size_t size_bytes,
-                               const char *path, struct error *err)
+                               const char *path, struct warnings *report,
+                               struct error *err)
 {
     return (struct ply_data){
         .path = path,
+        .report = report,
         .err = err,
         .start = bytes,
         .p = bytes + header->size_bytes,
@@ -221,9 +223,15 @@ static bool read_whole(struct ply_data *d, enum ply_type type, int64_t *value)
     before = *d;
     if (!ply_data_number(d, type, &number))
         return false;
-    if (!(fabs(number) <= WHOLE_MAX) || number != floor(number))
-        return ply_data_fail(&before, "a fraction", "a whole number");
+    if (!(fabs(number) <= WHOLE_MAX))
+        return ply_data_fail(&before, "no whole number", "one");
     *value = (int64_t)number;
+    if (number != floor(number))
+        warnings_add(d->report, "fractions in lists of vertices",
+                     "%s%s: found %g, expected a whole number: taken as "
+                     "%" PRId64,
+                     d->path, file_place_text(ply_data_place(&before)).text,
+                     number, *value);
     return true;
 }
 

@@ -16,6 +16,7 @@
 /* Position in the data. */
 struct ply_data {
     const char *path;
+    struct warnings *report;
     struct error *err;
     const char *start; /* of the file */
     const char *p, *end;
@@ -27,7 +28,8 @@ struct ply_data {
 /* Begins behind the header. */
 struct ply_data ply_data_begin(const struct ply_header *header,
                                const char *bytes, size_t size_bytes,
-                               const char *path, struct error *err);
+                               const char *path, struct warnings *report,
+                               struct error *err);
 
 struct file_place ply_data_place(const struct ply_data *data);
 
@@ -44,7 +46,8 @@ bool ply_data_expect(const struct ply_data *data,
 /* Reads a number; integers of 64 bits are rounded to double. */
 bool ply_data_number(struct ply_data *data, enum ply_type type, double *value);
 
-/* Reads whole numbers. */
+/* Reads whole numbers. Fractions are cut off, with a warning, as by trimesh and
+ * others: some scanners write them. */
 bool ply_data_integers(struct ply_data *data, enum ply_type type,
                        uint64_t count, int64_t *to);
 

@@ -38,6 +38,7 @@ struct parser {
 
 bool ply_matches(const char *bytes, size_t size_bytes)
 {
+    lexer_trim(&bytes, &size_bytes);
     return size_bytes > 3 && memcmp(bytes, "ply", 3) == 0 &&
            (bytes[3] == '\n' || bytes[3] == '\r' || bytes[3] == ' ');
 }
@@ -225,16 +226,29 @@ static bool begins(struct word word, const char *text)
     return word.length >= length && memcmp(word.start, text, length) == 0;
 }
 
+static bool add_texture(struct parser *p, struct word name)
+{
+    struct ply_header *h = p->header;
+    void *textures = h->textures;
+
+    if (!grow_array(&textures, &h->texture_capacity,
+                    (size_t)h->texture_count + 1, sizeof *h->textures))
+        return out_of_memory(p);
+    h->textures = textures;
+    h->textures[h->texture_count++] = name;
+    return true;
+}
+
 /* Notes a texture, as MeshLab names it, and Blender as the writer. */
-static void read_comment(struct parser *p)
+static bool read_comment(struct parser *p)
 {
     struct parser start = *p;
     struct word rest = rest_of_line(&start);
 
     p->header->is_of_blender |= begins(rest, "Created by Blender") ||
                                 begins(rest, "Created in Blender");
-    if (word_is(next_word(p), "TextureFile"))
-        p->header->texture = rest_of_line(p);
+    return !word_is(next_word(p), "TextureFile") ||
+           add_texture(p, rest_of_line(p));
 }
 
 /* Reads the lines to end_header. Lines with an unknown first word are skipped:
@@ -265,7 +279,7 @@ static bool read_lines(struct parser *p)
         else if (word_is(word, "property"))
             ok = read_property(p);
         else if (word_is(word, "comment"))
-            read_comment(p);
+            ok = read_comment(p);
         if (!ok)
             return false;
     }
@@ -302,5 +316,6 @@ void ply_header_free(struct ply_header *header)
 {
     free(header->elements);
     free(header->properties);
+    free(header->textures);
     memset(header, 0, sizeof *header);
 }

@@ -51,7 +51,9 @@ struct ply_header {
     struct ply_property *properties;
     uint32_t element_count, property_count;
     size_t element_capacity, property_capacity;
-    struct word texture; /* file named by a comment "TextureFile"; or empty */
+    struct word *textures; /* files named by comments "TextureFile" */
+    uint32_t texture_count;
+    size_t texture_capacity;
     bool is_of_blender;
     size_t size_bytes;   /* the data follow */
     uint64_t line_count; /* of the header */

@@ -38,6 +38,7 @@ static const struct {
     {"texture_t", PLY_V},
     {"s0", PLY_U},
     {"t0", PLY_V},
+    {"texnumber", PLY_TEXTURE},
 };
 
 static void find_list(struct ply_table *t, uint32_t number)

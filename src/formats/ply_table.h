@@ -24,6 +24,7 @@ enum ply_role {
     PLY_BLUE,
     PLY_U,
     PLY_V,
+    PLY_TEXTURE, /* number of a face's texture */
     PLY_ROLES
 };
 

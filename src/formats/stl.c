@@ -5,7 +5,7 @@
  * Binary: 80 bytes of any text, a count, and for each triangle a normal, three
  * corners and 16 bits, which some programs use for a colour. The text may begin
  * with "solid", so the size decides. Programs that write a stream leave the
- * count 0; the size has it, too.
+ * count 0 or -1; the size has it, too.
  */
 #include "formats/stl.h"
 
@@ -91,10 +91,10 @@ static bool is_space(char c)
 /* Returns true for a text that begins with "solid", in any letter case. */
 static bool is_text(const char *bytes, size_t size_bytes)
 {
-    size_t checked =
-        size_bytes < TEXT_CHECK_BYTES ? size_bytes : TEXT_CHECK_BYTES;
-    size_t i = 0;
+    size_t checked, i = 0;
 
+    lexer_trim(&bytes, &size_bytes);
+    checked = size_bytes < TEXT_CHECK_BYTES ? size_bytes : TEXT_CHECK_BYTES;
     while (i < checked && is_space(bytes[i]))
         i++;
     return checked >= i + 6 && strncasecmp(bytes + i, "solid", 5) == 0 &&
@@ -214,11 +214,12 @@ static bool read_colors(struct reader *r, const char *bytes, uint32_t count)
     return true;
 }
 
-/* Finds the count of facets: that of the header, or, if that is 0, the one that
- * the size has. */
+/* Finds the count of facets: that of the header, or, if that is 0 or -1, the
+ * one that the size has. */
 static bool find_count(const struct reader *r, const char *bytes,
                        size_t size_bytes, uint32_t *count)
 {
+    uint32_t written;
     size_t room;
 
     if (size_bytes < BEGIN_BYTES)
@@ -227,16 +228,16 @@ static bool find_count(const struct reader *r, const char *bytes,
                     "that begins with 'solid' or at least %d bytes",
                     r->path, size_bytes, print_plural(size_bytes), BEGIN_BYTES);
     room = size_bytes - BEGIN_BYTES;
-    *count = load_u32(bytes + HEADER_BYTES);
-    if (*count == 0 && room >= FACET_BYTES && room % FACET_BYTES == 0 &&
-        room / FACET_BYTES < NO_INDEX) {
+    *count = written = load_u32(bytes + HEADER_BYTES);
+    if ((written == 0 || written == UINT32_MAX) && room >= FACET_BYTES &&
+        room % FACET_BYTES == 0 && room / FACET_BYTES < NO_INDEX) {
         *count = (uint32_t)(room / FACET_BYTES);
         warnings_add(r->report, "counts of 0",
-                     "%s: byte %d: found 0 triangles and room for %" PRIu32
+                     "%s: byte %d: found %s triangles and room for %" PRIu32
                      ": read them",
-                     r->path, HEADER_BYTES, *count);
+                     r->path, HEADER_BYTES, written == 0 ? "0" : "-1", *count);
     }
-    return binary_bytes(bytes) <= size_bytes ||
+    return *count <= room / FACET_BYTES ||
            fail(r->err,
                 "%s: byte %d: found %" PRIu32 " triangles, expected at most "
                 "%zu in the rest of the file",
@@ -396,7 +397,7 @@ static void take_names(struct reader *r)
 bool stl_parse(struct scene *scene, const char *bytes, size_t size_bytes,
                const char *path, struct warnings *report, struct error *err)
 {
-    static const struct word no_texture = {"", 0};
+    static const struct mesh_textures no_textures = {.count = 0};
     struct reader r = {
         .scene = scene,
         .path = path,
@@ -412,7 +413,7 @@ bool stl_parse(struct scene *scene, const char *bytes, size_t size_bytes,
 
     take_names(&r);
     scene->up_is_z = true;
-    ok = ok && mesh_finish(scene, r.face_colors, no_texture, report, err);
+    ok = ok && mesh_finish(scene, r.face_colors, &no_textures, report, err);
     name_table_free(&r.solids);
     weld_free(&r.weld);
     face_tris_free(&r.tris);

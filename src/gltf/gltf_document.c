@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/lexer.h"
 #include "base/memory.h"
 #include "base/print.h"
 #include "gltf/gltf_buffer.h"
@@ -34,6 +35,7 @@ bool gltf_matches(const char *bytes, size_t size_bytes)
 {
     size_t i = 0;
 
+    lexer_trim(&bytes, &size_bytes);
     while (i < size_bytes && strchr(" \t\r\n", bytes[i]) != NULL &&
            bytes[i] != '\0')
         i++;
@@ -120,12 +122,11 @@ static bool read_container(struct gltf_document *d, const char *bytes,
 static bool read_json(struct gltf_document *d, struct gltf_bytes json,
                       struct error *err)
 {
+    const char *text = (const char *)json.bytes;
     json_error_t e = {.text = ""};
 
-    /* some writers fill the chunk with NULs instead of blanks */
-    while (json.size_bytes > 0 && json.bytes[json.size_bytes - 1] == '\0')
-        json.size_bytes--;
-    d->root = json_loadb((const char *)json.bytes, json.size_bytes, 0, &e);
+    lexer_trim(&text, &json.size_bytes);
+    d->root = json_loadb(text, json.size_bytes, 0, &e);
     if (d->root == NULL)
         return fail(err, "%s:%d:%d: found JSON that cannot be read: %s",
                     d->path, e.line, e.column,

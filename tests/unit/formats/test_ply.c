@@ -295,6 +295,55 @@ static void normals_and_texture_coordinates_are_read(void **state)
     mesh_file_free(&m);
 }
 
+/* MeshLab writes several images, the number of each face's, and "<this>" for
+ * the name of the file. */
+static void faces_have_their_own_textures(void **state)
+{
+    struct mesh_file m =
+        parse(HEADER "comment TextureFile x.png\n"
+                     "comment TextureFile <this>_B.png\n"
+                     "element vertex 3\n" POSITION "element face 4\n" FACE
+                     "property list uchar float texcoord\n"
+                     "property int texnumber\nend_header\n"
+                     "0 0 0\n1 0 0\n0 1 0\n"
+                     "3 0 1 2 6 0 0 1 0 0 1 1\n3 0 1 2 6 0 0 1 0 0 1 0\n"
+                     "3 0 1 2 0 -1\n3 0 1 2 6 0 0 1 0 0 1 2\n");
+    static const char *const images[] = {"a_B.png", "x.png", NULL, NULL};
+    const struct scene *s = &m.scene;
+
+    (void)state;
+    assert_int_equal(s->tri_count, 4);
+    for (int i = 0; i < 4; i++) {
+        const struct material *f = &s->materials[s->tris[i].material];
+
+        if (images[i] != NULL)
+            assert_string_equal(s->texture_paths[f->color_texture], images[i]);
+        else
+            assert_int_equal(f->color_texture, NO_INDEX);
+        check_close((double)f->color.x, images[i] != NULL ? 1 : .66, 1e-6);
+    }
+    assert_int_equal(m.report.entry_count, 1);
+    assert_string_equal(m.report.entries[0].text,
+                        "a.ply:20: found texture 2 of a face, expected 0 to 1 "
+                        "or -1: it has none");
+    mesh_file_free(&m);
+}
+
+/* trimesh cuts fractions off; Blender and libassimp read 2.5 as 2, too. */
+static void fractions_in_lists_are_cut_off(void **state)
+{
+    struct mesh_file m = parse(HEADER TRIANGLE "3 0 1 2.5\n");
+
+    (void)state;
+    check_tri(&m.scene, 0, 0, 1, 2);
+    assert_string_equal(m.report.entries[0].text,
+                        "a.ply:13: found 2.5, expected a whole number: taken "
+                        "as 2");
+    mesh_file_free(&m);
+    check_refused("a", HEADER TRIANGLE "3 0 1 inf\n",
+                  "a:13: found no whole number, expected one");
+}
+
 static void corners_may_have_texture_coordinates(void **state)
 {
     struct mesh_file m =
@@ -426,8 +475,6 @@ static void wrong_data_are_refused(void **state)
                   "a:13: found vertex 3 in a face, expected 0 to 2");
     check_refused("a", HEADER TRIANGLE "3 0 1 -1\n",
                   "a:13: found vertex -1 in a face, expected 0 to 2");
-    check_refused("a", HEADER TRIANGLE "3 0 1 1.5\n",
-                  "a:13: found a fraction, expected a whole number");
     check_refused("a", HEADER TRIANGLE "3 0 1 one\n",
                   "a:13: found 'one', expected a number");
     check_refused("a", HEADER TRIANGLE "3 0 1",
@@ -475,6 +522,8 @@ int main(void)
         cmocka_unit_test(corners_may_have_texture_coordinates),
         cmocka_unit_test(colors_of_faces_double_vertices),
         cmocka_unit_test(fractions_are_colors_up_to_1_or_255),
+        cmocka_unit_test(faces_have_their_own_textures),
+        cmocka_unit_test(fractions_in_lists_are_cut_off),
         cmocka_unit_test(z_is_up_in_files_of_blender),
         cmocka_unit_test(wrong_headers_are_refused),
         cmocka_unit_test(wrong_data_are_refused),

@@ -84,21 +84,30 @@ static void size_decides_what_is_binary(void **state)
     }
 }
 
-static void a_count_of_0_is_mended(void **state)
+/* Programs that write a stream leave the count 0 or -1. */
+static void counts_of_streams_are_mended(void **state)
 {
     static const char none[10] = "";
-    struct mesh_file m;
-    struct bytes b;
+    static const struct {
+        unsigned count;
+        const char *message;
+    } streams[] = {
+        {0, "a.stl: byte 80: found 0 triangles and room for 1: read them"},
+        {UINT32_MAX,
+         "a.stl: byte 80: found -1 triangles and room for 1: read them"}};
 
     (void)state;
-    begin(&b, "stream", none, 0);
-    add_facet(&b, 0, 0);
-    m = parse_good("a.stl", b.data, b.size);
-    assert_int_equal(m.scene.tri_count, 1);
-    assert_string_equal(m.report.entries[0].text,
-                        "a.stl: byte 80: found 0 triangles and room for 1: "
-                        "read them");
-    mesh_file_free(&m);
+    for (int i = 0; i < 2; i++) {
+        struct mesh_file m;
+        struct bytes b;
+
+        begin(&b, "stream", none, streams[i].count);
+        add_facet(&b, 0, 0);
+        m = parse_good("a.stl", b.data, b.size);
+        assert_int_equal(m.scene.tri_count, 1);
+        assert_string_equal(m.report.entries[0].text, streams[i].message);
+        mesh_file_free(&m);
+    }
 }
 
 /* Checks the colour of the corners of a triangle. */
@@ -195,7 +204,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_is_read),
         cmocka_unit_test(size_decides_what_is_binary),
-        cmocka_unit_test(a_count_of_0_is_mended),
+        cmocka_unit_test(counts_of_streams_are_mended),
         cmocka_unit_test(colors_of_viscam_are_read),
         cmocka_unit_test(colors_of_magics_are_read),
         cmocka_unit_test(wrong_texts_are_refused),
