@@ -35,7 +35,8 @@ struct parser {
     struct name_table libraries; /* paths of the MTL files read */
     struct face_tris faces;
     uint32_t object, material;
-    bool has_objects; /* there was an o statement: g is only a group */
+    uint32_t painted_count; /* vertices with a colour from #MRGB */
+    bool has_objects;       /* there was an o statement: g is only a group */
 };
 
 static bool out_of_memory(const struct parser *p)
@@ -279,6 +280,69 @@ static bool read_mtllib(struct parser *p)
     return ok;
 }
 
+/* ---- colours of ZBrush ---- */
+
+static const char paint_key[] = "#MRGB";
+
+/* Returns true at a comment in which ZBrush writes colours. */
+static bool is_paint(const struct lexer *lex)
+{
+    size_t length = strlen(paint_key);
+
+    return (size_t)(lex->end - lex->p) > length &&
+           memcmp(lex->p, paint_key, length) == 0 &&
+           lexer_is_blank(lex->p[length]);
+}
+
+/* Reads two hexadecimal digits. Returns -1 if they are none. */
+static int hex_byte(const char *p)
+{
+    int value = 0;
+
+    for (int i = 0; i < 2; i++) {
+        int digit = p[i] >= '0' && p[i] <= '9' ? p[i] - '0'
+                    : (p[i] | 32) >= 'a' && (p[i] | 32) <= 'f'
+                        ? (p[i] | 32) - 'a' + 10
+                        : -1;
+
+        if (digit < 0)
+            return -1;
+        value = 16 * value + digit;
+    }
+    return value;
+}
+
+/* Reads MMRRGGBB for each of the next vertices, a mask and a colour, which go
+ * on from one comment to the next. ZBrush writes them behind the vertices. */
+static bool read_paint(struct parser *p)
+{
+    struct word word;
+
+    p->lex.p += strlen(paint_key);
+    lexer_skip_blanks(&p->lex);
+    word = lexer_word(&p->lex);
+    for (; word.length >= 8; word.start += 8, word.length -= 8) {
+        double rgb[3];
+
+        for (int k = 0; k < 3; k++)
+            rgb[k] = hex_byte(word.start + 2 + 2 * k) / 255.0;
+        if (rgb[0] < 0 || rgb[1] < 0 || rgb[2] < 0 ||
+            p->painted_count == p->scene->position_count)
+            break;
+        if (!vertex_colors_set(p->scene, &p->color_capacity, p->painted_count++,
+                               rgb))
+            return out_of_memory(p);
+    }
+    if (word.length > 0)
+        warnings_add(p->report, "colours that are not used",
+                     "%s:%" PRIu64 ": found %s in %s, expected 8 hexadecimal "
+                     "digits for each vertex before it: not used",
+                     p->path, p->lex.line, word_quote(word).text, paint_key);
+    return true;
+}
+
+/* ---- other statements ---- */
+
 /* Returns true for statements of free-form curves and surfaces. */
 static bool is_free_form(struct word key)
 {
@@ -338,6 +402,31 @@ static bool read_statement(struct parser *p)
     return skip_unknown(p, key);
 }
 
+/* Returns the material of faces before the first usemtl. If the MTL files have
+ * a single one, it is meant, as libassimp reads such files. */
+static uint32_t material_of_none(struct parser *p)
+{
+    const struct scene *scene = p->scene;
+    uint32_t found = scene->material_count - 1;
+    bool is_needed = false;
+
+    for (uint32_t i = 0; !is_needed && i < scene->tri_count; i++)
+        is_needed = scene->tris[i].material == 0;
+    if (!is_needed || found == 0)
+        return 0;
+    if (found == 1)
+        warnings_add(p->report, "faces without usemtl",
+                     "%s: found faces without usemtl, and one material: '%s' "
+                     "is used",
+                     p->path, scene->material_names[1]);
+    else
+        warnings_add(p->report, "faces without usemtl",
+                     "%s: found faces without usemtl, and %" PRIu32
+                     " materials: grey is used",
+                     p->path, found);
+    return found == 1;
+}
+
 /* Replaces the numbers of names in usemtl by those of materials. This is done
  * at the end because mtllib may come after usemtl. */
 static bool resolve_materials(struct parser *p)
@@ -349,7 +438,9 @@ static bool resolve_materials(struct parser *p)
 
     for (uint32_t i = 0; ok && i < scene->material_count; i++)
         ok = name_table_add(&known, scene->material_names[i]) != NO_NAME;
-    for (uint32_t i = 0; ok && i < p->materials.count; i++) {
+    if (ok)
+        numbers[0] = material_of_none(p);
+    for (uint32_t i = 1; ok && i < p->materials.count; i++) {
         const char *name = p->materials.items[i];
 
         numbers[i] = name_table_find(&known, name);
@@ -370,16 +461,20 @@ static bool resolve_materials(struct parser *p)
 
 static bool looks_binary(const char *text, size_t size_bytes)
 {
-    size_t n =
-        size_bytes < BINARY_CHECK_BYTES ? size_bytes : BINARY_CHECK_BYTES;
-
-    return memchr(text, '\0', n) != NULL;
+    lexer_trim(&text, &size_bytes);
+    return memchr(text, '\0',
+                  size_bytes < BINARY_CHECK_BYTES ? size_bytes
+                                                  : BINARY_CHECK_BYTES) != NULL;
 }
 
 static bool parse_lines(struct parser *p)
 {
     for (; p->lex.p < p->lex.end; lexer_next_line(&p->lex)) {
-        if (!lexer_at_line_end(&p->lex) && !read_statement(p))
+        bool ok = is_paint(&p->lex)
+                      ? read_paint(p)
+                      : lexer_at_line_end(&p->lex) || read_statement(p);
+
+        if (!ok)
             return false;
     }
     if (p->statement_count == 0)

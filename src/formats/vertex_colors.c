@@ -35,13 +35,19 @@ struct vec3 vertex_color_encoded(const double rgb[3])
               at_least_zero(rgb[2]));
 }
 
-bool vertex_colors_put(struct scene *scene, size_t *capacity,
+bool vertex_colors_set(struct scene *scene, size_t *capacity, uint32_t index,
                        const double rgb[3])
 {
     if (!extend(scene, capacity))
         return false;
-    scene->colors[scene->position_count - 1] = vertex_color_encoded(rgb);
+    scene->colors[index] = vertex_color_encoded(rgb);
     return true;
+}
+
+bool vertex_colors_put(struct scene *scene, size_t *capacity,
+                       const double rgb[3])
+{
+    return vertex_colors_set(scene, capacity, scene->position_count - 1, rgb);
 }
 
 float vertex_colors_white(const struct vec3 *colors, size_t count)

@@ -20,6 +20,10 @@
 bool vertex_colors_put(struct scene *scene, size_t *capacity,
                        const double rgb[3]);
 
+/* Sets the colour of vertex `index`, which the scene has. */
+bool vertex_colors_set(struct scene *scene, size_t *capacity, uint32_t index,
+                       const double rgb[3]);
+
 /* Gives the other vertices a colour, and decodes all. */
 bool vertex_colors_finish(struct scene *scene, size_t *capacity);
 

@@ -331,7 +331,9 @@ static char *material_text(const struct assimp_api *api, struct sender *s,
     struct name_table names = {0};
     char *text = NULL;
     FILE *to = open_memstream(&text, size_bytes);
-    const struct import_materials m = {api, s->scene, s->path, &s->source, to};
+    const struct import_materials m = {api,     s->scene,
+                                       s->path, &s->source,
+                                       to,      &s->head.clamped_count};
     bool ok = to != NULL;
 
     for (unsigned i = 0; ok && i < s->scene->mNumMaterials; i++)

@@ -162,6 +162,19 @@ static void write_metal(const struct writer *w)
         write_number(w, "Pm", metal);
 }
 
+/* Returns a roughness from 0 to 1. libassimp makes 1 - sqrt(N) / 10 of the
+ * exponent N of a highlight, which is below 0 for most of 3ds Max's: those are
+ * as wide as that highlight, as Ns is. */
+static float roughness_within(const struct writer *w, float roughness)
+{
+    float root = 10 * (1 - roughness);
+
+    if (roughness >= 0 && roughness <= 1)
+        return roughness;
+    ++*w->all->clamped_count;
+    return roughness < 0 ? powf(2 / (root * root + 2), 0.25f) : 1;
+}
+
 /* Writes roughness and metal if the file has them, else the highlight. */
 static void write_facets(const struct writer *w)
 {
@@ -170,7 +183,7 @@ static void write_facets(const struct writer *w)
 
     write_metal(w);
     if (get_number(w, "$mat.roughnessFactor", &roughness)) {
-        write_number(w, "Pr", roughness);
+        write_number(w, "Pr", roughness_within(w, roughness));
         write_color(w, "Ks", &(struct aiColor4D){0.5f, 0.5f, 0.5f, 1}, 1);
         return;
     }

@@ -22,6 +22,7 @@ struct import_materials {
     const char *path;            /* of the scene's file */
     const struct import_source *source;
     FILE *to;
+    uint32_t *clamped_count; /* materials with an impossible roughness */
 };
 
 /* Writes the statements of a material. Its name is made unique with

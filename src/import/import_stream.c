@@ -355,6 +355,12 @@ bool import_stream_read(struct scene *scene, const char *bytes,
                      "out",
                      path, s.head.skipped_count,
                      print_plural(s.head.skipped_count));
+    if (s.head.clamped_count > 0)
+        warnings_add(report, "roughness out of range",
+                     "%s: found %u material%s whose roughness libassimp "
+                     "computes, expected 0 to 1: as wide as its highlight",
+                     path, s.head.clamped_count,
+                     print_plural(s.head.clamped_count));
     return take_vertices(&s) && take_tris(&s) && take_names(&s) &&
            take_cameras(&s) && take_lamps(&s) && take_images(&s) &&
            mesh_add_normals(scene, err) && take_materials(&s, report);

@@ -43,7 +43,7 @@ struct import_head {
     uint32_t camera_count;
     uint32_t lamp_count;
     uint32_t skipped_count; /* lights of other kinds */
-    uint32_t padding;
+    uint32_t clamped_count; /* materials with an impossible roughness */
     uint64_t name_bytes;
     uint64_t material_bytes;
 };

@@ -25,12 +25,23 @@ static bool apply_options(const struct options *o, struct view *view,
     return o->turbidity == 0 || view_set_turbidity(view, o->turbidity, err);
 }
 
+/* Returns the first warning about faces: why there are none, with the line of
+ * the file if it has some. */
+static const char *face_warning(const struct warnings *report)
+{
+    for (int i = 0; i < report->entry_count; i++)
+        if (strstr(report->entries[i].kind, "face") != NULL ||
+            strstr(report->entries[i].kind, "triangle") != NULL)
+            return report->entries[i].text;
+    return "only the background is rendered";
+}
+
 /* Puts the additions of scene_open() into the notice. */
 static void note_additions(struct session *s)
 {
     if (s->scene.tri_count == 0)
-        snprintf(s->notice, sizeof s->notice,
-                 "no faces: only the background is rendered");
+        snprintf(s->notice, sizeof s->notice, "no faces: %s",
+                 face_warning(&s->report));
     else if (view_has_soft_sky(&s->edit.now.view))
         snprintf(s->notice, sizeof s->notice,
                  "no light in the scene: lit by a soft sky");

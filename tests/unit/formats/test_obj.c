@@ -2,7 +2,9 @@
 /* test_obj.c - faces of OBJ files: indices, objects, materials, numbers */
 #include <math.h>
 #include <stdlib.h>
+#include <unistd.h>
 
+#include "tests/unit/files.h"
 #include "tests/unit/formats/obj_texts.h"
 
 static void check_tri(const struct scene *scene, uint32_t t, uint32_t a,
@@ -250,6 +252,67 @@ static void many_names_take_linear_time(void **state)
     free(text);
 }
 
+/* IEC 61966-2-1. */
+static double linear(double x)
+{
+    return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
+}
+
+/* ZBrush: MMRRGGBB for each vertex, in comments that go on. */
+static void colors_of_zbrush_are_read(void **state)
+{
+    struct loaded l =
+        load_good(SQUARE "#MRGB ffff0000ff00ff00\n#MRGB FF3366CC\nf 1 2 3 4\n",
+                  2);
+    static const double colors[4][3] = {{1, 0, 0},
+                                        {0, 1, 0},
+                                        {.2, .4, .8},
+                                        {1, 1, 1}};
+
+    (void)state;
+    assert_int_equal(l.report.entry_count, 0);
+    assert_int_equal(l.scene.color_count, 4);
+    for (int i = 0; i < 4; i++) {
+        check_close((double)l.scene.colors[i].x, linear(colors[i][0]), 1e-6);
+        check_close((double)l.scene.colors[i].y, linear(colors[i][1]), 1e-6);
+        check_close((double)l.scene.colors[i].z, linear(colors[i][2]), 1e-6);
+    }
+    unload(&l);
+    l = load_good("v 0 0 0\n#MRGB 00ffffff0\n#MRGBA 1\n# MRGB\n", 0);
+    assert_string_equal(l.report.entries[0].text,
+                        "a.obj:2: found '0' in #MRGB, expected 8 hexadecimal "
+                        "digits for each vertex before it: not used");
+    unload(&l);
+}
+
+/* libassimp gives such faces the material of the MTL file. With several it
+ * takes the last one, which is no better than any other. */
+static void a_single_material_needs_no_usemtl(void **state)
+{
+    struct loaded l;
+
+    (void)state;
+    put("one.mtl", "newmtl red\nKd 1 0 0\n");
+    l = load_good("mtllib one.mtl\n" SQUARE "f 1 2 3\n", 1);
+    assert_int_equal(l.scene.tris[0].material, 1);
+    assert_string_equal(l.report.entries[0].text,
+                        "a.obj: found faces without usemtl, and one material: "
+                        "'red' is used");
+    unload(&l);
+    put("one.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+    l = load_good("mtllib one.mtl\n" SQUARE "f 1 2 3\n", 1);
+    assert_int_equal(l.scene.tris[0].material, 0);
+    assert_string_equal(l.report.entries[0].text,
+                        "a.obj: found faces without usemtl, and 2 materials: "
+                        "grey is used");
+    unload(&l);
+    l = load_good("mtllib one.mtl\n" SQUARE "usemtl blue\nf 1 2 3\n", 1);
+    assert_int_equal(l.scene.tris[0].material, 2);
+    assert_int_equal(l.report.entry_count, 0);
+    unload(&l);
+    unlink("one.mtl");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -265,7 +328,9 @@ int main(void)
         cmocka_unit_test(unknown_materials_are_warned_of),
         cmocka_unit_test(texture_coordinates_are_finite),
         cmocka_unit_test(many_names_take_linear_time),
+        cmocka_unit_test(colors_of_zbrush_are_read),
+        cmocka_unit_test(a_single_material_needs_no_usemtl),
     };
 
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, enter_folder, leave_empty_folder);
 }

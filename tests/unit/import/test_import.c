@@ -267,6 +267,41 @@ static void images_in_the_file_are_textures(void **state)
     scene_free(&scene);
 }
 
+/* 1 - sqrt(N) / 10, as libassimp computes it of 3ds Max's exponents: -2.2 is
+ * N = 1024, whose highlight is as wide as the facets of alpha^2 = 2 / (N + 2).
+ */
+static void exponents_are_no_mirrors(void **state)
+{
+    static const char factor[] = "\"pbrMetallicRoughness\":"
+                                 "{\"roughnessFactor\":-2.2,";
+    const char *at = strstr(with_image, "\"pbrMetallicRoughness\":{");
+    size_t length = strlen("\"pbrMetallicRoughness\":{");
+    struct warnings report = {0};
+    struct scene scene = {.program = "/proc/self/exe"};
+    char text[2048];
+    struct error err;
+    int size;
+
+    (void)state;
+    if (import_missing() != NULL)
+        skip();
+    size = snprintf(text, sizeof text, "%.*s%s%s", (int)(at - with_image),
+                    with_image, factor, at + length);
+    put("r.gltf", text);
+    check_or_say(import_parse(&scene, text, (size_t)size, "r.gltf", &report,
+                              &err),
+                 err.text);
+    check_close((double)scene.materials[scene.tris[0].material].alpha,
+                sqrt(2 / 1026.), 1e-5);
+    assert_string_equal(report.entries[0].text,
+                        "r.gltf: found 1 material whose roughness libassimp "
+                        "computes, expected 0 to 1: as wide as its highlight");
+    assert_int_equal(report.entry_count, 1);
+    warnings_free(&report);
+    scene_free(&scene);
+    unlink("r.gltf");
+}
+
 /* Writes a program of the shell and returns its path. */
 static const char *shell_program(const char *script)
 {
@@ -332,6 +367,7 @@ int main(int count, char **arguments)
         cmocka_unit_test(cameras_and_lights_are_those_of_their_nodes),
         cmocka_unit_test(intensities_are_those_of_the_program),
         cmocka_unit_test(images_in_the_file_are_textures),
+        cmocka_unit_test(exponents_are_no_mirrors),
         cmocka_unit_test(failures_are_one_line),
         cmocka_unit_test(other_bytes_are_refused),
     };

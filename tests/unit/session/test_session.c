@@ -260,8 +260,17 @@ static void scenes_without_light_have_a_sky(void **state)
 
     put("s.obj", "v 0 0 0\n");
     open_session(&s, &o);
-    assert_non_null(strstr(s.notice, "no faces"));
+    assert_string_equal(s.notice, "no faces: s.obj: found no visible face: "
+                                  "only the background is rendered");
     assert_true(s.edit.now.view.lighting.background[1] == 0.0);
+    session_close(&s);
+
+    /* the reason and its line, as in batch mode */
+    put("s.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n");
+    open_session(&s, &o);
+    assert_string_equal(s.notice, "no faces: s.obj:3: found vertex 3 in a "
+                                  "face, expected 1 to 2 or -1 to -2: face "
+                                  "dropped");
     session_close(&s);
 }
 
