@@ -118,7 +118,9 @@ static bool shares_texels(struct host_world *host, const struct scene *scene,
         t->first = other->first;
         t->width = other->width;
         t->height = other->height;
-        find_alpha(host, t);
+        t->has_alpha = other->has_alpha;
+        if (t->channel != other->channel || t->flags != other->flags)
+            find_alpha(host, t);
         return true;
     }
     return false;
