@@ -208,15 +208,28 @@ static bool is_range(const struct photometry *p, double first, double last)
            fabs(p->horizontal[p->horizontal_count - 1] - last) < .01;
 }
 
+/* Returns true if the angles go all around in equal steps, the last of which
+ * leads to the first one. */
+static bool is_circle(const struct photometry *p)
+{
+    double step = 360.0 / p->horizontal_count;
+
+    for (uint32_t i = 1; i < p->horizontal_count; i++)
+        if (fabs(p->horizontal[i] - p->horizontal[0] - i * step) > .01)
+            return false;
+    return p->horizontal_count > 1;
+}
+
 static bool check_range(const struct reader *r, const struct photometry *p,
                         struct error *err)
 {
     if (p->horizontal_count == 1 || is_range(p, 0, 90) || is_range(p, 0, 180) ||
-        is_range(p, 90, 270) || is_range(p, 0, 360))
+        is_range(p, 90, 270) || is_range(p, 0, 360) || is_circle(p))
         return true;
     return fail(err,
                 "%s:%" PRIu64 ": found horizontal angles from %g to %g, "
-                "expected 0, 0 to 90, 0 to 180, 90 to 270 or 0 to 360",
+                "expected 0, 0 to 90, 0 to 180, 90 to 270, 0 to 360 or equal "
+                "steps of a circle",
                 r->path, r->line, p->horizontal[0],
                 p->horizontal[p->horizontal_count - 1]);
 }
@@ -241,22 +254,42 @@ static bool read_candelas(struct reader *r, struct photometry *p,
                 r->path, most * DAYLIGHT_UNIT);
 }
 
+/* Returns true if the file has one half or one quarter of the circle. */
+static bool is_symmetric(const struct photometry *p)
+{
+    return is_range(p, 0, 90) || is_range(p, 0, 180) || is_range(p, 90, 270);
+}
+
+/* Repeats the first angle behind the last of equal steps. */
+static void close_circle(struct photometry *p)
+{
+    if (is_symmetric(p) || !is_circle(p))
+        return;
+    memcpy(p->candelas + (size_t)p->horizontal_count * p->vertical_count,
+           p->candelas, p->vertical_count * sizeof *p->candelas);
+    p->horizontal[p->horizontal_count++] = p->horizontal[0] + 360;
+}
+
 static bool read_photometry(struct reader *r, struct photometry *p,
                             struct error *err)
 {
     if (!read_tilt(r, err) || !read_header(r, p, err))
         return false;
     p->vertical = alloc_array(p->vertical_count, sizeof *p->vertical);
-    p->horizontal = alloc_array(p->horizontal_count, sizeof *p->horizontal);
-    p->candelas = alloc_array((size_t)p->vertical_count * p->horizontal_count,
-                              sizeof *p->candelas);
+    p->horizontal = alloc_array(p->horizontal_count + 1, sizeof *p->horizontal);
+    p->candelas =
+        alloc_array((size_t)p->vertical_count * (p->horizontal_count + 1),
+                    sizeof *p->candelas);
     if (p->vertical == NULL || p->horizontal == NULL || p->candelas == NULL)
         return fail(err, "%s: out of memory", r->path);
-    return read_angles(r, 180, "a vertical angle from 0 to 180", p->vertical,
-                       p->vertical_count, err) &&
-           read_angles(r, 360, "a horizontal angle from 0 to 360",
-                       p->horizontal, p->horizontal_count, err) &&
-           check_range(r, p, err) && read_candelas(r, p, err);
+    if (!read_angles(r, 180, "a vertical angle from 0 to 180", p->vertical,
+                     p->vertical_count, err) ||
+        !read_angles(r, 360, "a horizontal angle from 0 to 360", p->horizontal,
+                     p->horizontal_count, err) ||
+        !check_range(r, p, err) || !read_candelas(r, p, err))
+        return false;
+    close_circle(p);
+    return true;
 }
 
 /* Finds the place of an angle among others: *low is the index before it, and
@@ -285,6 +318,8 @@ static double fold(const struct photometry *p, double angle)
         angle = angle > 180 ? 360 - angle : angle;
     else if (is_range(p, 90, 270))
         angle = angle < 90 ? 180 - angle : angle > 270 ? 540 - angle : angle;
+    else if (angle < p->horizontal[0])
+        angle += 360;
     return angle;
 }
 

@@ -120,14 +120,25 @@ static bool check_spot(const struct view_reader *r, const struct lamp *lamp,
     return true;
 }
 
+/* Reads the profile of a file. One that cannot be used is a warning: the lamp
+ * shines evenly and keeps the name of the file. */
 static bool read_ies(struct view_reader *r, struct lamp *lamp,
                      struct error *err)
 {
     char *path = view_read_path(r, "an IES file for ies", err);
+    struct error why;
 
-    lamp->profile = path ? ies_read(path, err) : NULL;
+    if (path == NULL)
+        return false;
+    lamp->profile = ies_read(path, &why);
+    if (lamp->profile == NULL) {
+        warnings_add(r->report, "unusable profiles of lights",
+                     "%s: the light shines evenly", why.text);
+        lamp->profile = profile_create_even(path);
+    }
     free(path);
-    return lamp->profile != NULL;
+    return lamp->profile != NULL ||
+           fail(err, "%s: out of memory for its lights", r->path);
 }
 
 /* Reads the words behind the kind and its numbers. */

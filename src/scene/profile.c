@@ -47,3 +47,12 @@ bool profiles_equal(const struct profile *a, const struct profile *b)
            memcmp(a->values, b->values,
                   profile_value_count(a) * sizeof *a->values) == 0;
 }
+
+struct profile *profile_create_even(const char *path)
+{
+    struct profile *p = profile_create(path, 1);
+
+    for (uint32_t i = 0; p != NULL && i < profile_value_count(p); i++)
+        p->values[i] = 1;
+    return p;
+}

@@ -31,6 +31,9 @@ struct profile {
 /* Makes a profile with room for its values. */
 struct profile *profile_create(const char *path, uint32_t columns);
 
+/* Makes one that emits the same in all directions. */
+struct profile *profile_create_even(const char *path);
+
 /* Both accept NULL. */
 struct profile *profile_share(struct profile *profile);
 void profile_release(struct profile *profile);

@@ -21,7 +21,7 @@ run_untimed $b plain.obj
 ies() {
     printf 'IESNA91\n%s\n1 1 1 2 1 %s 2 0 0 0\n1 1 1\n0 90\n0\n%s\n' "$@" >a.ies
     echo 'light point 0 2 0 ies a.ies' >plain.view
-    run $b plain.obj
+    run_untimed $b plain.obj
 }
 ies TILT=INCLUDE 1 '5 0'
 ies TILT=NONE 3 '5 0'
@@ -30,5 +30,5 @@ ies TILT=NONE 1 '5 x'
 for line in 'light point 0 2 0 ies' 'light spot 0 2 0 at 0 0 0 ies no.ies' \
     'light directional 1 2 ies a.ies'; do
     echo "$line" >plain.view
-    run $b plain.obj
+    run_untimed $b plain.obj
 done

@@ -185,6 +185,33 @@ static void symmetric_files_are_like_full_ones(void **state)
     }
 }
 
+/* A circle in equal steps need not repeat its first angle at 360 degrees, and
+ * may begin anywhere. */
+static void open_circles_are_closed(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        enum symmetry symmetry = (enum symmetry)i;
+        struct profile *full = make_shape(symmetry, 0, 360, 5);
+        struct profile *open = make_shape(symmetry, 0, 355, 5);
+        struct profile *fine = make_shape(symmetry, 0, 360, 1);
+        struct profile *later = make_shape(symmetry, 1, 359, 2);
+
+        assert_int_equal(open->columns, full->columns);
+        for (uint32_t k = 0; k < profile_value_count(open); k++)
+            check_close((double)open->values[k], (double)full->values[k], 1e-6);
+        /* steps of two degrees are off by .5 * (pi / 180)^2 of the second
+         * derivative at most, which is 4 */
+        for (uint32_t k = 0; k < profile_value_count(later); k++)
+            check_close((double)later->values[k], (double)fine->values[k],
+                        1e-3);
+        profile_release(full);
+        profile_release(open);
+        profile_release(fine);
+        profile_release(later);
+    }
+}
+
 /* Horizontal angle 0 is towards +x, 90 towards -z: counter-clockwise seen from
  * above. */
 static void angles_have_their_directions(void **state)
@@ -275,7 +302,10 @@ static void broken_files_have_their_message(void **state)
          "a.ies:4: found '-90', expected a vertical angle from 0 to 180"},
         {HEAD "1 2 3 1 2 1 1 0 0 0 1 1 1\n0\n0 45\n1 1",
          "a.ies:5: found horizontal angles from 0 to 45, expected 0, 0 to 90, "
-         "0 to 180, 90 to 270 or 0 to 360"},
+         "0 to 180, 90 to 270, 0 to 360 or equal steps of a circle"},
+        {HEAD "1 2 3 1 3 1 1 0 0 0 1 1 1\n0\n0 120 230\n1 1 1",
+         "a.ies:5: found horizontal angles from 0 to 230, expected 0, 0 to 90, "
+         "0 to 180, 90 to 270, 0 to 360 or equal steps of a circle"},
         {HEAD "1 2 3 1 1 1 1 0 0 0 1 1 1\n0 0 -1",
          "a.ies:4: found '-1', expected a candela value from 0 to 1e12"},
         {HEAD "1 2 3 1 1 1 1 0 0 0 1 1 1\n0 0 nan",
@@ -292,6 +322,46 @@ static void broken_files_have_their_message(void **state)
         assert_null(
             ies_parse(cases[i].text, strlen(cases[i].text), "a.ies", &err));
         assert_string_equal(err.text, cases[i].message);
+    }
+}
+
+/* A lamp whose file cannot be used shines evenly, with a warning, and the view
+ * is saved with the name of the file. */
+static void unusable_files_shine_evenly(void **state)
+{
+    static const char *const lines[] = {
+        "light point 1 2 3 ies broken.ies\n",
+        "light point 1 2 3 ies missing.ies\n",
+        "light spot 1 2 3 at 0 0 0 ies broken.ies\n",
+    };
+
+    (void)state;
+    put("broken.ies", HEAD "1 2 3 1 3 1 1 0 0 0 1 1 1\n0\n0 120 230\n1 1 1");
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        struct warnings report = {0};
+        const struct profile *profile;
+        struct error err;
+        struct view view;
+        char *text;
+        size_t size_bytes;
+
+        put("v.view", lines[i]);
+        view_init(&view);
+        check_or_say(view_read(&view, "v.view", &report, &err), err.text);
+        assert_int_equal(report.entry_count, 1);
+        check_has(report.entries[0].text, ".ies:");
+        check_has(report.entries[0].text, ": the light shines evenly");
+        profile = view.lamps.items[0].profile;
+        assert_non_null(profile);
+        for (uint32_t k = 0; k < profile_value_count(profile); k++)
+            check_close((double)profile->values[k], 1, 0);
+        check_or_say(view_format(&view, "v.view", "", 0, &text, &size_bytes,
+                                 &err),
+                     err.text);
+        assert_non_null(strstr(text, strstr(lines[i], " ies")));
+        free(text);
+        view_free(&view);
+        warnings_free(&report);
     }
 }
 
@@ -336,9 +406,12 @@ int main(void)
         cmocka_unit_test(powers_of_cosines_light_the_floor),
         cmocka_unit_test(powers_are_those_of_the_flux),
         cmocka_unit_test(symmetric_files_are_like_full_ones),
+        cmocka_unit_test(open_circles_are_closed),
         cmocka_unit_test(angles_have_their_directions),
         cmocka_unit_test(missing_angles_are_dark),
         cmocka_unit_test(broken_files_have_their_message),
+        cmocka_unit_test_setup_teardown(unusable_files_shine_evenly,
+                                        enter_folder, remove_folder),
         cmocka_unit_test_setup_teardown(view_files_name_profiles, enter_folder,
                                         remove_folder),
     };
