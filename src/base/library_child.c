@@ -36,6 +36,8 @@ static struct library_limits limits_of(const struct library_task *t)
     uint64_t wanted =
         MEMORY_BYTES + t->memory_of_a_byte * (uint64_t)t->size_bytes;
 
+    if (t->memory_most != 0 && t->memory_most < quota)
+        quota = t->memory_most;
     return (struct library_limits){
         .time_s = TIME_S + (unsigned)(t->size_bytes / t->bytes_a_second),
         .memory_bytes = wanted < quota ? wanted : quota,

@@ -35,6 +35,7 @@ struct library_task {
     size_t size_bytes;         /* of the file or the input */
     unsigned bytes_a_second;   /* at least, beyond the start */
     unsigned memory_of_a_byte; /* at most, beyond the start */
+    uint64_t memory_most;      /* 0: what the machine holds */
 };
 
 /* Runs the copy and waits for its end. After a failure the output is what the

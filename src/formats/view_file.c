@@ -132,6 +132,10 @@ static void write_key(FILE *to, const struct view *v, enum view_key_id id,
             fprintf(to, "tone %s\n", view_tones[v->lighting.tone]);
         break;
     case KEY_ASSIGN: assigns_write(&v->assigns, to); break;
+    case KEY_LIGHT_UNIT:
+        if (v->light_unit != LIGHT_UNIT_OF_FILE)
+            fprintf(to, "light_unit %s\n", light_units[v->light_unit]);
+        break;
     case KEY_LIGHT: view_lights_write(&v->lamps, path, to); break;
     case KEY_VIEW: write_shots(to, v); break;
     }

@@ -51,6 +51,7 @@ const struct view_key view_keys[VIEW_KEYS] = {
      "a number of stops from -100 to 100"},
     {"tone", KEY_TONE, 0, false, 0, 0, "linear, reinhard or aces"},
     {"assign", KEY_ASSIGN, 0, false, 0, 0, "two names"},
+    {"light_unit", KEY_LIGHT_UNIT, 0, false, 0, 0, "auto, lumen, watt or none"},
     {"light", KEY_LIGHT, 0, false, 0, 0, "point, spot or directional"},
     {"view", KEY_VIEW, 1, true, 1, VIEW_SHOTS, "a number from 1 to 9"},
 };
@@ -137,6 +138,7 @@ static void store(struct view *view, enum view_key_id id, const double *v)
     case KEY_SKY:
     case KEY_TONE:
     case KEY_ASSIGN:
+    case KEY_LIGHT_UNIT:
     case KEY_LIGHT:
     case KEY_VIEW: break;
     }
@@ -288,17 +290,19 @@ static bool read_key(struct view_reader *r, const struct view_key *key,
     return true;
 }
 
-static bool read_tone(struct view_reader *r, const struct view_key *key,
-                      struct error *err)
+/* Reads one of `count` names as its number. */
+static bool read_choice(struct view_reader *r, const struct view_key *key,
+                        const char *const *names, uint32_t count, uint32_t *to,
+                        struct error *err)
 {
     struct word name = {.length = 0};
 
     if (!lexer_at_line_end(r->lex))
         name = lexer_word(r->lex);
-    for (uint32_t i = 0; i < TONES; i++) {
-        if (!word_is(name, view_tones[i]) || !lexer_at_line_end(r->lex))
+    for (uint32_t i = 0; i < count; i++) {
+        if (!word_is(name, names[i]) || !lexer_at_line_end(r->lex))
             continue;
-        r->view->lighting.tone = i;
+        *to = i;
         return true;
     }
     return view_fail_at(r, name, key->expected, key->name, err);
@@ -344,7 +348,11 @@ bool view_parse_line(void *context, struct lexer *lex, struct error *err)
     if (key && key->id == KEY_SKY)
         return read_sky(r, err);
     if (key && key->id == KEY_TONE)
-        return read_tone(r, key, err);
+        return read_choice(r, key, view_tones, TONES, &r->view->lighting.tone,
+                           err);
+    if (key && key->id == KEY_LIGHT_UNIT)
+        return read_choice(r, key, light_units, LIGHT_UNITS,
+                           &r->view->light_unit, err);
     if (key && key->id == KEY_ASSIGN)
         return read_assign(r, err);
     if (key && key->id == KEY_LIGHT)

@@ -32,11 +32,12 @@ enum view_key_id {
     KEY_APERTURE,
     KEY_FOCUS,
     KEY_EXPOSURE,
-    KEY_SKY,    /* takes a name */
-    KEY_TONE,   /* takes a name */
-    KEY_ASSIGN, /* takes two names */
-    KEY_LIGHT,  /* takes a kind and other keys */
-    KEY_VIEW    /* takes a number and other keys */
+    KEY_SKY,        /* takes a name */
+    KEY_TONE,       /* takes a name */
+    KEY_ASSIGN,     /* takes two names */
+    KEY_LIGHT_UNIT, /* takes a name */
+    KEY_LIGHT,      /* takes a kind and other keys */
+    KEY_VIEW        /* takes a number and other keys */
 };
 
 /* Largest number: squares and differences stay finite. */

@@ -31,10 +31,17 @@ static bool place_nodes(const struct gltf_document *document,
            gltf_nodes_place(document, scene, nodes, err);
 }
 
+static bool hint(const struct gltf_document *document,
+                 const struct scene *scene, struct warnings *report)
+{
+    gltf_materials_hint(document, scene, report);
+    return true;
+}
+
 bool gltf_parse(struct scene *scene, const char *bytes, size_t size_bytes,
                 const char *path, struct warnings *report, struct error *err)
 {
-    struct gltf_document document = {.path = path};
+    struct gltf_document document = {.path = path, .memory = &scene->memory};
     struct gltf_nodes nodes = {.count = 0};
     bool ok =
         mesh_begin(scene, path, err) &&
@@ -42,7 +49,7 @@ bool gltf_parse(struct scene *scene, const char *bytes, size_t size_bytes,
         gltf_draco_unpack(&document, scene->program, err) &&
         mesh_mtl_begin(scene, "", report, err) &&
         gltf_materials_read(&document, scene, report, err) &&
-        mesh_mtl_read(scene, report, err) &&
+        mesh_mtl_read(scene, report, err) && hint(&document, scene, report) &&
         place_nodes(&document, &scene->choice, &nodes, err) &&
         gltf_view_read(&document, &nodes, scene, report, err) &&
         gltf_meshes_add(&document, &nodes, scene, report, err);

@@ -20,6 +20,9 @@ struct sampler {
     uint32_t width; /* numbers of a key */
 };
 
+/* Memory of a weight: its own, and four of keys while it is computed. */
+#define WEIGHT_BYTES (sizeof(double) + 4 * sizeof(float))
+
 /* Position of the time between two keys. */
 struct span {
     uint32_t key;     /* the one before */
@@ -186,7 +189,8 @@ static bool pose_weights(const struct gltf_value *sampler, double time_s,
     struct sampler s;
     float *buffer;
 
-    if (!open_sampler(sampler, 0, &s, err))
+    if (!open_sampler(sampler, 0, &s, err) ||
+        !gltf_take(sampler, s.width, WEIGHT_BYTES, "weights", err))
         return false;
     free(node->weights);
     node->weights = alloc_array(s.width, sizeof *node->weights);

@@ -7,8 +7,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/cgroup_quota.h"
-#include "base/file.h"
 #include "base/memory.h"
 #include "base/print.h"
 #include "formats/asset_path.h"
@@ -91,16 +89,19 @@ bool gltf_uri_is_data(const char *uri)
     return strncasecmp(uri, "data:", 5) == 0;
 }
 
-static bool read_data(const struct gltf_value *v, const char *uri,
-                      struct gltf_bytes *to, struct error *err)
+bool gltf_uri_read(const struct gltf_value *v, const char *uri,
+                   struct gltf_bytes *to, struct error *err)
 {
     const char *comma = strchr(uri, ',');
     unsigned char *bytes;
     bool is_base64;
 
+    memset(to, 0, sizeof *to);
     if (comma == NULL)
         return gltf_fail(v, err,
                          "found a data URI without a comma, expected data");
+    if (!gltf_take(v, strlen(comma), 1, "bytes of data", err))
+        return false;
     is_base64 = comma - uri >= 7 && strncasecmp(comma - 7, ";base64", 7) == 0;
     if (!is_base64) {
         to->owned = decode_percents(comma + 1, &to->size_bytes);
@@ -155,28 +156,64 @@ bool gltf_uri_find(const struct gltf_value *value, const char *uri, char **path,
            gltf_fail(value, err, "found no file \"%.200s\"", uri);
 }
 
-bool gltf_uri_read(const struct gltf_value *value, const char *uri,
-                   struct gltf_bytes *to, struct error *err)
+/* ---- buffers ---- */
+
+/* Reads a file into *data. The budget grows by it. */
+static bool read_new_file(struct gltf_document *d, const struct gltf_value *v,
+                          const char *path, const struct file_identity *file,
+                          struct gltf_bytes *data, struct error *err)
 {
     struct error own;
-    char *path, *bytes;
-    bool ok;
+    char *bytes;
 
-    memset(to, 0, sizeof *to);
-    if (gltf_uri_is_data(uri))
-        return read_data(value, uri, to, err);
-    if (!gltf_uri_find(value, uri, &path, err))
+    if (d->memory != NULL)
+        memory_budget_add_file(d->memory, (uint64_t)file->size_bytes);
+    if (!gltf_take(v, (uint64_t)file->size_bytes, 1, "bytes of a buffer", err))
         return false;
-    ok = file_read(path, &bytes, &to->size_bytes, &own);
-    free(path);
-    if (!ok)
-        return gltf_fail(value, err, "%s", own.text);
-    to->owned = bytes;
-    to->bytes = to->owned;
+    if (!file_read(path, &bytes, &data->size_bytes, &own))
+        return gltf_fail(v, err, "%s", own.text);
+    data->owned = bytes;
+    data->bytes = data->owned;
     return true;
 }
 
-/* ---- buffers ---- */
+/* Finds the bytes of a file, which is read once however many buffers name
+ * it. */
+static bool read_file(struct gltf_document *d, const struct gltf_value *v,
+                      const char *path, struct gltf_bytes *to,
+                      struct error *err)
+{
+    struct file_identity identity = file_identify(path);
+    struct gltf_file *file = d->files;
+    struct gltf_file *end = file + d->file_count;
+
+    while (file < end && !file_is_same(&file->identity, &identity))
+        file++;
+    if (file == end) {
+        file->identity = identity;
+        d->file_count++;
+        if (!read_new_file(d, v, path, &identity, &file->data, err))
+            return false;
+    }
+    *to = file->data;
+    to->owned = NULL;
+    return true;
+}
+
+static bool read_uri(struct gltf_document *d, const struct gltf_value *v,
+                     const char *uri, struct gltf_bytes *to, struct error *err)
+{
+    char *path;
+    bool ok;
+
+    if (gltf_uri_is_data(uri))
+        return gltf_uri_read(v, uri, to, err);
+    if (!gltf_uri_find(v, uri, &path, err))
+        return false;
+    ok = read_file(d, v, path, to, err);
+    free(path);
+    return ok;
+}
 
 /* A buffer without bytes is allowed: it may be one that meshopt's views name
  * for other readers. */
@@ -191,7 +228,7 @@ static bool read_buffer(struct gltf_document *d, size_t i, struct error *err)
         !gltf_string(&v, "uri", &uri, err) ||
         !gltf_integer(&v, "byteLength", INT64_MAX, &length, err))
         return false;
-    if (uri != NULL && !gltf_uri_read(&v, uri, b, err))
+    if (uri != NULL && !read_uri(d, &v, uri, b, err))
         return false;
     if (uri == NULL && i == 0)
         *b = d->chunk;
@@ -209,21 +246,15 @@ static bool read_buffer(struct gltf_document *d, size_t i, struct error *err)
 bool gltf_buffers_read(struct gltf_document *document, struct error *err)
 {
     size_t count = gltf_entry_count(document, "buffers");
-    struct memory_quota memory = cgroup_quota_memory("");
 
     document->buffers = alloc_array(count, sizeof *document->buffers);
-    if (document->buffers == NULL)
+    document->files = alloc_array(count, sizeof *document->files);
+    if (document->buffers == NULL || document->files == NULL)
         return fail(err, "%s: out of memory for its buffers", document->path);
     document->buffer_count = count;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++)
         if (!read_buffer(document, i, err))
             return false;
-        if (document->buffer_bytes > memory.size_bytes)
-            return fail(err,
-                        "%s: found buffers of more than %.1f GiB, expected "
-                        "what the memory holds",
-                        document->path, (double)memory.size_bytes / (1 << 30));
-    }
     return true;
 }
 
@@ -260,15 +291,7 @@ bool gltf_buffer_part(const struct gltf_value *value, struct gltf_bytes *to,
     return true;
 }
 
-/* Limit of the bytes that all packed views give: each packed byte is used once
- * in files that are not meant to fill the memory. */
-static uint64_t unpacked_limit(const struct gltf_document *d)
-{
-    return GLTF_MESHOPT_RATIO * d->buffer_bytes + (1 << 16);
-}
-
-static bool read_view(struct gltf_document *d, size_t i, uint64_t *unpacked,
-                      struct error *err)
+static bool read_view(struct gltf_document *d, size_t i, struct error *err)
 {
     struct gltf_view *view = &d->views[i];
     struct gltf_value v, meshopt;
@@ -279,26 +302,20 @@ static bool read_view(struct gltf_document *d, size_t i, uint64_t *unpacked,
         !gltf_extension(&v, "EXT_meshopt_compression", &meshopt, err))
         return false;
     view->stride_bytes = (size_t)stride;
-    if (meshopt.json == NULL)
-        return gltf_buffer_part(&v, &view->data, err);
-    if (!gltf_meshopt_unpack(&meshopt, unpacked_limit(d) - *unpacked, view,
-                             err))
-        return false;
-    *unpacked += view->data.size_bytes;
-    return true;
+    return meshopt.json == NULL ? gltf_buffer_part(&v, &view->data, err)
+                                : gltf_meshopt_unpack(&meshopt, view, err);
 }
 
 bool gltf_views_read(struct gltf_document *document, struct error *err)
 {
     size_t count = gltf_entry_count(document, "bufferViews");
-    uint64_t unpacked = 0;
 
     document->views = alloc_array(count, sizeof *document->views);
     if (document->views == NULL)
         return fail(err, "%s: out of memory for its views", document->path);
     document->view_count = count;
     for (size_t i = 0; i < count; i++)
-        if (!read_view(document, i, &unpacked, err))
+        if (!read_view(document, i, err))
             return false;
     return true;
 }

@@ -17,9 +17,8 @@
 bool gltf_buffers_read(struct gltf_document *document, struct error *err);
 bool gltf_views_read(struct gltf_document *document, struct error *err);
 
-/* Reads what a URI names: base64 or percent-encoded data in the URI itself, or
- * a file beside the document. to->owned is for free(). `value` has the URI and
- * is the place of failures. */
+/* Reads the data of a URI that holds them: base64 or percent-encoded.
+ * to->owned is for free(). `value` has the URI and is the place of failures. */
 bool gltf_uri_read(const struct gltf_value *value, const char *uri,
                    struct gltf_bytes *to, struct error *err);
 

@@ -26,6 +26,11 @@
 #define CHUNK_JSON 0x4e4f534au
 #define CHUNK_BIN  0x004e4942u
 
+/* Most that a value of the JSON takes, and an object with the node, camera,
+ * light, image or mesh that is made of it; 70 and 520 were measured. */
+#define VALUE_BYTES  100
+#define OBJECT_BYTES 600
+
 static bool is_glb(const char *bytes, size_t size_bytes)
 {
     return size_bytes >= 4 && memcmp(bytes, "glTF", 4) == 0;
@@ -119,6 +124,25 @@ static bool read_container(struct gltf_document *d, const char *bytes,
 
 /* ---- the JSON ---- */
 
+/* Takes the memory of the JSON and of what is made of its objects. Each value
+ * follows one of [{,: in the text. */
+static bool take_json(const struct gltf_document *d, struct gltf_bytes json,
+                      struct error *err)
+{
+    struct gltf_value root = gltf_root(d);
+    uint64_t object_count = 0, value_count = 0;
+
+    for (size_t i = 0; i < json.size_bytes; i++) {
+        unsigned char c = json.bytes[i];
+
+        object_count += c == '{';
+        value_count += c == '[' || c == ',' || c == ':';
+    }
+    return gltf_take(&root, json.size_bytes, 1, "bytes of JSON", err) &&
+           gltf_take(&root, value_count, VALUE_BYTES, "values", err) &&
+           gltf_take(&root, object_count, OBJECT_BYTES, "objects", err);
+}
+
 static bool read_json(struct gltf_document *d, struct gltf_bytes json,
                       struct error *err)
 {
@@ -126,6 +150,8 @@ static bool read_json(struct gltf_document *d, struct gltf_bytes json,
     json_error_t e = {.text = ""};
 
     lexer_trim(&text, &json.size_bytes);
+    if (!take_json(d, json, err))
+        return false;
     d->root = json_loadb(text, json.size_bytes, 0, &e);
     if (d->root == NULL)
         return fail(err, "%s:%d:%d: found JSON that cannot be read: %s",
@@ -193,6 +219,8 @@ bool gltf_document_open(struct gltf_document *document, const char *bytes,
     struct gltf_bytes json = {(const unsigned char *)bytes, size_bytes, NULL};
 
     document->path = path;
+    if (document->memory != NULL)
+        memory_budget_add_file(document->memory, size_bytes);
     return (!is_glb(bytes, size_bytes) ||
             read_container(document, bytes, size_bytes, &json, err)) &&
            read_json(document, json, err) && check_version(document, err) &&
@@ -205,9 +233,12 @@ void gltf_document_close(struct gltf_document *document)
 {
     for (size_t i = 0; i < document->buffer_count; i++)
         free(document->buffers[i].owned);
+    for (size_t i = 0; i < document->file_count; i++)
+        free(document->files[i].data.owned);
     for (size_t i = 0; i < document->view_count; i++)
         free(document->views[i].data.owned);
     free(document->buffers);
+    free(document->files);
     free(document->views);
     free(document->unpacked);
     json_decref(document->root);

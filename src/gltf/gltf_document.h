@@ -20,6 +20,8 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/file.h"
+#include "base/memory_budget.h"
 #include "base/warnings.h"
 
 /* A buffer, or a part of one. */
@@ -27,6 +29,12 @@ struct gltf_bytes {
     const unsigned char *bytes;
     size_t size_bytes;
     void *owned; /* NULL: the bytes belong to another */
+};
+
+/* A file that buffers name. */
+struct gltf_file {
+    struct file_identity identity;
+    struct gltf_bytes data;
 };
 
 /* bufferView */
@@ -38,9 +46,12 @@ struct gltf_view {
 struct gltf_document {
     const char *path;
     json_t *root;
-    struct gltf_bytes chunk; /* BIN of a .glb file; empty without */
+    struct gltf_bytes chunk;      /* BIN of a .glb file; empty without */
+    struct memory_budget *memory; /* of the scene; NULL: without a limit */
     struct gltf_bytes *buffers;
     size_t buffer_count;
+    struct gltf_file *files;
+    size_t file_count;
     uint64_t buffer_bytes; /* of all buffers */
     struct gltf_view *views;
     size_t view_count;
@@ -52,7 +63,8 @@ bool gltf_matches(const char *bytes, size_t size_bytes);
 
 /* Opens the file of these bytes. Refuses versions other than 2, and unknown
  * extensions that it requires; those that it only uses are a warning. The
- * document must be zeroed and is to be closed also after a failure. */
+ * document must be zeroed, except for its memory, and is to be closed also
+ * after a failure. */
 bool gltf_document_open(struct gltf_document *document, const char *bytes,
                         size_t size_bytes, const char *path,
                         struct warnings *report, struct error *err);

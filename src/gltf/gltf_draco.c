@@ -9,8 +9,8 @@
 
 #include "base/library_child.h"
 #include "base/memory.h"
-#include "gltf/draco_stream.h"
 #include "gltf/gltf_accessor.h"
+#include "gltf/gltf_packed.h"
 #include "kernels/types.h"
 
 /* Value of mode. */
@@ -21,129 +21,44 @@ enum { MODE_TRIANGLES = 4 };
 #define BYTES_A_SECOND   100000
 #define MEMORY_OF_A_BYTE 2000
 
-/* A primitive that is packed. */
-struct packed {
-    const struct gltf_value *primitive;
-    struct gltf_value attributes; /* of the primitive: numbers of accessors */
-    struct gltf_value extension;
-    struct gltf_value ids; /* of the extension: numbers of Draco's attributes */
-};
-
-struct walk;
-typedef bool take_primitive(struct walk *walk, const struct packed *p,
-                            struct error *err);
-
-/* A walk through all packed primitives, in the order of the file. */
+/* A walk through the answers to all requests. */
 struct walk {
     struct gltf_document *document;
-    take_primitive *take;
-    FILE *requests;
-    uint64_t count; /* of requests */
+    struct gltf_packed_list list;
+    uint32_t taken_count; /* requests whose answers were taken */
     const char *answers, *failure;
     size_t left_bytes;
     size_t view_capacity;
 };
 
-/* ---- walks ---- */
-
-/* Points and lines are not drawn. */
-static bool has_faces(const struct gltf_value *primitive)
+static bool out_of_memory(const struct gltf_value *v, struct error *err)
 {
-    const json_t *mode = json_object_get(primitive->json, "mode");
-
-    return mode == NULL || json_integer_value(mode) >= MODE_TRIANGLES;
-}
-
-static bool visit_primitive(struct walk *walk, const struct gltf_value *v,
-                            struct error *err)
-{
-    struct packed p = {.primitive = v};
-
-    if (!gltf_extension(v, GLTF_DRACO, &p.extension, err))
-        return false;
-    if (p.extension.json == NULL || !has_faces(v))
-        return true;
-    return gltf_object(v, "attributes", &p.attributes, err) &&
-           gltf_object(&p.extension, "attributes", &p.ids, err) &&
-           walk->take(walk, &p, err);
-}
-
-static bool visit_all(struct walk *walk, take_primitive *take,
-                      struct error *err)
-{
-    const struct gltf_document *d = walk->document;
-    struct gltf_value mesh, list, v;
-
-    walk->take = take;
-    for (size_t i = 0; i < gltf_entry_count(d, "meshes"); i++) {
-        if (!gltf_entry(d, "meshes", i, &mesh, err) ||
-            !gltf_array(&mesh, "primitives", &list, err))
-            return false;
-        for (size_t k = 0; k < gltf_count(&list); k++)
-            if (!gltf_item_object(&list, k, &v, err) ||
-                !visit_primitive(walk, &v, err))
-                return false;
-    }
-    return true;
-}
-
-/* Returns true if the primitive has the attribute of this name, too. */
-static bool is_wanted(const struct packed *p, const char *name)
-{
-    return json_object_get(p->attributes.json, name) != NULL;
-}
-
-/* ---- requests ---- */
-
-static bool send_primitive(struct walk *walk, const struct packed *p,
-                           struct error *err)
-{
-    struct draco_request request = {.attribute_count = 0};
-    const struct gltf_bytes *data;
-    const char *name;
-    json_t *unused;
-    uint32_t view;
-
-    if (!gltf_index(&p->extension, "bufferView", "bufferViews", &view, err))
-        return false;
-    if (view == NO_INDEX)
-        return gltf_fail(&p->extension, err,
-                         "found no bufferView, expected its number");
-    data = &walk->document->views[view].data;
-    request.size_bytes = data->size_bytes;
-    json_object_foreach (p->ids.json, name, unused) {
-        request.attribute_count += is_wanted(p, name);
-    }
-    fwrite(&request, sizeof request, 1, walk->requests);
-    json_object_foreach (p->ids.json, name, unused) {
-        uint64_t id = 0;
-
-        if (!gltf_integer(&p->ids, name, UINT32_MAX, &id, err))
-            return false;
-        if (is_wanted(p, name))
-            fwrite(&(uint32_t){(uint32_t)id}, sizeof(uint32_t), 1,
-                   walk->requests);
-    }
-    fwrite(data->bytes, 1, data->size_bytes, walk->requests);
-    walk->count++;
-    return true;
+    return gltf_fail(v, err, "out of memory for its vertices");
 }
 
 /* Writes all requests into memory, for free(). */
-static bool make_requests(struct walk *walk, char **bytes, size_t *size_bytes,
-                          struct error *err)
+static bool write_requests(const struct walk *walk, char **bytes,
+                           size_t *size_bytes, struct error *err)
 {
-    bool ok, is_complete;
+    FILE *to = open_memstream(bytes, size_bytes);
+    bool ok = to != NULL;
 
-    walk->requests = open_memstream(bytes, size_bytes);
-    if (walk->requests == NULL)
-        return fail(err, "%s: out of memory for its meshes",
-                    walk->document->path);
-    ok = visit_all(walk, send_primitive, err);
-    is_complete = !ferror(walk->requests);
-    is_complete = fclose(walk->requests) == 0 && is_complete;
-    return ok && (is_complete || fail(err, "%s: out of memory for its meshes",
-                                      walk->document->path));
+    for (uint32_t i = 0; ok && i < walk->list.request_count; i++) {
+        const struct gltf_packed_request *r = &walk->list.requests[i];
+        const struct gltf_bytes *data = &walk->document->views[r->view].data;
+        const struct draco_request head = {.size_bytes = data->size_bytes,
+                                           .attribute_count = r->part_count};
+
+        fwrite(&head, sizeof head, 1, to);
+        for (uint32_t k = 0; k < r->part_count; k++)
+            fwrite(&walk->list.parts[r->first_part + k].id, sizeof(uint32_t), 1,
+                   to);
+        fwrite(data->bytes, 1, data->size_bytes, to);
+    }
+    ok = ok && !ferror(to);
+    ok = to != NULL && fclose(to) == 0 && ok;
+    return ok ||
+           fail(err, "%s: out of memory for its meshes", walk->document->path);
 }
 
 /* ---- answers ---- */
@@ -164,11 +79,6 @@ static const void *next(struct walk *walk, const struct gltf_value *place,
     return bytes;
 }
 
-static bool out_of_memory(const struct gltf_value *v, struct error *err)
-{
-    return gltf_fail(v, err, "out of memory for its vertices");
-}
-
 /* Appends a view of these bytes. */
 static bool add_view(struct walk *walk, const void *bytes, size_t size_bytes)
 {
@@ -185,11 +95,12 @@ static bool add_view(struct walk *walk, const void *bytes, size_t size_bytes)
                                  json_object()) == 0;
 }
 
-/* Appends an accessor of the last view, and makes it the one that `object` has
- * under this key. The old one, if any, has its other members. */
+/* Appends an accessor of a view, and makes it the one that `object` has under
+ * this key. The old one, if any, has its other members. */
 static bool add_accessor(struct walk *walk, const struct gltf_value *object,
-                         const char *key, const struct draco_attribute *a,
-                         uint32_t count, struct error *err)
+                         const char *key, uint32_t view,
+                         const struct draco_attribute *a, uint32_t count,
+                         struct error *err)
 {
     static const char *const types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     const struct gltf_document *d = walk->document;
@@ -210,10 +121,10 @@ static bool add_accessor(struct walk *walk, const struct gltf_value *object,
                          "found sparse values of another componentType than "
                          "%" PRIu32 ", which Draco's have",
                          a->component);
-    made = json_pack("{sIsIsIsssbsO*}", "bufferView",
-                     (json_int_t)(d->view_count - 1), "componentType",
-                     (json_int_t)a->component, "count", (json_int_t)count,
-                     "type", types[a->component_count - 1], "normalized",
+    made = json_pack("{sIsIsIsssbsO*}", "bufferView", (json_int_t)view,
+                     "componentType", (json_int_t)a->component, "count",
+                     (json_int_t)count, "type", types[a->component_count - 1],
+                     "normalized",
                      a->is_normalized != 0 ||
                          json_is_true(json_object_get(old.json, "normalized")),
                      "sparse", sparse);
@@ -224,63 +135,41 @@ static bool add_accessor(struct walk *walk, const struct gltf_value *object,
            out_of_memory(object, err);
 }
 
-static bool take_attribute(struct walk *walk, const struct packed *p,
-                           const char *name, uint32_t vertex_count,
-                           struct error *err)
+/* Takes what was unpacked of an attribute. */
+static bool take_part(struct walk *walk, const struct gltf_packed *p,
+                      struct gltf_packed_part *part, uint32_t vertex_count,
+                      struct error *err)
 {
-    const void *bytes =
-        next(walk, &p->ids, sizeof(struct draco_attribute), err);
-    struct draco_attribute a;
+    struct draco_attribute *a = &part->attribute;
+    const void *bytes = next(walk, &p->ids, sizeof *a, err);
     uint64_t size_bytes;
 
     if (bytes == NULL)
         return false;
-    memcpy(&a, bytes, sizeof a);
-    if (a.component_count < 1 || a.component_count > 4 ||
-        gltf_component_bytes(a.component) == 0)
+    memcpy(a, bytes, sizeof *a);
+    if (a->component_count < 1 || a->component_count > 4 ||
+        gltf_component_bytes(a->component) == 0)
         return gltf_fail(&p->ids, err,
                          "found %" PRIu32 " numbers of type %" PRIu32
-                         " in %s, expected what accessors have",
-                         a.component_count, a.component, name);
-    size_bytes = (uint64_t)vertex_count * a.component_count *
-                 gltf_component_bytes(a.component);
+                         " in attribute %" PRIu32
+                         ", expected what accessors have",
+                         a->component_count, a->component, part->id);
+    size_bytes = (uint64_t)vertex_count * a->component_count *
+                 gltf_component_bytes(a->component);
     bytes = next(walk, &p->ids, (size_bytes + 3) / 4 * 4, err);
+    part->view = (uint32_t)walk->document->view_count;
     return bytes != NULL &&
-           (add_view(walk, bytes, size_bytes) || out_of_memory(&p->ids, err)) &&
-           add_accessor(walk, &p->attributes, name, &a, vertex_count, err);
+           (add_view(walk, bytes, size_bytes) || out_of_memory(&p->ids, err));
 }
 
-/* A strip comes back as triangles. */
-static bool take_indices(struct walk *walk, const struct packed *p,
-                         uint32_t tri_count, struct error *err)
-{
-    const struct draco_attribute index = {.component = GLTF_U32,
-                                          .component_count = 1};
-    uint64_t size_bytes = (uint64_t)tri_count * 3 * sizeof(uint32_t);
-    const void *bytes = next(walk, &p->extension, size_bytes, err);
-
-    if (bytes == NULL)
-        return false;
-    if (tri_count > NO_INDEX / 3)
-        return gltf_fail(&p->extension, err,
-                         "found %" PRIu32 " triangles, expected at most 2^32/3",
-                         tri_count);
-    if (!add_view(walk, bytes, size_bytes) ||
-        json_object_set_new(p->primitive->json, "mode",
-                            json_integer(MODE_TRIANGLES)) != 0)
-        return out_of_memory(&p->extension, err);
-    return add_accessor(walk, p->primitive, "indices", &index, 3 * tri_count,
-                        err);
-}
-
-static bool take_answer(struct walk *walk, const struct packed *p,
-                        struct error *err)
+/* Takes the answer to a request. */
+static bool take_answer(struct walk *walk, const struct gltf_packed *p,
+                        struct gltf_packed_request *r, struct error *err)
 {
     const void *bytes =
         next(walk, &p->extension, sizeof(struct draco_answer), err);
     struct draco_answer answer;
-    const char *name;
-    json_t *unused;
+    uint64_t index_bytes;
 
     if (bytes == NULL)
         return false;
@@ -288,38 +177,103 @@ static bool take_answer(struct walk *walk, const struct packed *p,
     answer.failure[sizeof answer.failure - 1] = '\0';
     if (answer.failure[0] != '\0')
         return gltf_fail(&p->extension, err, "libdraco: %s", answer.failure);
-    json_object_foreach (p->ids.json, name, unused) {
-        if (is_wanted(p, name) &&
-            !take_attribute(walk, p, name, answer.vertex_count, err))
+    r->vertex_count = answer.vertex_count;
+    r->tri_count = answer.tri_count;
+    for (uint32_t i = 0; i < r->part_count; i++)
+        if (!take_part(walk, p, &walk->list.parts[r->first_part + i],
+                       r->vertex_count, err))
+            return false;
+    index_bytes = (uint64_t)r->tri_count * 3 * sizeof(uint32_t);
+    bytes = next(walk, &p->extension, index_bytes, err);
+    if (bytes == NULL)
+        return false;
+    if (r->tri_count > NO_INDEX / 3)
+        return gltf_fail(&p->extension, err,
+                         "found %" PRIu32 " triangles, expected at most 2^32/3",
+                         r->tri_count);
+    r->index_view = (uint32_t)walk->document->view_count;
+    return add_view(walk, bytes, index_bytes) ||
+           out_of_memory(&p->extension, err);
+}
+
+/* Makes a plain primitive of a packed one. A strip becomes triangles. */
+static bool take_primitive(struct walk *walk, const struct gltf_packed *p,
+                           const struct gltf_packed_request *r,
+                           struct error *err)
+{
+    static const struct draco_attribute index = {.component = GLTF_U32,
+                                                 .component_count = 1};
+    const char *name;
+    json_t *id;
+
+    json_object_foreach (p->ids.json, name, id) {
+        const struct gltf_packed_part *part;
+
+        if (!gltf_packed_wants(p, name))
+            continue;
+        part =
+            gltf_packed_find(&walk->list, r, (uint32_t)json_number_value(id));
+        if (!add_accessor(walk, &p->attributes, name, part->view,
+                          &part->attribute, r->vertex_count, err))
             return false;
     }
-    return take_indices(walk, p, answer.tri_count, err);
+    return (json_object_set_new(p->primitive->json, "mode",
+                                json_integer(MODE_TRIANGLES)) == 0 ||
+            out_of_memory(&p->extension, err)) &&
+           add_accessor(walk, p->primitive, "indices", r->index_view, &index,
+                        3 * r->tri_count, err);
+}
+
+/* Requests are answered in the order of the primitives that show them first. */
+static bool take_packed(void *context, const struct gltf_packed *p,
+                        struct error *err)
+{
+    struct walk *walk = context;
+    struct gltf_packed_request *r = gltf_packed_request_of(&walk->list, p);
+
+    if (r == &walk->list.requests[walk->taken_count]) {
+        walk->taken_count++;
+        if (!take_answer(walk, p, r, err))
+            return false;
+    }
+    return take_primitive(walk, p, r, err);
+}
+
+/* Makes plain primitives of the answers. */
+static bool take_all(struct walk *walk, const char *answers, size_t size_bytes,
+                     const char *failure, struct error *err)
+{
+    walk->answers = answers;
+    walk->left_bytes = size_bytes;
+    walk->failure = failure;
+    walk->view_capacity = walk->document->view_count;
+    return gltf_packed_visit(walk->document, take_packed, walk, err);
 }
 
 bool gltf_draco_take(struct gltf_document *document, const char *answers,
                      size_t size_bytes, const char *failure, struct error *err)
 {
-    struct walk walk = {.document = document,
-                        .answers = answers,
-                        .failure = failure,
-                        .left_bytes = size_bytes,
-                        .view_capacity = document->view_count};
+    struct walk walk = {.document = document};
+    bool ok = gltf_packed_read(document, &walk.list, err) &&
+              take_all(&walk, answers, size_bytes, failure, err);
 
-    return visit_all(&walk, take_answer, err);
+    gltf_packed_free(&walk.list);
+    return ok;
 }
 
 /* ---- the document ---- */
 
 /* Returns true if the primitive has positions of its own. */
-static bool check_copy(struct walk *walk, const struct packed *p,
+static bool check_copy(void *unused, const struct gltf_packed *p,
                        struct error *err)
 {
     struct gltf_value accessor;
     uint32_t number;
 
+    (void)unused;
     if (!gltf_index(&p->attributes, "POSITION", "accessors", &number, err) ||
-        (number != NO_INDEX &&
-         !gltf_entry(walk->document, "accessors", number, &accessor, err)))
+        (number != NO_INDEX && !gltf_entry(p->extension.document, "accessors",
+                                           number, &accessor, err)))
         return false;
     return number == NO_INDEX ||
            json_object_get(accessor.json, "bufferView") != NULL ||
@@ -327,41 +281,57 @@ static bool check_copy(struct walk *walk, const struct packed *p,
                      "found a packed mesh, which needs " GLTF_DRACO_NEEDS);
 }
 
-bool gltf_draco_unpack(struct gltf_document *document, const char *program,
-                       struct error *err)
+/* Lets a copy of the program answer the requests. */
+static bool unpack(struct walk *walk, const char *program, struct error *err)
 {
-    struct walk walk = {.document = document};
+    struct gltf_document *d = walk->document;
     struct library_task task = {
         .library = "libdraco",
         .program = program,
         .option = "--unpack",
         .bytes_a_second = BYTES_A_SECOND,
         .memory_of_a_byte = MEMORY_OF_A_BYTE,
+        .memory_most =
+            d->memory != NULL ? memory_budget_left(d->memory) : UINT64_MAX,
     };
+    struct gltf_value root = gltf_root(d);
     struct child_result result = {.output = NULL};
     struct error own = {"found another end in what libdraco unpacked"};
     char *requests = NULL;
+    bool ok = write_requests(walk, &requests, &task.size_bytes, err);
+
+    if (ok) {
+        task.input = requests;
+        ok = library_child_run(&task, &result, &own);
+        d->unpacked = result.output;
+        /* the answers before a crash tell which mesh was its reason */
+        ok = (ok || (result.output != NULL && WIFSIGNALED(result.status)))
+                 ? gltf_take(&root, result.size_bytes, 1,
+                             "bytes that Draco unpacked", err) &&
+                       take_all(walk, result.output, result.size_bytes,
+                                own.text, err)
+                 : fail(err, "%s: %s", d->path, own.text);
+    }
+    free(requests);
+    return ok;
+}
+
+bool gltf_draco_unpack(struct gltf_document *document, const char *program,
+                       struct error *err)
+{
+    struct walk walk = {.document = document};
     bool ok;
 
     if (gltf_draco_missing() != NULL)
-        return visit_all(&walk, check_copy, err);
-    ok = make_requests(&walk, &requests, &task.size_bytes, err);
-    if (ok && walk.count > 0 && program == NULL)
-        ok = fail(err,
-                  "%s: found meshes of " GLTF_DRACO
-                  ", which only the program glim reads",
-                  document->path);
-    if (ok && walk.count > 0) {
-        task.input = requests;
-        ok = library_child_run(&task, &result, &own);
-        document->unpacked = result.output;
-        /* the answers before a crash tell which mesh was its reason */
-        ok = (ok || (result.output != NULL && WIFSIGNALED(result.status)))
-                 ? gltf_draco_take(document, result.output, result.size_bytes,
-                                   own.text, err)
-                 : fail(err, "%s: %s", document->path, own.text);
-    }
-    free(requests);
+        return gltf_packed_visit(document, check_copy, NULL, err);
+    ok = gltf_packed_read(document, &walk.list, err);
+    if (ok && walk.list.request_count > 0)
+        ok = program != NULL ? unpack(&walk, program, err)
+                             : fail(err,
+                                    "%s: found meshes of " GLTF_DRACO
+                                    ", which only the program glim reads",
+                                    document->path);
+    gltf_packed_free(&walk.list);
     return ok;
 }
 

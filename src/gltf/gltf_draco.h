@@ -14,9 +14,8 @@
 #ifndef GLIM_GLTF_DRACO_H
 #define GLIM_GLTF_DRACO_H
 
-#include "gltf/gltf_value.h"
+#include "gltf/gltf_packed.h"
 
-#define GLTF_DRACO       "KHR_draco_mesh_compression"
 #define GLTF_DRACO_NEEDS "libdraco-dev and g++ when glim is built"
 
 /* Unpacks all packed primitives of the document; `program` is the program that

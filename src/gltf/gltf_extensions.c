@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "gltf/gltf_draco.h"
+#include "gltf/gltf_texture.h"
 
 static const char *const known[] = {
     "EXT_mesh_gpu_instancing",
@@ -25,6 +26,7 @@ static const char *const known[] = {
     "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
+    GLTF_BASISU,
     "KHR_texture_transform",
 };
 
@@ -70,6 +72,12 @@ bool gltf_extensions_check(const struct gltf_document *document,
             return fail(err,
                         "%s: found the required extension '" GLTF_DRACO
                         "', which needs " GLTF_DRACO_NEEDS,
+                        document->path);
+        if (strcmp(name, GLTF_BASISU) == 0 &&
+            !gltf_textures_are_readable(document))
+            return fail(err,
+                        "%s: found the required extension '" GLTF_BASISU
+                        "', expected " GLTF_BASISU_EXPECTED,
                         document->path);
         if (!is_known(name))
             return fail(err,

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/cgroup_quota.h"
 #include "base/memory.h"
 #include "base/name_table.h"
 #include "gltf/gltf_instancing.h"
@@ -35,7 +34,6 @@ struct builder {
     size_t alpha_capacity, tangent_capacity;
     size_t uv_capacity, uv2_capacity;
     size_t tri_capacity, face_capacity, object_capacity;
-    uint64_t memory_bytes; /* limit of the arrays */
 };
 
 static bool out_of_memory(const struct builder *b)
@@ -171,21 +169,38 @@ static bool grow_tris(struct builder *b, const struct gltf_primitive *p)
     return true;
 }
 
-/* Makes room for the primitive, so that a mesh that many skins bend cannot fill
- * the memory. */
-static bool reserve(struct builder *b, const struct gltf_primitive *p)
+/* Returns the memory of a vertex in all arrays, and in those of the targets
+ * that move it. */
+static uint64_t vertex_bytes(const struct scene *s,
+                             const struct gltf_primitive *p)
+{
+    return 3 * sizeof *s->file_positions +
+           (p->has_normals ? sizeof *s->normals : 0) +
+           (p->has_uvs ? sizeof *s->uvs : 0) +
+           (p->has_uv_set[1] ? sizeof *s->uvs2 : 0) +
+           (p->has_colors ? sizeof *s->colors : 0) +
+           (p->has_alphas ? sizeof *s->alphas : 0) +
+           (p->has_tangents ? sizeof *s->tangents : 0) +
+           3 * sizeof(float) * (uint64_t)p->target_count;
+}
+
+/* Makes room for the primitive. */
+static bool reserve(struct builder *b, const struct gltf_value *value,
+                    const struct gltf_primitive *p)
 {
     const struct scene *s = b->scene;
-    uint64_t vertices = (uint64_t)s->position_count + p->vertex_count;
-    uint64_t tris = (uint64_t)s->tri_count + p->tri_count;
-    uint64_t bytes =
-        vertices * 3 * sizeof *s->file_positions + tris * (sizeof *s->tris + 8);
+    uint64_t tri_bytes =
+        sizeof *s->tris + sizeof *s->tri_faces + sizeof *s->tri_objects;
 
-    if (vertices >= NO_INDEX || tris >= NO_INDEX || bytes > b->memory_bytes)
-        return fail(b->err,
-                    "%s: out of memory for %" PRIu64 " vertices and %" PRIu64
-                    " triangles",
-                    b->document->path, vertices, tris);
+    if (!gltf_take(value, p->vertex_count, SCENE_FINISH * vertex_bytes(s, p),
+                   "vertices", b->err) ||
+        !gltf_take(value, p->tri_count, SCENE_FINISH * tri_bytes, "triangles",
+                   b->err))
+        return false;
+    if ((uint64_t)s->position_count + p->vertex_count >= NO_INDEX ||
+        (uint64_t)s->tri_count + p->tri_count >= NO_INDEX)
+        return gltf_fail(value, b->err,
+                         "found more than 2^32 vertices or triangles");
     return (grow_vertices(b, p) && grow_tris(b, p)) || out_of_memory(b);
 }
 
@@ -225,7 +240,7 @@ static bool leave_out(const struct builder *b, struct gltf_primitive *p)
         return true;
     }
     p->has_alphas = false;
-    return p->material == 0 ||
+    return p->material > gltf_entry_count(b->document, "materials") ||
            gltf_material_has_alpha(b->document, p->material - 1, &p->has_alphas,
                                    b->err);
 }
@@ -238,7 +253,7 @@ static bool add_primitive(struct builder *b, const struct gltf_value *value,
               leave_out(b, &p);
 
     if (ok && p.tri_count > 0) {
-        ok = reserve(b, &p) && scene_begin_mesh(b->scene, b->err) &&
+        ok = reserve(b, value, &p) && scene_begin_mesh(b->scene, b->err) &&
              gltf_primitive_add(value, &p, shape, b->scene, b->pool, b->err);
         if (ok)
             scene_end_mesh(b->scene);
@@ -273,6 +288,8 @@ static bool read_weights(const struct gltf_value *of, double **weights,
     if (!gltf_array(of, "weights", &list, err))
         return false;
     *count = (uint32_t)gltf_count(&list);
+    if (!gltf_take(of, *count, sizeof **weights, "weights", err))
+        return false;
     *weights = alloc_array(*count, sizeof **weights);
     if (*weights == NULL)
         return gltf_fail(of, err, "out of memory for its weights");
@@ -348,14 +365,14 @@ static bool add_node(struct builder *b, uint32_t node)
     const struct gltf_node *n = &b->nodes->items[node];
     struct made *shared = &b->made[n->mesh], own = {NO_INDEX, 0, n->skin};
     struct gltf_value value, mesh;
-    const char *name = "";
+    char cut[GLTF_NAME_BYTES];
+    const char *name;
     bool has_weights;
     uint32_t object;
 
     if (!gltf_entry(b->document, "nodes", node, &value, b->err) ||
         !gltf_entry(b->document, "meshes", n->mesh, &mesh, b->err) ||
-        !gltf_string(&mesh, "name", &name, b->err) ||
-        !gltf_string(&value, "name", &name, b->err))
+        !gltf_node_name(&value, &mesh, cut, &name, b->err))
         return false;
     object = add_object(b, node, name);
     if (object == NO_NAME)
@@ -394,8 +411,6 @@ static bool begin(struct builder *b)
         !gltf_find(b->document, "variants", "variant of materials",
                    b->scene->choice.variant, &b->variant, b->err))
         return false;
-    /* finishing the scene needs as much again, and its tree too */
-    b->memory_bytes = cgroup_quota_memory("").size_bytes / 4;
     b->made = alloc_array(count, sizeof *b->made);
     if (b->made == NULL || name_table_add(&b->objects, "") == NO_NAME)
         return out_of_memory(b);

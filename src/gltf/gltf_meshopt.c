@@ -22,6 +22,9 @@ static const char *const modes[MODES] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
 static const char *const filters[FILTERS] = {"NONE", "OCTAHEDRAL", "QUATERNION",
                                              "EXPONENTIAL"};
 
+/* Most bytes that a packed byte stands for: 2 bits for a group of 16 bytes. */
+#define RATIO 64u
+
 struct packed {
     struct gltf_bytes data;
     uint64_t stride, count;
@@ -107,7 +110,7 @@ static bool decode(const struct packed *p, void *to)
     return true;
 }
 
-bool gltf_meshopt_unpack(const struct gltf_value *extension, uint64_t limit,
+bool gltf_meshopt_unpack(const struct gltf_value *extension,
                          struct gltf_view *view, struct error *err)
 {
     struct packed p = {.stride = 0};
@@ -117,13 +120,14 @@ bool gltf_meshopt_unpack(const struct gltf_value *extension, uint64_t limit,
         return false;
     size_bytes = p.count * p.stride;
     /* a block of vertices is at least as long as its header */
-    most = GLTF_MESHOPT_RATIO * (uint64_t)p.data.size_bytes + 256 * p.stride;
-    most = most < limit ? most : limit;
+    most = RATIO * (uint64_t)p.data.size_bytes + 256 * p.stride;
     if (size_bytes > most)
         return gltf_fail(extension, err,
                          "found %" PRIu64 " bytes packed into %zu, expected "
                          "at most %" PRIu64,
                          size_bytes, p.data.size_bytes, most);
+    if (!gltf_take(extension, size_bytes, 1, "unpacked bytes", err))
+        return false;
     view->data.owned = alloc_array((size_t)size_bytes, 1);
     view->data.bytes = view->data.owned;
     view->data.size_bytes = (size_t)size_bytes;

@@ -12,11 +12,8 @@
 
 #include "gltf/gltf_value.h"
 
-/* Most bytes that a packed byte stands for: 2 bits for a group of 16 bytes. */
-#define GLTF_MESHOPT_RATIO 64u
-
-/* Unpacks the view of this extension object, to at most `limit` bytes. */
-bool gltf_meshopt_unpack(const struct gltf_value *extension, uint64_t limit,
+/* Unpacks the view of this extension object. */
+bool gltf_meshopt_unpack(const struct gltf_value *extension,
                          struct gltf_view *view, struct error *err);
 
 #endif

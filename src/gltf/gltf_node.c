@@ -135,6 +135,28 @@ bool gltf_nodes_read(const struct gltf_document *document,
     return true;
 }
 
+bool gltf_node_name(const struct gltf_value *node,
+                    const struct gltf_value *shown, char cut[GLTF_NAME_BYTES],
+                    const char **name, struct error *err)
+{
+    const char *of_shown = "";
+    size_t length;
+
+    *name = NULL;
+    if (!gltf_string(shown, "name", &of_shown, err) ||
+        !gltf_string(node, "name", name, err))
+        return false;
+    if (*name != NULL)
+        return true;
+    length = strnlen(of_shown, GLTF_NAME_BYTES - 1);
+    while (length > 0 && (of_shown[length] & 0xc0) == 0x80)
+        length--; /* no part of a character */
+    memcpy(cut, of_shown, length);
+    cut[length] = '\0';
+    *name = cut;
+    return true;
+}
+
 /* ---- placing ---- */
 
 /* Returns the node that follows in the tree of `root`, after the descendants of

@@ -17,6 +17,8 @@
 #include "base/geometry.h"
 #include "gltf/gltf_value.h"
 
+#define GLTF_NAME_BYTES 256
+
 struct gltf_node {
     double translation[3];
     double rotation[4]; /* x, y, z, w */
@@ -41,6 +43,13 @@ struct gltf_nodes {
 /* Reads all nodes. */
 bool gltf_nodes_read(const struct gltf_document *document,
                      struct gltf_nodes *nodes, struct error *err);
+
+/* Returns the name of a node, else that of the mesh or camera it shows: many
+ * nodes may copy this one, so it is cut to the bytes of `cut`, which must
+ * outlive *name. */
+bool gltf_node_name(const struct gltf_value *node,
+                    const struct gltf_value *shown, char cut[GLTF_NAME_BYTES],
+                    const char **name, struct error *err);
 
 /* Computes the matrices of all nodes, and lists the nodes that the scene of
  * this number shows. NO_INDEX: the file's default scene, else its first, else

@@ -93,6 +93,8 @@ static bool open_targets(const struct gltf_value *value,
         return false;
     count = gltf_count(&list);
     count = count < shape->weight_count ? count : shape->weight_count;
+    if (!gltf_take(value, count, sizeof *p->targets, "targets", err))
+        return false;
     p->targets = alloc_array(count, sizeof *p->targets);
     if (p->targets == NULL)
         return gltf_fail(value, err, "out of memory for its targets");
@@ -179,7 +181,10 @@ static bool read_mode(const struct gltf_value *value, uint32_t variant,
         (variant != NO_INDEX &&
          !read_variant(value, variant, &p->material, err)))
         return false;
-    p->material = p->material == NO_INDEX ? 0 : p->material + 1;
+    /* the default material is behind the others */
+    if (p->material == NO_INDEX)
+        p->material = (uint32_t)gltf_entry_count(value->document, "materials");
+    p->material++;
     p->mode = (uint32_t)mode;
     return true;
 }

@@ -81,6 +81,8 @@ bool gltf_skin_read(const struct gltf_document *document,
         return gltf_fail(&v, err, "found no joints, expected one or more");
     if (!open_inverses(&v, *joint_count, &inverses, &has_inverses, err))
         return false;
+    if (!gltf_take(&v, *joint_count, sizeof **joints, "joints", err))
+        return false;
     *joints = alloc_array(*joint_count, sizeof **joints);
     return *joints != NULL
                ? fill_joints(&list, nodes, has_inverses ? &inverses : NULL,

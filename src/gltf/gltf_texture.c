@@ -15,9 +15,6 @@ enum { FILTER_NEAREST = 9728, WRAP_CLAMP = 33071, WRAP_MIRROR = 33648 };
  * left. */
 #define TRANSFORM_MAX 1e6
 
-/* Greatest size of all images that are views, in sizes of the buffers. */
-#define OVERLAP_MAX 2
-
 static bool out_of_memory(const struct gltf_textures *t, struct error *err)
 {
     return fail(err, "%s: out of memory for the textures", t->document->path);
@@ -36,11 +33,11 @@ bool gltf_textures_begin(struct gltf_textures *t,
         .report = report,
         .paths = alloc_array(count, sizeof *t->paths),
         .is_tried = alloc_array(count, sizeof *t->is_tried),
-        .views = alloc_array(count, sizeof *t->views),
+        .view_paths = alloc_array(document->view_count, sizeof *t->view_paths),
         .image_count = count,
     };
     return (texture_table_init(&t->table, scene) && t->paths != NULL &&
-            t->is_tried != NULL && t->views != NULL) ||
+            t->is_tried != NULL && t->view_paths != NULL) ||
            out_of_memory(t, err);
 }
 
@@ -50,7 +47,7 @@ void gltf_textures_end(struct gltf_textures *t)
         free(t->paths[i]);
     free(t->paths);
     free(t->is_tried);
-    free(t->views);
+    free(t->view_paths);
     texture_table_free(&t->table);
 }
 
@@ -85,27 +82,23 @@ static bool add_image(struct gltf_textures *t, size_t image,
     return true;
 }
 
-/* Lists a view as an image. Images of one view are one; views that overlap too
- * much would fill the memory. */
+/* Lists a view as an image. Images of one view are one. */
 static bool add_view(struct gltf_textures *t, const struct gltf_value *v,
                      size_t image, uint32_t view, struct error *err)
 {
     struct gltf_bytes data = t->document->views[view].data;
+    const char *path = t->view_paths[view];
 
     data.owned = NULL;
-    for (size_t i = 0; i < t->image_count; i++)
-        if (t->paths[i] != NULL && t->views[i].bytes == data.bytes &&
-            t->views[i].size_bytes == data.size_bytes) {
-            t->paths[image] = strdup(t->paths[i]);
-            return t->paths[image] != NULL || out_of_memory(t, err);
-        }
-    t->copied_bytes += data.size_bytes;
-    if (t->copied_bytes > OVERLAP_MAX * t->document->buffer_bytes)
-        return gltf_fail(v, err,
-                         "found images that overlap, expected one view for "
-                         "each");
-    t->views[image] = data;
-    return add_image(t, image, &data, err);
+    if (path != NULL) {
+        t->paths[image] = strdup(path);
+        return t->paths[image] != NULL || out_of_memory(t, err);
+    }
+    if (!gltf_take(v, data.size_bytes, 1, "bytes of an image", err) ||
+        !add_image(t, image, &data, err))
+        return false;
+    t->view_paths[view] = t->paths[image];
+    return true;
 }
 
 /* Finds the file that a URI names. A missing one is a warning. */
@@ -226,6 +219,29 @@ static bool find_image(const struct gltf_value *texture, uint32_t *image,
            gltf_index(&webp, "source", "images", image, err);
 }
 
+/* Returns true if an extension has the only image of a texture. */
+static bool is_only_basisu(const json_t *texture)
+{
+    const json_t *extensions = json_object_get(texture, "extensions");
+
+    return json_object_get(extensions, GLTF_BASISU) != NULL &&
+           json_object_get(texture, "source") == NULL &&
+           json_object_get(extensions, "EXT_texture_webp") == NULL;
+}
+
+bool gltf_textures_are_readable(const struct gltf_document *document)
+{
+    const json_t *texture;
+    size_t i;
+
+    json_array_foreach (json_object_get(document->root, "textures"), i,
+                        texture) {
+        if (is_only_basisu(texture))
+            return false;
+    }
+    return true;
+}
+
 /* Reads an entry of "textures" and its image. *path is NULL if there is none
  * that can be read. */
 static bool read_entry(struct gltf_textures *t, uint32_t index,
@@ -240,9 +256,11 @@ static bool read_entry(struct gltf_textures *t, uint32_t index,
         return false;
     if (image == NO_INDEX) {
         warnings_add(t->report, "unusable textures",
-                     "%s: /textures/%u: found no image that glim reads: the "
+                     "%s: /textures/%u: found no image that glim reads%s: the "
                      "texture is not used",
-                     t->document->path, index);
+                     t->document->path, index,
+                     is_only_basisu(v.json) ? ", expected " GLTF_BASISU_EXPECTED
+                                            : "");
         return true;
     }
     if (!t->is_tried[image]) {

@@ -17,6 +17,12 @@
 #include "formats/texture_table.h"
 #include "gltf/gltf_value.h"
 
+/* Textures of KTX2 images, which no library of Debian 12 decodes. */
+#define GLTF_BASISU "KHR_texture_basisu"
+#define GLTF_BASISU_EXPECTED                                                 \
+    "PNG, JPEG or WebP: 'gltf-transform ktxdecompress IN OUT' converts its " \
+    "KTX2 images"
+
 struct gltf_textures {
     const struct gltf_document *document;
     struct scene *scene;
@@ -24,8 +30,7 @@ struct gltf_textures {
     struct texture_table table;
     char **paths;   /* of the images; NULL: not needed so far, or unusable */
     bool *is_tried; /* for each image */
-    struct gltf_bytes *views; /* of images that are views of a buffer */
-    uint64_t copied_bytes;    /* of these views */
+    const char **view_paths; /* of the images that are views of a buffer */
     size_t image_count;
 };
 
@@ -51,5 +56,9 @@ bool gltf_texture_read(struct gltf_textures *textures,
                        const struct gltf_value *object, const char *key,
                        struct gltf_texture_use use, uint32_t *texture,
                        struct gltf_value *info, struct error *err);
+
+/* Returns true if each texture of the document has an image that is not only
+ * in KTX2. */
+bool gltf_textures_are_readable(const struct gltf_document *document);
 
 #endif

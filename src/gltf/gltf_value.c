@@ -48,6 +48,19 @@ bool gltf_fail(const struct gltf_value *value, struct error *err,
     return false;
 }
 
+bool gltf_take(const struct gltf_value *value, uint64_t count,
+               uint64_t item_bytes, const char *what, struct error *err)
+{
+    struct memory_budget *memory = value->document->memory;
+
+    return memory == NULL || memory_budget_take(memory, count, item_bytes) ||
+           gltf_fail(value, err,
+                     "found %" PRIu64 " %s, expected a scene that takes at "
+                     "most %.1f GiB %s",
+                     count, what, (double)memory->size_bytes / (1 << 30),
+                     memory->place);
+}
+
 /* Description of a value for messages. */
 struct found {
     char text[64];
@@ -189,6 +202,19 @@ bool gltf_entry(const struct gltf_document *document, const char *collection,
     struct gltf_value v = collection_of(document, collection);
 
     return gltf_item_object(&v, index, to, err);
+}
+
+const char *gltf_generator(const struct gltf_document *document)
+{
+    const char *name = json_string_value(
+        json_object_get(json_object_get(document->root, "asset"), "generator"));
+
+    return name != NULL ? name : "";
+}
+
+const json_t *gltf_lights(const struct gltf_document *document)
+{
+    return collection_of(document, "lights").json;
 }
 
 bool gltf_find(const struct gltf_document *document, const char *collection,

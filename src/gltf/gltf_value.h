@@ -34,6 +34,11 @@ struct gltf_value {
 bool gltf_fail(const struct gltf_value *value, struct error *err,
                const char *format, ...) __attribute__((format(printf, 3, 4)));
 
+/* Takes `count` items from the memory that the document may take, before they
+ * are allocated. `what` is the word for them in messages. */
+bool gltf_take(const struct gltf_value *value, uint64_t count,
+               uint64_t item_bytes, const char *what, struct error *err);
+
 /* Returns the value's place, such as "/meshes/3", for free(); NULL when memory
  * is out. */
 char *gltf_place(const struct gltf_value *value);
@@ -61,6 +66,12 @@ bool gltf_entry(const struct gltf_document *document, const char *collection,
 /* Returns the number of items of an array of the root; 0 if it is absent. */
 size_t gltf_entry_count(const struct gltf_document *document,
                         const char *collection);
+
+/* Returns the name of the program that wrote the document, or "". */
+const char *gltf_generator(const struct gltf_document *document);
+
+/* Returns the array of KHR_lights_punctual; NULL if it is absent. */
+const json_t *gltf_lights(const struct gltf_document *document);
 
 /* Finds an entry by its number, from 1, or its name. `what` is the word for it
  * in messages. */

@@ -6,11 +6,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "gltf/gltf_light_unit.h"
 #include "kernels/types.h"
 #include "scene/lamp.h"
-
-/* Luminous efficacy in Blender's files, lm/W: that of green light. */
-#define LUMENS_OF_WATT 683.0
 
 /* Least and greatest vertical field of view that glim's cameras have. */
 #define YFOV_MIN 1e-6
@@ -78,27 +76,18 @@ static bool add_camera(struct scene *scene, size_t *capacity, const char *name,
     return true;
 }
 
-/* Returns the name of the node, else that of what it places. */
-static bool read_name(const struct gltf_value *node,
-                      const struct gltf_value *placed, const char **name,
-                      struct error *err)
-{
-    *name = "";
-    return gltf_string(placed, "name", name, err) &&
-           gltf_string(node, "name", name, err);
-}
-
 static bool read_camera(const struct gltf_value *node,
                         const struct gltf_node *n, struct scene *scene,
                         size_t *capacity, struct warnings *report,
                         struct error *err)
 {
+    char cut[GLTF_NAME_BYTES];
     struct gltf_value v;
     const char *name;
     double yfov;
 
     return gltf_entry(node->document, "cameras", n->camera, &v, err) &&
-           read_name(node, &v, &name, err) &&
+           gltf_node_name(node, &v, cut, &name, err) &&
            read_yfov(&v, &yfov, report, err) &&
            (add_camera(scene, capacity, name, &n->world, yfov) ||
             gltf_fail(node, err, "out of memory for its camera"));
@@ -162,26 +151,10 @@ static void place_lamp(struct lamp *lamp, const struct affine *a)
     lamp_set_direction(lamp, backward);
 }
 
-/* Returns the factor of the intensities of lights. Blender's exporter takes a
- * watt as 683 lumens, and its importer back; surfaces that glow are not scaled
- * so. */
-static bool light_unit(const struct gltf_document *d, double *unit,
-                       struct error *err)
-{
-    struct gltf_value root = gltf_root(d), asset;
-    const char *generator = "";
-
-    if (!gltf_object(&root, "asset", &asset, err) ||
-        !gltf_string(&asset, "generator", &generator, err))
-        return false;
-    *unit = strstr(generator, "Blender") != NULL ? 1 / LUMENS_OF_WATT : 1;
-    return true;
-}
-
 static bool read_light(const struct gltf_value *node, const struct gltf_node *n,
-                       double unit, struct scene *scene, struct error *err)
+                       struct scene *scene, struct error *err)
 {
-    double color[3] = {1, 1, 1}, intensity = 1;
+    double color[3] = {1, 1, 1}, intensity = 1, unit;
     struct gltf_value v;
     struct lamp lamp;
 
@@ -191,6 +164,7 @@ static bool read_light(const struct gltf_value *node, const struct gltf_node *n,
         !gltf_number(&v, "intensity", 0, FLT_MAX, &intensity, err) ||
         (lamp.kind == LAMP_SPOT && !read_cone(&v, &lamp, err)))
         return false;
+    unit = light_unit_factor(scene->light_unit, lamp.kind == LAMP_DIRECTIONAL);
     for (int i = 0; i < 3; i++) {
         if (!(color[i] >= 0 && color[i] <= FLT_MAX))
             return gltf_fail(&v, err, "found a color of %g, expected 0 to 1",
@@ -207,10 +181,9 @@ bool gltf_view_read(const struct gltf_document *document,
                     struct warnings *report, struct error *err)
 {
     size_t capacity = 0;
-    double unit;
 
-    if (!light_unit(document, &unit, err))
-        return false;
+    scene->light_unit =
+        gltf_light_unit(document, &scene->light_unit_is_guessed);
     for (uint32_t i = 0; i < nodes->visible_count; i++) {
         const struct gltf_node *n = &nodes->items[nodes->visible[i]];
         struct gltf_value v;
@@ -220,7 +193,7 @@ bool gltf_view_read(const struct gltf_document *document,
         if (!gltf_entry(document, "nodes", nodes->visible[i], &v, err) ||
             (n->camera != NO_INDEX &&
              !read_camera(&v, n, scene, &capacity, report, err)) ||
-            (n->light != NO_INDEX && !read_light(&v, n, unit, scene, err)))
+            (n->light != NO_INDEX && !read_light(&v, n, scene, err)))
             return false;
     }
     return true;

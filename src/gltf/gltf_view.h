@@ -2,8 +2,7 @@
 /*
  * gltf_view.h - the cameras and the lights that the nodes of a document place
  *
- * Units:     radians and KHR_lights_punctual's units in the file: candela are
- *            glim's radiance times area, lux its irradiance
+ * Units:     radians; those of lights are decided by gltf_light_unit.h
  * Ownership: everything belongs to the scene
  * Threads:   one for each scene
  * Errors:    memory; numbers out of range

@@ -394,6 +394,28 @@ static bool complete_view(const struct scene *scene, struct host_world *host,
     return true;
 }
 
+/* Gives the view the lamps of the scene if it has none, in the unit that the
+ * view says. */
+static bool take_lamps(const struct scene *scene, struct view *view,
+                       struct warnings *report, struct error *err)
+{
+    if (view->lamps.count > 0 || scene->lamps.count == 0)
+        return true;
+    if (!lamps_copy(&view->lamps, &scene->lamps))
+        return fail(err, "%s: out of memory for its lights", scene->path);
+    if (scene->light_unit != LIGHT_UNIT_OF_FILE &&
+        view->light_unit != LIGHT_UNIT_OF_FILE)
+        lamps_change_unit(&view->lamps, scene->light_unit,
+                          (enum light_unit)view->light_unit);
+    else if (scene->light_unit_is_guessed)
+        warnings_add(report, "lights of an unknown unit",
+                     "%s: found lights of a unit that the file does not tell, "
+                     "read as '%s': 'light_unit' lumen, watt or none in the "
+                     "view file, or --light-unit, sets it",
+                     scene->path, light_units[scene->light_unit]);
+    return true;
+}
+
 bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
                 const char *path, const struct scene_options *options,
                 struct warnings *report, struct error *err)
@@ -408,8 +430,7 @@ bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
          !view_parse_over(view, options->view_lines, report, err)))
         return false;
     has_view_lamps = view->lamps.count > 0;
-    if ((!has_view_lamps && !lamps_copy(&view->lamps, &scene->lamps) &&
-         !fail(err, "%s: out of memory for its lights", path)) ||
+    if (!take_lamps(scene, view, report, err) ||
         !world_init(host, scene, options->thread_count, report, err) ||
         !world_load_sky(host, view, report, err) ||
         !world_set_lamps(host, scene, view, err))

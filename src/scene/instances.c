@@ -343,6 +343,24 @@ static bool grow_to(void **array, uint64_t count, size_t size_bytes)
     return p != NULL;
 }
 
+/* Takes the memory of the copies, also that of finishing them and of their
+ * tree. */
+static bool take_copies(struct scene *s, const struct totals *all)
+{
+    uint64_t vertex_bytes =
+        3 * sizeof *s->file_positions + sizeof *s->colors + sizeof *s->alphas;
+    uint64_t normal_bytes = sizeof *s->normals + sizeof *s->tangents;
+    uint64_t tri_bytes =
+        sizeof *s->tris + sizeof *s->tri_faces + sizeof *s->tri_objects;
+    uint64_t tris = all->tris > s->tri_count ? all->tris - s->tri_count : 0;
+
+    return memory_budget_take(&s->memory, all->positions - s->position_count,
+                              SCENE_FINISH * vertex_bytes) &&
+           memory_budget_take(&s->memory, all->normals - s->normal_count,
+                              SCENE_FINISH * normal_bytes) &&
+           memory_budget_take(&s->memory, tris, SCENE_FINISH * tri_bytes);
+}
+
 /* Makes room for all copies. */
 static bool grow_all(struct flattening *f, const struct totals *all)
 {
@@ -401,7 +419,7 @@ static bool copy_meshes(struct scene *scene, struct plan *plans,
     struct totals all = count_all(scene, plans);
     uint32_t count = s->count;
 
-    if (!grow_all(&f, &all)) {
+    if (!take_copies(scene, &all) || !grow_all(&f, &all)) {
         free(f.tris);
         free(f.faces);
         free(f.objects);

@@ -1,11 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "scene/lamp.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/geometry.h"
 #include "base/memory.h"
+
+/* Luminous efficacy in Blender's files, lm/W: that of green light. */
+#define LUMENS_OF_WATT 683.0
+
+const char *const light_units[LIGHT_UNITS] = {
+    [LIGHT_UNIT_OF_FILE] = "auto",
+    [LIGHT_UNIT_LUMEN] = "lumen",
+    [LIGHT_UNIT_WATT] = "watt",
+    [LIGHT_UNIT_NONE] = "none",
+};
+
+double light_unit_factor(enum light_unit unit, bool is_directional)
+{
+    if (unit == LIGHT_UNIT_LUMEN)
+        return 1 / LUMENS_OF_WATT;
+    return unit == LIGHT_UNIT_WATT && !is_directional ? 1 / (4 * M_PI) : 1;
+}
 
 void lamp_init(struct lamp *lamp, enum lamp_kind kind)
 {
@@ -43,6 +62,20 @@ bool lamps_add(struct lamps *lamps, const struct lamp *lamp)
     profile_share(lamp->profile);
     lamps->items[lamps->count++] = *lamp;
     return true;
+}
+
+void lamps_change_unit(struct lamps *lamps, enum light_unit from,
+                       enum light_unit to)
+{
+    for (uint32_t i = 0; i < lamps->count; i++) {
+        struct lamp *lamp = &lamps->items[i];
+        bool is_sun = lamp->kind == LAMP_DIRECTIONAL;
+        double factor =
+            light_unit_factor(to, is_sun) / light_unit_factor(from, is_sun);
+
+        for (int k = 0; k < 3; k++)
+            lamp->rgb[k] = fmin(lamp->rgb[k] * factor, FLT_MAX);
+    }
 }
 
 void lamps_remove(struct lamps *lamps, uint32_t i)

@@ -39,6 +39,21 @@ struct lamp {
     struct profile *profile;
 };
 
+/* Units of the intensities that a file has. */
+enum light_unit {
+    LIGHT_UNIT_OF_FILE, /* as its reader decides */
+    LIGHT_UNIT_LUMEN,   /* candela and lux, with 683 lm for a watt */
+    LIGHT_UNIT_WATT,    /* the power of a lamp, the irradiance of a direction */
+    LIGHT_UNIT_NONE     /* those of glim */
+};
+#define LIGHT_UNITS 4
+
+/* Their names in view files. */
+extern const char *const light_units[LIGHT_UNITS];
+
+/* Returns the factor that makes intensities those of glim. */
+double light_unit_factor(enum light_unit unit, bool is_directional);
+
 struct lamps {
     struct lamp *items;
     uint32_t count;
@@ -55,6 +70,10 @@ void lamp_set_direction(struct lamp *lamp, const double to[3]);
 
 /* Appends a lamp and shares its profile. */
 bool lamps_add(struct lamps *lamps, const struct lamp *lamp);
+
+/* Changes intensities that were read in one unit to those of another. */
+void lamps_change_unit(struct lamps *lamps, enum light_unit from,
+                       enum light_unit to);
 
 /* Removes lamp i. */
 void lamps_remove(struct lamps *lamps, uint32_t i);

@@ -15,6 +15,7 @@
 #define GLIM_SCENE_H
 
 #include "base/error.h"
+#include "base/memory_budget.h"
 #include "base/thread_pool.h"
 #include "base/warnings.h"
 #include "scene/instances.h"
@@ -61,6 +62,10 @@ struct scene_image {
     size_t size_bytes;
 };
 
+/* Memory of a scene that is open, in sizes of the arrays that a reader fills:
+ * growing and finishing them needs as much again, and the tree too. */
+#define SCENE_FINISH 4
+
 struct scene {
     char *path; /* path of the scene file */
 
@@ -70,7 +75,8 @@ struct scene {
     const char *program; /* reads formats of others (import.h); may be NULL */
     bool up_is_z; /* axis of the file, as its format and its writer have it */
 
-    /* only while loading; freed by scene_finish() */
+    /* only while loading; the arrays are freed by scene_finish() */
+    struct memory_budget memory;      /* of what the file may still take */
     double *file_positions;           /* 3 coordinates for each vertex */
     struct scene_instances instances; /* its meshes stay: the kept ones */
 
@@ -102,7 +108,9 @@ struct scene {
 
     struct scene_camera *cameras; /* a view without a camera has the first */
     uint32_t camera_count;
-    struct lamps lamps; /* a view without lamps has these */
+    struct lamps lamps;         /* a view without lamps has these */
+    enum light_unit light_unit; /* as which the lamps were read */
+    bool light_unit_is_guessed;
 
     struct material *materials; /* 0 is the default, named "" */
     char **material_names;

@@ -61,6 +61,7 @@ struct view {
     bool has_shot[VIEW_SHOTS];
     struct assigns assigns;
     struct lamps lamps;
+    uint32_t light_unit; /* enum light_unit, of the scene's lamps */
 };
 
 /* Names of enum tone in view files. */

@@ -61,6 +61,8 @@ static const struct option_rule picture[] = {
      "exposure of the picture; also of merge and develop"},
     {"tone", OPTION_TONE, "linear, reinhard or aces", "KIND",
      "tone curve: linear, reinhard or aces; also of merge and develop"},
+    {"light-unit", OPTION_LIGHT_UNIT, "auto, lumen, watt or none", "UNIT",
+     "unit of the lights of glTF: auto, lumen, watt or none"},
     {"sun", OPTION_SUN, "AZ,EL in degrees", "AZ,EL",
      "the sun in a clear sky, AZ degrees clockwise from -z and EL above "
      "the horizon, instead of the view's sky"},

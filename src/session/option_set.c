@@ -354,6 +354,7 @@ static bool set_word(struct options *o, const struct option_given *g,
     static const char *const themes[] = {"auto", "dark", "light", "plain",
                                          NULL};
     const char *tones[TONES + 1] = {NULL}; /* ends with NULL */
+    const char *units[LIGHT_UNITS + 1] = {NULL};
     int index = 0;
 
     switch (g->rule->id) {
@@ -383,6 +384,12 @@ static bool set_word(struct options *o, const struct option_given *g,
         o->tone = (uint32_t)index;
         o->has_tone = true;
         option_view_add(o, "tone %s", g->value);
+        return true;
+    case OPTION_LIGHT_UNIT:
+        memcpy(units, light_units, sizeof light_units);
+        if (!choice(g, units, &index, err))
+            return false;
+        option_view_add(o, "light_unit %s", g->value);
         return true;
     case OPTION_SHOW:
         if (!choice(g, options_shows, &index, err))
@@ -480,6 +487,7 @@ bool option_set(struct options *o, const struct option_given *g,
         o->choice.has_time = true;
         return set_decimal(g, 0, 1e9, &o->choice.time_s, err);
     case OPTION_TONE:
+    case OPTION_LIGHT_UNIT:
     case OPTION_BACKEND:
     case OPTION_COLOR:
     case OPTION_SHOW:

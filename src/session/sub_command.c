@@ -93,6 +93,7 @@ bool sub_command_takes(enum sub_command command, enum option_id id)
     case OPTION_UP:
     case OPTION_FOV:
     case OPTION_CAMERA:
+    case OPTION_LIGHT_UNIT:
     case OPTION_SCENE_PART:
     case OPTION_VARIANT:
     case OPTION_ANIMATION:

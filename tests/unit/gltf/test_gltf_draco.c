@@ -112,10 +112,12 @@ struct kind {
     bool is_packed, is_sequential, is_strip;
     bool is_optional; /* has plain data, too */
     bool is_cloud;
-    int copies; /* primitives; 0 is 1 */
+    int copies;       /* primitives; 0 is 1 */
+    bool shares_view; /* all of them show the packed bytes of one view */
 };
 
-/* Numbers of the views: those of the attributes, indices, packed bytes. */
+/* Numbers of the views: those of the attributes, indices, packed bytes of each
+ * primitive. */
 enum { VIEW_INDICES = ATTRIBUTES, VIEW_PACKED };
 
 /* Writes data.bin and the views. */
@@ -154,11 +156,12 @@ static void put_views(FILE *f, const struct kind *k)
     fwrite(packed, 1, packed_bytes, bin);
     assert_int_equal(fclose(bin), 0);
     free(packed);
-    fprintf(f,
-            "{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu},"
-            "{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}],"
-            "\"buffers\":[{\"byteLength\":%zu,\"uri\":\"data.bin\"}],",
-            at, index_bytes, at + index_bytes, packed_bytes,
+    fprintf(f, "{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}", at,
+            index_bytes);
+    for (int i = 0; i < (k->copies > 0 ? k->copies : 1); i++)
+        fprintf(f, ",{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}",
+                at + index_bytes, packed_bytes);
+    fprintf(f, "],\"buffers\":[{\"byteLength\":%zu,\"uri\":\"data.bin\"}],",
             at + index_bytes + packed_bytes);
 }
 
@@ -196,14 +199,14 @@ static void put_attributes(FILE *f, bool is_of_draco)
     fprintf(f, "}");
 }
 
-static void put_primitive(FILE *f, const struct kind *k)
+static void put_primitive(FILE *f, const struct kind *k, int number)
 {
     fprintf(f, "{\"mode\":%d,\"indices\":%d,\"material\":0,",
             k->is_strip ? 5 : 4, ATTRIBUTES);
     put_attributes(f, false);
     if (k->is_packed) {
         fprintf(f, ",\"extensions\":{\"" GLTF_DRACO "\":{\"bufferView\":%d,",
-                VIEW_PACKED);
+                VIEW_PACKED + (k->shares_view ? 0 : number));
         put_attributes(f, true);
         fprintf(f, "}}");
     }
@@ -225,7 +228,7 @@ static void put_model(struct kind k)
     fprintf(f, "\"meshes\":[{\"primitives\":[");
     for (int i = 0; i < (k.copies > 0 ? k.copies : 1); i++) {
         fprintf(f, i > 0 ? "," : "");
-        put_primitive(f, &k);
+        put_primitive(f, &k, i);
     }
     fprintf(f,
             "]}],\"materials\":[{\"alphaMode\":\"BLEND\","
@@ -334,6 +337,7 @@ static void packed_meshes_are_those_that_were_packed(void **state)
         {.is_packed = true, .is_strip = true},
         {.is_packed = true, .is_optional = true},
         {.is_packed = true, .copies = 3},
+        {.is_packed = true, .copies = 3, .shares_view = true},
     };
 
     (void)state;
@@ -411,6 +415,42 @@ static void failures_name_their_mesh(void **state)
     fail_with(NULL, "which only the program glim reads");
 }
 
+/* Returns the bytes that a copy gets for model.gltf. */
+static long request_bytes(void)
+{
+    struct scene scene;
+    struct error err;
+    char *text;
+    size_t size_bytes;
+    long n;
+
+    put("child", "#!/bin/sh\nwc -c >size\nexit 3\n");
+    chmod("child", 0700);
+    assert_false(load_with("./child", &scene, &err));
+    check_has(err.text, "libdraco ended with status 3");
+    check_or_say(file_read("size", &text, &size_bytes, &err), err.text);
+    n = strtol(text, NULL, 10);
+    free(text);
+    return n;
+}
+
+/* Each copy of packed bytes has its own request, but those of one view have one
+ * together. */
+static void views_are_unpacked_once(void **state)
+{
+    long one;
+
+    (void)state;
+    put_model((struct kind){.is_packed = true});
+    one = request_bytes();
+    assert_true(one > 16 + 4 * ATTRIBUTES);
+    put_model((struct kind){.is_packed = true, .copies = 3});
+    assert_int_equal(request_bytes(), 3 * one);
+    put_model(
+        (struct kind){.is_packed = true, .copies = 3, .shares_view = true});
+    assert_int_equal(request_bytes(), one);
+}
+
 static void clouds_are_refused(void **state)
 {
     (void)state;
@@ -466,6 +506,7 @@ int main(int count, char **arguments)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(packed_meshes_are_those_that_were_packed),
         cmocka_unit_test(failures_name_their_mesh),
+        cmocka_unit_test(views_are_unpacked_once),
         cmocka_unit_test(clouds_are_refused),
         cmocka_unit_test(broken_bytes_cost_a_line),
     };
