@@ -32,7 +32,7 @@ static void check_extent(const struct splitter *s, const struct range *r)
                         3 * sizeof(float));
 }
 
-static void split_all(struct splits *p, const struct range *r)
+static void split_all(struct splits *p, struct range *r)
 {
     struct range sides[2];
 
