@@ -402,8 +402,8 @@ static bool read_statement(struct parser *p)
     return skip_unknown(p, key);
 }
 
-/* Returns the material of faces before the first usemtl. If the MTL files have
- * a single one, it is meant, as libassimp reads such files. */
+/* Returns the material of faces before the first usemtl. In a file without
+ * usemtl a single material of the MTL files is meant, as libassimp reads it. */
 static uint32_t material_of_none(struct parser *p)
 {
     const struct scene *scene = p->scene;
@@ -412,7 +412,7 @@ static uint32_t material_of_none(struct parser *p)
 
     for (uint32_t i = 0; !is_needed && i < scene->tri_count; i++)
         is_needed = scene->tris[i].material == 0;
-    if (!is_needed || found == 0)
+    if (!is_needed || found == 0 || p->materials.count > 1)
         return 0;
     if (found == 1)
         warnings_add(p->report, "faces without usemtl",

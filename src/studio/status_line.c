@@ -33,15 +33,13 @@ enum field {
 };
 
 /* Fields in the order in which they are left out if there is no room; that of
- * the machine shrinks to one word, and the mode to its name. The first ones are
- * known or shown elsewhere, as in the progress panel; the last ones tell the
- * effect of a key. */
-static const enum field dispensable[] = {FIELD_MACHINE, FIELD_SIZE,
-                                         FIELD_SPEED,   FIELD_LEFT,
-                                         FIELD_ELAPSED, FIELD_GAUGE,
-                                         FIELD_PERCENT, FIELD_TARGET,
-                                         FIELD_NOISE,   FIELD_MODE,
-                                         FIELD_COLORS,  FIELD_SAMPLES};
+ * the machine shrinks to one word, and the mode loses its last word, then all
+ * but its name. The first ones are known or shown elsewhere, as in the progress
+ * panel; the last ones tell the effect of a key. */
+static const enum field dispensable[] = {
+    FIELD_MACHINE, FIELD_SIZE,    FIELD_SPEED,  FIELD_LEFT,  FIELD_ELAPSED,
+    FIELD_GAUGE,   FIELD_PERCENT, FIELD_TARGET, FIELD_NOISE, FIELD_MODE,
+    FIELD_COLORS,  FIELD_MODE,    FIELD_SAMPLES};
 
 #define GAUGE_COLS 8
 
@@ -286,17 +284,21 @@ static void mark_mode(struct status_row *row, const struct status_line *s,
     add_span(row, 0, cols < room ? cols : room, mode_role(s));
 }
 
-/* Shortens a field to one word, or to nothing. The mode loses what follows it.
- */
+/* Leaves out a field, or a part of it. `is_last` says that of the mode only the
+ * name is to stay. */
 static void leave_out(char text[FIELDS][FIELD_BYTES], enum field field,
-                      const struct status_line *s)
+                      const struct status_line *s, bool is_last)
 {
+    size_t length = strlen(mode_word(s));
+
     if (field == FIELD_MACHINE)
         format_machine(text[field], s, true);
-    else if (field == FIELD_MODE)
-        text[field][strlen(mode_word(s))] = '\0';
-    else
+    else if (field != FIELD_MODE)
         text[field][0] = '\0';
+    else if (is_last)
+        text[field][length] = '\0';
+    else if (strlen(text[field]) > length)
+        *strrchr(text[field], ' ') = '\0';
 }
 
 void status_line_format(struct status_row *row, int cols,
@@ -313,7 +315,7 @@ void status_line_format(struct status_row *row, int cols,
     for (size_t i = 0; i < sizeof dispensable / sizeof dispensable[0]; i++) {
         if (1 + length_of(fields) + hint <= room)
             break;
-        leave_out(fields, dispensable[i], s);
+        leave_out(fields, dispensable[i], s, fields[FIELD_COLORS][0] == '\0');
     }
     if (1 + length_of(fields) > room) /* what renders comes before its state */
         fields[FIELD_MODE][strcspn(mode, " ")] = '\0';

@@ -9,7 +9,7 @@
 
 #define S_NS UINT64_C(1000000000)
 
-static double sum_of(const struct speeds *s)
+static double total_of(const struct speeds *s)
 {
     double sum = 0;
 
@@ -38,7 +38,7 @@ static void steady_renders_have_one_speed(void **state)
         assert_true(s.count <= SPEEDS_MAX);
         if (i % 100 != 0)
             continue;
-        check_close(sum_of(&s), (double)(time_ns / 1000000), 1e-3);
+        check_close(total_of(&s), (double)(time_ns / 1000000), 1e-3);
         for (int k = 0; k < s.count; k++)
             check_close(speeds_at(&s, k), 1000, 1e-6);
     }
@@ -97,10 +97,10 @@ static void queries_at_one_time_lose_nothing(void **state)
     speeds_update(&s, S_NS / 8, 10);
     speeds_update(&s, S_NS / 8, 20);
     speeds_update(&s, S_NS / 4, 30);
-    check_close(sum_of(&s), 30, 1e-9);
+    check_close(total_of(&s), 30, 1e-9);
     speeds_update(&s, S_NS / 8, 5);
     assert_int_equal(s.count, 1);
-    check_close(sum_of(&s), 5, 1e-9);
+    check_close(total_of(&s), 5, 1e-9);
     check_close(speeds_at(&s, 0), 40, 1e-9);
 }
 

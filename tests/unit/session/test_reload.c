@@ -199,11 +199,13 @@ static void framed_cameras_stay(void **state)
     session_close(&s);
 }
 
-/* Makes the next check of the files due now. */
+/* Looks at the files until none has changed since the last look. */
 static void look_now(struct render_control *w)
 {
-    w->files_ns = clock_ns();
-    render_control_update(w);
+    do {
+        w->files_ns = clock_ns();
+        render_control_update(w);
+    } while (w->watch.is_changing);
 }
 
 /* Checks the files and waits for what is then loaded. */
@@ -237,17 +239,17 @@ static void broken_files_leave_the_scene(void **state)
     (void)state;
     open_work(&w, &s);
     put("s.mtl", "newmtl m\nKd .1 x\n");
-    render_control_check_files(&w);
+    look_now(&w);
     assert_true(w.has_changed_files);
     render_control_reload(&w);
     end_reload(&w);
     assert_true(w.message.is_error);
     assert_non_null(strstr(w.message.text, "s.mtl:2: "));
     check_close(s.world.materials[1].color.x, .7f, 0);
-    render_control_check_files(&w);
+    look_now(&w);
     assert_false(w.has_changed_files); /* the message appears once */
     put("s.mtl", "newmtl m\nKd .25 0 0\n");
-    render_control_check_files(&w);
+    look_now(&w);
     assert_true(w.has_changed_files);
     render_control_reload(&w);
     end_reload(&w);
@@ -287,9 +289,8 @@ static void watched_files_are_loaded_at_once(void **state)
     render_control_set_live(&w, false);
     render_control_start_or_halt(&w);
     put("s.mtl", "newmtl m\nKd .5 0 0\n");
-    render_control_check_files(&w);
-    assert_true(w.has_changed_files);
     look_now(&w);
+    assert_true(w.has_changed_files);
     assert_false(w.reload.is_busy);
     render_control_reload(&w); /* only a message */
     assert_false(w.reload.is_busy);
@@ -328,12 +329,12 @@ static void own_views_are_no_change(void **state)
     open_work(&w, &s);
     s.edit.now.view.lighting.exposure = 3;
     save_view(&w);
-    render_control_check_files(&w);
+    look_now(&w);
     assert_false(w.has_changed_files);
     put("s.mtl", MTL "\n");
     s.edit.now.view.lighting.exposure = 4;
     save_view(&w);
-    render_control_check_files(&w);
+    look_now(&w);
     assert_true(w.has_changed_files); /* the other file */
     close_work(&w, &s);
 }
@@ -352,16 +353,16 @@ static void own_materials_are_no_change(void **state)
     red.kd.rgb[0] = .125;
     edit_material(&s.edit, 1, &red);
     assert_true(save_edit(&w));
-    render_control_check_files(&w);
+    look_now(&w);
     assert_false(w.has_changed_files);
     put("s.mtl", MTL "\n");
-    render_control_check_files(&w);
+    look_now(&w);
     assert_true(w.has_changed_files);
     /* It remains one when the next save overwrites it. */
     red.kd.rgb[0] = .25;
     edit_material(&s.edit, 1, &red);
     assert_true(save_edit(&w));
-    render_control_check_files(&w);
+    look_now(&w);
     assert_true(w.has_changed_files);
     close_work(&w, &s);
 }
@@ -384,10 +385,10 @@ static void chosen_skies_are_watched(void **state)
     assert_true(render_control_is_outdated(&w));
     while (render_control_is_outdated(&w))
         render_control_update(&w);
-    render_control_check_files(&w);
+    look_now(&w);
     assert_false(w.has_changed_files);
     put("sky.png", "no image either");
-    render_control_check_files(&w);
+    look_now(&w);
     assert_true(w.has_changed_files);
     close_work(&w, &s);
 }
