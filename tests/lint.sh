@@ -35,6 +35,7 @@ tidy="$tidy,-clang-analyzer-valist.Uninitialized"
 tidy="$tidy,-clang-analyzer-security.insecureAPI.Deprecated*,bugprone-*$off"
 export tidy
 # shellcheck disable=SC2016 # the inner shell expands these
+# shellcheck disable=SC2086 # words
 printf '%s\n' $SOURCES | xargs -n8 "-P$(nproc)" sh -c 'clang-tidy --quiet \
     --warnings-as-errors="*" --checks="$tidy" "$@" -- $FLAGS' sh
 

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # SPDX-License-Identifier: MIT
 # pool.sh - runs commands side by side; sourced by the scripts that run tests
 

@@ -140,7 +140,11 @@ program_is_hardened()
 }
 
 # Tests whose limits are of time, and which therefore run alone
-timed=' '
+timed=' base/test_stop base/test_child '
+
+# Screens mostly wait, beside the others.
+part run_script screen tests/screen/run.sh &
+JOBS=$(($(nproc) + 1))
 
 in_pool part run_check layers tests/layers.sh
 in_pool part run_check tour tests/tour.sh
@@ -159,7 +163,6 @@ for program in tests/unit/*/test_*.c; do
 done
 wait
 part run_script cli tests/cli/run.sh
-part run_script screen tests/screen/run.sh
 for name in $timed; do
     part run_unit "$name" "$BUILD/unit/$name"
 done

@@ -95,8 +95,7 @@ static bool is_one_image(const struct scene *scene, uint32_t a, uint32_t b)
  * its colour and its opacity counts once. */
 static struct material in_world(const struct scene *scene, struct material m)
 {
-    m.color_is_opaque =
-        is_one_image(scene, m.color_texture, m.opacity_texture);
+    m.color_is_opaque = is_one_image(scene, m.color_texture, m.opacity_texture);
     m.attenuation = v3_min(v3(FLT_MAX, FLT_MAX, FLT_MAX),
                            v3_scale(m.attenuation, (float)(1 / scene->scale)));
     return m;

@@ -147,8 +147,8 @@ void render_control_begin_device(struct render_control *control);
  * the error. */
 void render_control_end_device(struct render_control *control);
 
-/* Handles the readable fd of the watch: lets render_control_update() look at the
- * files when writes have come to rest. */
+/* Handles the readable fd of the watch: lets render_control_update() look at
+ * the files when writes have come to rest. */
 void render_control_check_files(struct render_control *control);
 
 /* Starts to reload the files of the scene, in live mode. The old scene is

@@ -117,7 +117,10 @@ static void compare(const char *scene, const struct truth *truth, int width,
         double means[REGIONS];
 
         if (!session_open(&s, &o, clock_ns(), &err) ||
-            !session_restart(&s, (struct render_limits){.spp = (uint64_t)spp},
+            !session_restart(&s,
+                             (struct render_limits){
+                                 .spp = (uint64_t)spp /
+                                        (check_is_thorough() ? 1 : 4)},
                              &err))
             print_error("%s\n", err.text);
         assert_string_equal(err.text, "");

@@ -22,6 +22,8 @@ static void shipped_scenes_are_equal(void **state)
 {
     (void)state;
     for (size_t i = 0; device && i < sizeof scenes / sizeof scenes[0]; i++) {
+        if (!check_is_due(2))
+            continue;
         struct pair p;
 
         open_pair(&p, scenes[i], 97, 55);

@@ -123,6 +123,8 @@ static void intervals_are_calibrated(void **state)
     for (int i = 0; i < 4; i++) {
         int inside = 0;
 
+        if (!check_is_due(2))
+            continue;
         for (int k = 0; k < 1000; k++) {
             struct film_error e;
             double truth;
