@@ -185,12 +185,17 @@ static void expect_file(const char *file, const json_t *materials)
 {
     char *path = format_text("%s/suites/%s", shared_folder(), file);
     struct loaded l;
+    size_t count;
 
     load(&l, path);
     if (!l.ok)
         print_error("%s\n", l.err.text);
     assert_true(l.ok);
-    assert_true(l.scene.material_count >= 1 + json_array_size(materials));
+    /* behind those of the file is the default, if a primitive names none */
+    count = 1 + json_array_size(materials);
+    if (l.scene.material_count > count)
+        assert_string_equal(l.scene.material_names[count++], "default");
+    assert_int_equal(l.scene.material_count, count);
     for (size_t i = 0; i < json_array_size(materials); i++) {
         const json_t *want = json_array_get(materials, i);
         const char *name = json_string_value(json_object_get(want, "name"));
