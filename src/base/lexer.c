@@ -22,14 +22,20 @@ static bool is_line_end(char c)
     return c == '\n' || c == '\r';
 }
 
+size_t lexer_text_size(const char *text, size_t size_bytes)
+{
+    while (size_bytes > 0 && text[size_bytes - 1] == '\0')
+        size_bytes--;
+    return size_bytes;
+}
+
 void lexer_trim(const char **text, size_t *size_bytes)
 {
     if (*size_bytes >= 3 && memcmp(*text, "\xef\xbb\xbf", 3) == 0) {
         *text += 3;
         *size_bytes -= 3;
     }
-    while (*size_bytes > 0 && (*text)[*size_bytes - 1] == '\0')
-        --*size_bytes;
+    *size_bytes = lexer_text_size(*text, *size_bytes);
 }
 
 void lexer_init(struct lexer *lex, const char *text, size_t size_bytes)

@@ -38,6 +38,9 @@ bool lexer_is_blank(char c);
  * with which some programs fill a file. */
 void lexer_trim(const char **text, size_t *size_bytes);
 
+/* Returns the size of a text without NULs at its end. */
+size_t lexer_text_size(const char *text, size_t size_bytes);
+
 /* Begins a text, which is trimmed. */
 void lexer_init(struct lexer *lex, const char *text, size_t size_bytes);
 

@@ -23,8 +23,7 @@ bool mtl_document_init(struct mtl_document *t, const char *text,
                        size_t size_bytes)
 {
     /* what is appended must not stand behind NULs, which readers drop */
-    while (size_bytes > 0 && text[size_bytes - 1] == '\0')
-        size_bytes--;
+    size_bytes = lexer_text_size(text, size_bytes);
     *t = (struct mtl_document){alloc_array(size_bytes + 1, 1), size_bytes,
                                line_end_of(text, size_bytes)};
     if (t->bytes != NULL)
