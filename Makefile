@@ -10,7 +10,7 @@ PKGCONFIGDIR ?= $(LIBDIR)/pkgconfig
 MANDIR ?= $(PREFIX)/share/man
 DATADIR ?= $(PREFIX)/share/glim
 CC ?= cc
-CFLAGS ?= -O3 -g
+CFLAGS ?= -O3 -g1
 INSTALL ?= install
 V ?= 0
 Q = $(if $(filter 1,$(V)),,@)
@@ -117,6 +117,8 @@ $(B)/%.o: src/%.c $(B)/flags
 	$(compile)
 $(B)/import/draco_decode.o: src/import/draco_decode.cc $(B)/flags
 	$(compile_cxx)
+# It follows one path at a time: fast to compile is enough.
+$(B)/inspect/path_record.o: private ALL_CFLAGS := $(patsubst -O3,-O1,$(ALL_CFLAGS))
 $(B)/gltf/gltf_draco.o: private ALL_CFLAGS += $(if $(DRACO),-DHAS_DRACO)
 $(B)/cluster/wire.o: private ALL_CFLAGS += $(shell mpicc --showme:compile)
 # The program that tries OpenCL devices and reads formats for the library.

@@ -19,7 +19,7 @@ TOOLS := $(call names_of,tools/*)
 
 # Programs take the objects that they use from a thin archive. Tests are compiled
 # quickly and run for a moment; what measures is optimised as glim is.
-$(L)/objects.a: $(OBJECTS)
+$(L)/objects.a: $(OBJECTS) $(B)/unit/paths.o
 	@mkdir -p $(@D)
 	$(SAY) AR $@
 	$(Q)rm -f $@ && $(AR) rcsT $@ $^
@@ -40,6 +40,8 @@ $(eval $(call program,tools))
 $(B)/unit/%.o $(B)/fuzz/%.o: private ALL_CFLAGS := \
 	$(patsubst -O3,-O1 $(NO_MAYBE),$(ALL_CFLAGS))
 
+# Paths for tests, as fast as on the CPU
+$(B)/unit/paths.o: private ALL_CFLAGS += -O3 $(FLAGS_$(HOST_ISA))
 # Tests with flags of their own.
 $(foreach i,$(ISAS),$(eval $(B)/unit/bvh/test_bvh8_$(i).o: \
 	private ALL_CFLAGS += $(FLAGS_$(i))))

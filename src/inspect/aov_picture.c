@@ -13,6 +13,13 @@ struct job {
     float *numbers;
 };
 
+static void set_vector(struct vec3 v, float *to)
+{
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
+}
+
 static void trace_row(void *context, uint32_t y, int worker)
 {
     const struct job *j = context;
@@ -20,13 +27,13 @@ static void trace_row(void *context, uint32_t y, int worker)
 
     (void)worker;
     for (int x = 0; x < j->width; x++) {
-        struct sample_id place = {(uint32_t)x, y, 0};
-        struct path_sample sample;
+        struct camera_sample start =
+            camera_sample_begin(&j->world->settings, (uint32_t)x, y, 0);
+        struct hit h;
 
-        path_samples(j->world, &place, 1, &sample, NULL);
-        row[3 * x] = sample.radiance.x;
-        row[3 * x + 1] = sample.radiance.y;
-        row[3 * x + 2] = sample.radiance.z;
+        path_set_key(j->world, start.sampler, 1, &start.ray);
+        hit_closest(j->world, start.ray, &h);
+        set_vector(aov_sample(j->world, start.ray, h).radiance, row + 3 * x);
     }
 }
 
@@ -54,13 +61,6 @@ static void set_position(const struct scene *scene, struct vec3 p, float *to)
 static void set_all(double number, float *to)
 {
     to[0] = to[1] = to[2] = (float)number;
-}
-
-static void set_vector(struct vec3 v, float *to)
-{
-    to[0] = v.x;
-    to[1] = v.y;
-    to[2] = v.z;
 }
 
 /* Sets the numbers of the surface that the ray meets. They stay 0 if there is

@@ -20,9 +20,7 @@
 #include "light/sky_table.h"
 #include "tests/unit/mesh.h"
 
-#include "kernels/traverse.h"
-
-#include "kernels/path.h"
+#include "tests/unit/paths.h"
 
 #define SEEDS 32
 
@@ -96,7 +94,7 @@ static inline void claim_means(const struct world *w, const struct claim *c,
     means[0] = means[1] = means[2] = 0;
     for (int i = 0; i < c->paths; i++) {
         struct path_sample s =
-            path_trace(w, r, sampler_start(3, 1, (uint64_t)i, seed), NULL);
+            trace_path(w, r, sampler_start(3, 1, (uint64_t)i, seed), NULL);
 
         assert_int_equal(s.cut, 0);
         means[0] += (double)s.radiance.x / c->paths;

@@ -13,9 +13,7 @@
 #include "session/session.h"
 #include "inspect/path_record.h"
 #include "inspect/traversal_cost.h"
-#include "kernels/traverse.h"
-
-#include "kernels/path.h"
+#include "tests/unit/paths.h"
 
 #define SIDE 24
 
@@ -71,7 +69,7 @@ static void check_recorded_paths(const struct world *w, uint32_t first,
 
         places[i] = (struct sample_id){k % SIDE, k / SIDE, k % 5};
     }
-    path_samples(w, places, SAMPLE_BLOCK, want, surfaces);
+    trace_samples(w, places, SAMPLE_BLOCK, want, surfaces);
     for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
         path_record_follow(&t, w, places[i].x, places[i].y, places[i].index);
         assert_memory_equal(&t.radiance, &want[i].radiance, sizeof t.radiance);

@@ -8,9 +8,7 @@
 
 #include <math.h>
 
-#include "kernels/traverse.h"
-
-#include "kernels/path.h"
+#include "tests/unit/paths.h"
 
 #define SIDE 32
 
@@ -38,7 +36,7 @@ static struct vec3 sample_of(enum sample_kind kind, uint32_t x, uint32_t y,
     struct path_sample s;
 
     mesh.world.settings.sample = kind;
-    path_samples(&mesh.world, &place, 1, &s, NULL);
+    trace_samples(&mesh.world, &place, 1, &s, NULL);
     assert_int_equal(s.rays, 1);
     assert_int_equal(s.cut, 0);
     return s.radiance;

@@ -99,7 +99,7 @@ static void balls_have_the_mean_of_their_chords(void **state)
         struct ray ray = {v3((float)(r * cos(phi)), (float)(r * sin(phi)), 2),
                           v3(0, 0, -1), FLOAT_MAX, 0, 0};
         struct path_sample s =
-            path_trace(&m.world, ray, sampler_start(1, 1, (uint64_t)i, 5),
+            trace_path(&m.world, ray, sampler_start(1, 1, (uint64_t)i, 5),
                        NULL);
 
         for (int k = 0; k < 3; k++)
@@ -221,7 +221,7 @@ static void files_state_colour_and_distance(void **state)
     w.world.nodes = bvh.nodes;
     w.world.leaf_tris = bvh.leaf_tris;
     assert_int_not_equal(world_features(&host) & FEATURE_ATTENUATION, 0);
-    s = path_trace(&w.world, r, sampler_start(0, 0, 0, 0), NULL);
+    s = trace_path(&w.world, r, sampler_start(0, 0, 0, 0), NULL);
     check_close((double)s.radiance.x, 0.25, 1e-5);
     check_close((double)s.radiance.y, 0.0625, 1e-5);
     check_close((double)s.radiance.z, 1, 1e-6);

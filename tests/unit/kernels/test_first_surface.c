@@ -8,9 +8,7 @@
 #include "tests/unit/check.h"
 #include "tests/unit/mesh.h"
 
-#include "kernels/traverse.h"
-
-#include "kernels/path.h"
+#include "tests/unit/paths.h"
 #include "kernels/surface_sums.h"
 
 enum { FLOOR, MIRROR, PANE };
@@ -39,7 +37,7 @@ static struct path_sample follow(const struct mesh *m, struct vec3 d,
 {
     struct ray r = {v3(0.1f, 2, 0), v3_unit(d), FLOAT_MAX, 0, 0};
 
-    return path_trace(&m->world, r, sampler_start(3, 4, index, 7), s);
+    return trace_path(&m->world, r, sampler_start(3, 4, index, 7), s);
 }
 
 static void check_floor(const struct first_surface *s, double depth)

@@ -5,9 +5,7 @@
 #include <math.h>
 
 #include "light/lights.h"
-#include "kernels/traverse.h"
-
-#include "kernels/path.h"
+#include "tests/unit/paths.h"
 
 /* Mean radiance of n paths along one ray, and its standard error. */
 struct estimate {
@@ -23,7 +21,7 @@ static struct estimate look(const struct world *w, struct vec3 eye,
     for (int i = 0; i < n; i++) {
         struct ray r = {eye, v3_unit(v3_sub(at, eye)), FLOAT_MAX, 0, 0};
         struct path_sample s =
-            path_trace(w, r, sampler_start(1, 2, (uint64_t)i, w->settings.seed),
+            trace_path(w, r, sampler_start(1, 2, (uint64_t)i, w->settings.seed),
                        NULL);
 
         assert_int_equal(s.cut, 0);
@@ -187,7 +185,7 @@ static void total_reflection_ends(void **state)
         struct ray r = {v3(0.1f, 0.2f, 0.3f), v3_unit(v3(0.5f, 0.6f, 0.624f)),
                         FLOAT_MAX, 0, 0};
         struct path_sample s =
-            path_trace(&m.world, r, sampler_start(0, 0, (uint64_t)i, 0), NULL);
+            trace_path(&m.world, r, sampler_start(0, 0, (uint64_t)i, 0), NULL);
 
         assert_true(s.rays <= PATH_HARD_STOP);
         /* Never leaves the glass. */
@@ -280,7 +278,7 @@ static void coarse_balls_have_smooth_shade(void **state)
             continue;
         for (uint32_t k = 0; k < 16; k++)
             got +=
-                (double)path_trace(&m.world, r, sampler_start(0, 0, k, 0), NULL)
+                (double)trace_path(&m.world, r, sampler_start(0, 0, k, 0), NULL)
                     .radiance.x /
                 16;
         truth = 0.5 / M_PI * radiance * lamp_area * cosine /
@@ -316,7 +314,7 @@ static void leaning_normals_leak_nothing(void **state)
     mesh_finish(&m);
     for (uint32_t i = 0; i < 20000; i++)
         assert_true(v3_is_zero(
-            path_trace(&m.world, r, sampler_start(0, 0, i, 0), NULL).radiance));
+            trace_path(&m.world, r, sampler_start(0, 0, i, 0), NULL).radiance));
     mesh_free(&m);
 }
 

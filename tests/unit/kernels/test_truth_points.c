@@ -416,7 +416,7 @@ static void boxes_absorb_the_power(void **state)
             struct vec3 eye = v3_scale(wall, 0.999f);
             struct ray r = {eye, v3_unit(v3_sub(wall, eye)), FLOAT_MAX, 0, 0};
             double x =
-                (double)path_trace(&s.mesh.world, r,
+                (double)trace_path(&s.mesh.world, r,
                                    sampler_start(3, 1, (uint64_t)i, 9), NULL)
                     .radiance.x;
 
@@ -454,7 +454,7 @@ static void extreme_lights_are_finite(void **state)
         lit_mesh_lend(&s, DIRECT_MIS);
         for (uint64_t k = 0; k < 64; k++) {
             struct vec3 x =
-                path_trace(&s.mesh.world, ray, sampler_start(3, 1, k, 1), NULL)
+                trace_path(&s.mesh.world, ray, sampler_start(3, 1, k, 1), NULL)
                     .radiance;
 
             assert_true(x.x >= 0 && x.x <= FLOAT_MAX);

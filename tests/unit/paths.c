@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/paths.h"
+
+struct path_sample trace_path(const struct world *w, struct ray r,
+                              struct sampler sampler,
+                              struct first_surface *surface)
+{
+    return path_trace(w, r, sampler, surface);
+}
+
+void trace_samples(const struct world *w, const struct sample_id *places,
+                   uint32_t count, struct path_sample *out,
+                   struct first_surface *surfaces)
+{
+    path_samples(w, places, count, out, surfaces);
+}

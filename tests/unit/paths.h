@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+/*
+ * paths.h - the functions of kernels/path.h for tests, compiled once
+ *
+ * Rays are traced through the binary tree. The instruction set is the host's.
+ *
+ * Units and errors as in kernels/path.h.
+ */
+#ifndef TESTS_PATHS_H
+#define TESTS_PATHS_H
+
+#include "kernels/traverse.h"
+
+#include "kernels/path.h"
+
+/* path_trace() */
+struct path_sample trace_path(const struct world *w, struct ray r,
+                              struct sampler sampler,
+                              struct first_surface *surface);
+
+/* path_samples() */
+void trace_samples(const struct world *w, const struct sample_id *places,
+                   uint32_t count, struct path_sample *out,
+                   struct first_surface *surfaces);
+
+#endif
