@@ -38,7 +38,6 @@ struct parser {
     size_t material_line_capacity;
     struct name_table libraries; /* paths of the MTL files read */
     struct face_tris faces;
-    struct obj_runs runs;
     uint32_t object, material;
     uint32_t painted_count; /* vertices with a colour from #MRGB */
     bool has_objects;       /* there was an o statement: g is only a group */
@@ -509,23 +508,31 @@ static bool take_run(struct parser *p, const struct obj_block *b,
     return true;
 }
 
+/* Parses the lines of blocks. */
+static bool parse_blocks(void *context, const struct obj_blocks *blocks)
+{
+    struct parser *p = context;
+
+    for (uint32_t i = 0; i < blocks->count; i++) {
+        const struct obj_block *b = &blocks->items[i];
+
+        for (uint32_t k = 0; k < b->run_count; k++)
+            if (!parse_to(p, b->runs[k].begin) || !take_run(p, b, &b->runs[k]))
+                return false;
+    }
+    return parse_to(p, blocks->end);
+}
+
 static bool parse_all(struct parser *p)
 {
-    while (p->lex.p < p->lex.end) {
-        const char *end = obj_runs_read(&p->runs, p->lex.p, p->lex.end);
+    struct pool *pool =
+        scene_pool(p->scene, (uint32_t)((size_t)(p->lex.end - p->lex.p) /
+                                        TRI_BYTES % NO_INDEX));
+    bool ok;
 
-        for (uint32_t i = 0; i < p->runs.block_count; i++) {
-            const struct obj_block *b = &p->runs.blocks[i];
-
-            for (uint32_t k = 0; k < b->run_count; k++)
-                if (!parse_to(p, b->runs[k].begin) ||
-                    !take_run(p, b, &b->runs[k]))
-                    return false;
-        }
-        if (!parse_to(p, end))
-            return false;
-    }
-    return true;
+    ok = obj_runs_read(p->lex.p, p->lex.end, pool, parse_blocks, p);
+    pool_destroy(pool);
+    return ok;
 }
 
 static bool parse_lines(struct parser *p)
@@ -575,7 +582,6 @@ bool obj_parse(struct scene *scene, const char *text, size_t size_bytes,
         .err = err,
         .faces = {.scene = scene, .path = path, .report = report},
     };
-    struct pool *pool;
     bool ok;
 
     if (lexer_is_utf16(text, size_bytes))
@@ -585,11 +591,7 @@ bool obj_parse(struct scene *scene, const char *text, size_t size_bytes,
                     "%s: not an OBJ file: found binary data, expected text",
                     path);
     lexer_init(&p.lex, text, size_bytes);
-    pool = scene_pool(scene, (uint32_t)(size_bytes / TRI_BYTES % NO_INDEX));
-    ok = (obj_runs_init(&p.runs, pool) || out_of_memory(&p)) && begin(&p) &&
-         parse_lines(&p);
-    obj_runs_free(&p.runs);
-    pool_destroy(pool);
+    ok = begin(&p) && parse_lines(&p);
     /* the scene owns the names of its objects now */
     scene->object_names = p.objects.items;
     scene->object_count = p.objects.count;

@@ -24,31 +24,6 @@
 /* Most digits of an index, which then is below all limits. */
 #define INDEX_DIGITS 9
 
-bool obj_runs_init(struct obj_runs *r, struct pool *pool)
-{
-    uint32_t threads = pool != NULL ? (uint32_t)pool_thread_count(pool) : 1;
-
-    *r = (struct obj_runs){.pool = pool, .capacity = BLOCKS_EACH * threads};
-    r->blocks = alloc_array(r->capacity, sizeof *r->blocks);
-    return r->blocks != NULL;
-}
-
-void obj_runs_free(struct obj_runs *r)
-{
-    for (uint32_t i = 0; r->blocks != NULL && i < r->capacity; i++) {
-        struct obj_block *b = &r->blocks[i];
-
-        free(b->runs);
-        free(b->positions);
-        free(b->uvs);
-        free(b->normals);
-        free(b->faces);
-        free(b->corners);
-    }
-    free(r->blocks);
-    *r = (struct obj_runs){.pool = NULL};
-}
-
 /* ---- parts of lines ---- */
 
 static const char *skip_spaces(const char *p, const char *end)
@@ -261,14 +236,11 @@ static bool begin_run(struct obj_block *b, const char *p)
 }
 
 /* Reads the runs of a block. The arrays of the block keep their memory. */
-static void read_block(void *context, uint32_t item, int worker)
+static void read_block(struct obj_block *b)
 {
-    struct obj_runs *r = context;
-    struct obj_block *b = &r->blocks[item];
     struct lexer lex = {b->begin, b->end, 0};
     uint32_t odd_lines = 0;
 
-    (void)worker;
     b->run_count = b->face_count = b->corner_count = 0;
     memset(b->counts, 0, sizeof b->counts);
     while (odd_lines < ODD_LINES && lex.p < b->end && begin_run(b, lex.p)) {
@@ -296,11 +268,23 @@ static const char *line_from(const char *p, const char *end)
     return found != NULL ? found + 1 : end;
 }
 
-const char *obj_runs_read(struct obj_runs *r, const char *text, const char *end)
+/* ---- the text ---- */
+
+/* Blocks that are taken while others are read. */
+struct reader {
+    struct obj_blocks taken, read;
+    uint32_t capacity; /* of both */
+    obj_take_blocks *take;
+    void *context;
+    bool ok;
+};
+
+/* Sets the blocks that are read next. */
+static void begin_blocks(struct reader *r, const char *text, const char *end)
 {
-    r->block_count = 0;
-    while (text < end && r->block_count < r->capacity) {
-        struct obj_block *b = &r->blocks[r->block_count++];
+    r->read.count = 0;
+    while (text < end && r->read.count < r->capacity) {
+        struct obj_block *b = &r->read.items[r->read.count++];
 
         b->begin = text;
         b->end = (size_t)(end - text) > BLOCK_BYTES
@@ -308,8 +292,61 @@ const char *obj_runs_read(struct obj_runs *r, const char *text, const char *end)
                      : end;
         text = b->end;
     }
-    pool_each(r->pool, r->block_count, read_block, r);
-    return text;
+    r->read.end = text;
+}
+
+/* Takes blocks, item 0, or reads one. */
+static void do_item(void *context, uint32_t item, int worker)
+{
+    struct reader *r = context;
+
+    (void)worker;
+    if (item > 0)
+        read_block(&r->read.items[item - 1]);
+    else if (r->taken.count > 0)
+        r->ok = r->take(r->context, &r->taken);
+}
+
+static void free_blocks(struct obj_blocks *blocks, uint32_t capacity)
+{
+    for (uint32_t i = 0; blocks->items != NULL && i < capacity; i++) {
+        struct obj_block *b = &blocks->items[i];
+
+        free(b->runs);
+        free(b->positions);
+        free(b->uvs);
+        free(b->normals);
+        free(b->faces);
+        free(b->corners);
+    }
+    free(blocks->items);
+}
+
+bool obj_runs_read(const char *from, const char *end, struct pool *pool,
+                   obj_take_blocks *take, void *context)
+{
+    uint32_t threads = pool != NULL ? (uint32_t)pool_thread_count(pool) : 1;
+    struct reader r = {.capacity = BLOCKS_EACH * threads,
+                       .take = take,
+                       .context = context};
+
+    r.taken.items = alloc_array(r.capacity, sizeof *r.taken.items);
+    r.read.items = alloc_array(r.capacity, sizeof *r.read.items);
+    r.read.end = from;
+    r.ok = true;
+    if (r.taken.items == NULL || r.read.items == NULL)
+        r.ok = take(context, &(struct obj_blocks){.end = r.read.end = end});
+    while (r.ok && (r.read.end < end || r.taken.count > 0)) {
+        struct obj_block *items = r.taken.items;
+
+        begin_blocks(&r, r.read.end, end);
+        pool_each(pool, 1 + r.read.count, do_item, &r);
+        r.taken = r.read;
+        r.read.items = items;
+    }
+    free_blocks(&r.taken, r.capacity);
+    free_blocks(&r.read, r.capacity);
+    return r.ok;
 }
 
 /* ---- runs ---- */

@@ -52,19 +52,23 @@ struct obj_block {
         face_capacity, corner_capacity;
 };
 
-struct obj_runs {
-    struct pool *pool; /* NULL: the calling thread reads */
-    struct obj_block *blocks;
-    uint32_t capacity, block_count;
+/* Consecutive blocks of a text, up to `end`. */
+struct obj_blocks {
+    struct obj_block *items;
+    uint32_t count;
+    const char *end;
 };
 
-/* Returns false when memory is out. */
-bool obj_runs_init(struct obj_runs *r, struct pool *pool);
+/* Takes the runs of blocks. Returns false to end the reading. */
+typedef bool obj_take_blocks(void *context, const struct obj_blocks *blocks);
 
-/* Reads blocks of a text from the beginning of a line on, in place of those
- * read before. Returns the end of the last one. */
-const char *obj_runs_read(struct obj_runs *r, const char *text,
-                          const char *end);
+/* Reads a text, of which `from` begins a line, and calls `take` for all of its
+ * blocks in order, by any thread of the pool: one takes blocks while the others
+ * read the next ones. Without a pool the calling thread does both, and without
+ * memory `take` gets the text without blocks. Returns what its last call did.
+ */
+bool obj_runs_read(const char *from, const char *end, struct pool *pool,
+                   obj_take_blocks *take, void *context);
 
 /* Returns true if the scene can take the run: its indices are in range, and all
  * counts. */
@@ -76,7 +80,5 @@ bool obj_run_fits(const struct obj_run *run, const struct face_tris *faces);
 bool obj_run_take(const struct obj_block *b, const struct obj_run *run,
                   struct face_tris *faces, size_t capacities[OBJ_LISTS],
                   uint32_t object, uint32_t material, uint64_t line);
-
-void obj_runs_free(struct obj_runs *r);
 
 #endif
