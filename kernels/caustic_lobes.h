@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * caustic_lobes.h - guided directions to caustics of spheres and of discs, such
- * as the sun
+ * caustic_lobes.h - guided directions to caustics of lamps, such as the sun
  *
  * Light that glass or metal sends to a place comes from few directions if its
  * source is small: those of the sun fill a hundredth of a bin of guide.h. The

@@ -31,7 +31,7 @@ enum feature {
     FEATURE_ATTENUATION = 262144, /* solids that absorb light: attenuation.h */
     FEATURE_VERTEX_COLORS = 524288,
     FEATURE_ROUGH_SHEETS = 1048576, /* rough thin glass */
-    FEATURE_CAUSTICS = 2097152,     /* of spheres and discs: caustic_lobes.h */
+    FEATURE_CAUSTICS = 2097152,     /* of lamps: caustic_lobes.h */
     FEATURE_THIN_FILM = 4194304,    /* iridescence: thin_film.h */
     FEATURE_INSTANCES = 8388608,    /* instance.h */
     /* texture_flag beyond TEXTURE_CLAMP, channels, maps of rare parameters */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * caustic_lobes.h - caustics of spheres and discs, for the path guide
+ * caustic_lobes.h - caustics of lamps, for the path guide
  *
  * Photons find the directions that caustics come from. kernels/caustic_lobes.h
  * samples them.

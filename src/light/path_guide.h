@@ -33,7 +33,7 @@ struct path_guide {
     struct sky_portals portals;
     double lights; /* mean irradiance by all lights on the box / pi */
     double sky;    /* mean radiance of the sky for which cells are */
-    struct caustic_lobes lamps; /* caustics of spheres and discs */
+    struct caustic_lobes lamps; /* caustics of lamps */
     bool has_lamps;             /* they have been searched for */
     bool is_current;
 };

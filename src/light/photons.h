@@ -21,10 +21,11 @@
 #include "bvh/bvh8.h"
 #include "light/lights.h"
 
-/* The lights of a search. Paths never meet points and single directions. */
+/* The lights of a search. Paths never meet points and single directions, so
+ * their photons count only if the first surface is rough. */
 enum photon_source {
     PHOTONS_OF_TRIANGLES,
-    PHOTONS_OF_LAMPS /* spheres and discs */
+    PHOTONS_OF_LAMPS /* point and directional lights of all sizes */
 };
 
 /* The arrival of a photon at a diffuse surface. */
@@ -33,7 +34,7 @@ struct landing {
     struct vec3 n;    /* unit normal of the face */
     struct vec3 wi;   /* unit vector against the photon's way */
     struct vec3 from; /* where it left the last surface */
-    uint32_t chain;   /* hash of the surfaces that it has met */
+    uint32_t chain;   /* hash of its light and the surfaces that it has met */
     float radiance;   /* of the light; 0 if a surface was rough */
     float flux;       /* 0: there was none */
 };
@@ -54,6 +55,9 @@ struct material photons_material(struct material m);
 
 /* Returns true if the world has lights of this kind, and casters. */
 bool photons_possible(const struct world *w, enum photon_source source);
+
+/* Returns true if all lights of this kind are points or single directions. */
+bool photons_need_rough(const struct world *w, enum photon_source source);
 
 /* Sends `count` photons and keeps the first `landings_each` landings of each.
  * `box` is the surface area of the box around the scene. A photon of flux 1

@@ -419,7 +419,8 @@ static void lobes_have_their_probability(void **state)
         check_close(counts[i], 1000 * parts[i], 12);
 }
 
-/* Lobes exist only for lights that paths can meet, and go with them. */
+/* By glass, lobes exist only for lights that paths can meet, and go with them.
+ */
 static void lobes_exist_only_with_lamps_of_a_size(void **state)
 {
     struct path_guide g = {.cells = NULL};
