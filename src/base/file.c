@@ -119,7 +119,7 @@ static bool read_open_file(int fd, const char *path, char **text,
     if (!expect_regular(path, &st, err) || !expect_size(path, st.st_size, err))
         return false;
 
-    char *memory = malloc((size_t)st.st_size + 1);
+    char *memory = alloc_aligned((size_t)st.st_size + 1, 1);
     if (!memory)
         return fail(err, "%s: out of memory for its %.1f MiB", path,
                     (double)st.st_size / (1 << 20));

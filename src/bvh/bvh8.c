@@ -4,16 +4,10 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
-#include <sys/mman.h>
 
 #include "base/memory.h"
 #include "bvh/bvh8_collapse.h"
 #include "bvh/instance_trees.h"
-
-/* Alignment to cache lines, and to large pages: misses in the table of pages
- * cost rays through a million triangles 5 %. */
-#define ALIGNMENT  64
-#define LARGE_PAGE ((size_t)2 << 20)
 
 /* Largest number of triangles in a subtree that one thread builds. */
 #define SUBTREE_TRIS 4096
@@ -286,16 +280,8 @@ static void *alloc_tree(size_t node_count, size_t block_count)
 {
     size_t size = node_count * sizeof(struct bvh8_node) +
                   block_count * sizeof(struct tri_block);
-    size_t alignment = size < LARGE_PAGE ? ALIGNMENT : LARGE_PAGE;
-    void *p;
 
-    if (size / BVH8_UNIT >= UINT32_MAX / 8)
-        return NULL;
-    size = (size + alignment - 1) / alignment * alignment;
-    p = aligned_alloc(alignment, size);
-    if (p != NULL && alignment == LARGE_PAGE)
-        madvise(p, size, MADV_HUGEPAGE);
-    return p;
+    return size / BVH8_UNIT < UINT32_MAX / 8 ? alloc_aligned(size, 1) : NULL;
 }
 
 static bool build(struct builder *b, uint32_t leaf_tris, struct pool *pool)

@@ -106,36 +106,41 @@ static bool has_normal(const struct scene *scene, uint32_t vn)
             scene->normals[vn].z != 0);
 }
 
-/* Returns the triangle of the corners t. It has normals if all three corners
- * have one, and likewise texture vertices. */
-static struct tri make_tri(const struct face_tris *f, const uint32_t t[3],
-                           uint32_t material)
+/* Adds the triangle of the corners t, for which there is room. It has normals
+ * if all three corners have one, and likewise texture vertices. */
+static void add_tri(const struct face_tris *f, const struct corner *corners,
+                    const uint32_t t[3], uint32_t object, uint32_t material)
 {
+    struct scene *scene = f->scene;
+    uint32_t n = scene->tri_count++;
     struct tri tri = {.material = material};
     bool has_vn = true;
     bool has_vt = true;
 
     for (int k = 0; k < 3; k++) {
-        const struct corner *c = &f->corners[t[k]];
+        const struct corner *c = &corners[t[k]];
 
         tri.v[k] = c->v;
         tri.vn[k] = c->vn;
         tri.vt[k] = c->vt;
-        has_vn &= has_normal(f->scene, c->vn);
+        has_vn &= has_normal(scene, c->vn);
         has_vt &= c->vt != NO_INDEX;
     }
     for (int k = 0; k < 3; k++) {
         tri.vn[k] = has_vn ? tri.vn[k] : NO_INDEX;
         tri.vt[k] = has_vt ? tri.vt[k] : NO_INDEX;
     }
-    return tri;
+    scene->tris[n] = tri;
+    scene->tri_faces[n] = f->face_count;
+    scene->tri_objects[n] = object;
 }
+
+/* The corners of a triangle, of which there is one. */
+static const uint32_t single[1][3] = {{0, 1, 2}};
 
 static bool add_tris(struct face_tris *f, uint32_t object, uint32_t material)
 {
-    static const uint32_t single[1][3] = {{0, 1, 2}};
     const uint32_t(*triangles)[3] = single;
-    struct scene *scene = f->scene;
     uint32_t count = 1;
 
     if (f->corner_count > 3) {
@@ -146,13 +151,18 @@ static bool add_tris(struct face_tris *f, uint32_t object, uint32_t material)
     }
     if (!face_tris_reserve_tris(f, count))
         return false;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t n = scene->tri_count++;
+    for (uint32_t i = 0; i < count; i++)
+        add_tri(f, f->corners, triangles[i], object, material);
+    return true;
+}
 
-        scene->tris[n] = make_tri(f, triangles[i], material);
-        scene->tri_faces[n] = f->face_count;
-        scene->tri_objects[n] = object;
-    }
+bool face_tris_add_triangles(struct face_tris *f, const struct corner *corners,
+                             uint32_t count, uint32_t object, uint32_t material)
+{
+    if (!face_tris_reserve_tris(f, count))
+        return false;
+    for (uint32_t i = 0; i < count; i++, f->face_count++)
+        add_tri(f, corners + 3 * (size_t)i, single[0], object, material);
     return true;
 }
 

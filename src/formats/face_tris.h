@@ -59,6 +59,12 @@ bool face_tris_reserve_tris(struct face_tris *f, size_t more);
 bool face_tris_add(struct face_tris *f, uint32_t object, uint32_t material,
                    struct file_place place);
 
+/* Adds one triangle for each three corners, which are those of a face whose
+ * vertices are finite. Returns false when memory is out. */
+bool face_tris_add_triangles(struct face_tris *f, const struct corner *corners,
+                             uint32_t count, uint32_t object,
+                             uint32_t material);
+
 void face_tris_free(struct face_tris *f);
 
 #endif

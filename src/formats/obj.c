@@ -14,10 +14,14 @@
 #include "formats/asset_path.h"
 #include "formats/faces.h"
 #include "formats/mtl.h"
+#include "formats/obj_runs.h"
 #include "formats/vertex_colors.h"
 
 /* Bytes searched for a NUL. Text has none; most binary files have one early. */
 #define BINARY_CHECK_BYTES 1024
+
+/* Usual bytes of a triangle and its vertices. */
+#define TRI_BYTES 32
 
 struct parser {
     struct scene *scene;
@@ -26,7 +30,7 @@ struct parser {
     struct error *err;
     struct lexer lex;
     uint64_t statement_count, unknown_count;
-    size_t position_capacity, normal_capacity, uv_capacity, color_capacity;
+    size_t capacities[OBJ_LISTS], color_capacity; /* of the vertices */
     struct name_table objects;
     struct name_table
         materials; /* names in usemtl; number 0 is "", before the first */
@@ -37,6 +41,7 @@ struct parser {
     uint32_t object, material;
     uint32_t painted_count; /* vertices with a colour from #MRGB */
     bool has_objects;       /* there was an o statement: g is only a group */
+    bool has_infinite;      /* a vertex is not finite */
 };
 
 static bool out_of_memory(const struct parser *p)
@@ -98,13 +103,14 @@ static bool read_position(struct parser *p)
     void *array = scene->file_positions;
 
     if (!read_numbers(p, "v", 3, 3, xyz) ||
-        !grow(p, &array, &p->position_capacity, scene->position_count,
+        !grow(p, &array, &p->capacities[OBJ_V], scene->position_count,
               sizeof xyz))
         return false;
     scene->file_positions = array;
     memcpy(scene->file_positions + 3 * (size_t)scene->position_count, xyz,
            sizeof xyz);
     scene->position_count++;
+    p->has_infinite |= !isfinite(xyz[0] + xyz[1] + xyz[2]);
     return lexer_at_line_end(&p->lex) || read_color(p);
 }
 
@@ -115,7 +121,7 @@ static bool read_normal(struct parser *p)
     void *array = scene->normals;
 
     if (!read_numbers(p, "vn", 3, 3, xyz) ||
-        !grow(p, &array, &p->normal_capacity, scene->normal_count,
+        !grow(p, &array, &p->capacities[OBJ_VN], scene->normal_count,
               sizeof *scene->normals))
         return false;
     scene->normals = array;
@@ -133,7 +139,8 @@ static bool read_uv(struct parser *p)
     void *array = scene->uvs;
 
     if (!read_numbers(p, "vt", 1, 2, uv) ||
-        !grow(p, &array, &p->uv_capacity, scene->uv_count, sizeof *scene->uvs))
+        !grow(p, &array, &p->capacities[OBJ_VT], scene->uv_count,
+              sizeof *scene->uvs))
         return false;
     scene->uvs = array;
     scene->uvs[scene->uv_count].x = texture_coordinate(uv[0]);
@@ -467,9 +474,12 @@ static bool looks_binary(const char *text, size_t size_bytes)
                                                   : BINARY_CHECK_BYTES) != NULL;
 }
 
-static bool parse_lines(struct parser *p)
+/* ---- the lines ---- */
+
+/* Parses lines up to the one that begins at `end` or behind it. */
+static bool parse_to(struct parser *p, const char *end)
 {
-    for (; p->lex.p < p->lex.end; lexer_next_line(&p->lex)) {
+    for (; p->lex.p < end; lexer_next_line(&p->lex)) {
         bool ok = is_paint(&p->lex)
                       ? read_paint(p)
                       : lexer_at_line_end(&p->lex) || read_statement(p);
@@ -477,6 +487,58 @@ static bool parse_lines(struct parser *p)
         if (!ok)
             return false;
     }
+    return true;
+}
+
+/* Takes the run that the parser has come to, or leaves its lines to it. */
+static bool take_run(struct parser *p, const struct obj_block *b,
+                     const struct obj_run *run)
+{
+    bool has_faces = run[1].first_face > run->first_face;
+
+    if (p->lex.p != run->begin || (p->has_infinite && has_faces) ||
+        !obj_run_fits(run, &p->faces))
+        return true;
+    if (!obj_run_take(b, run, &p->faces, p->capacities, p->object, p->material,
+                      p->lex.line))
+        return out_of_memory(p);
+    p->lex.p = run->end;
+    p->lex.line += run->line_count;
+    p->statement_count += run->line_count;
+    return true;
+}
+
+/* Parses the lines of blocks. */
+static bool parse_blocks(void *context, const struct obj_blocks *blocks)
+{
+    struct parser *p = context;
+
+    for (uint32_t i = 0; i < blocks->count; i++) {
+        const struct obj_block *b = &blocks->items[i];
+
+        for (uint32_t k = 0; k < b->run_count; k++)
+            if (!parse_to(p, b->runs[k].begin) || !take_run(p, b, &b->runs[k]))
+                return false;
+    }
+    return parse_to(p, blocks->end);
+}
+
+static bool parse_all(struct parser *p)
+{
+    struct pool *pool =
+        scene_pool(p->scene, (uint32_t)((size_t)(p->lex.end - p->lex.p) /
+                                        TRI_BYTES % NO_INDEX));
+    bool ok;
+
+    ok = obj_runs_read(p->lex.p, p->lex.end, pool, parse_blocks, p);
+    pool_destroy(pool);
+    return ok;
+}
+
+static bool parse_lines(struct parser *p)
+{
+    if (!parse_all(p))
+        return false;
     if (p->statement_count == 0)
         return fail(p->err, "%s: not an OBJ file: found no OBJ statement",
                     p->path);

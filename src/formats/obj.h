@@ -4,7 +4,7 @@
  *
  * Units:     file units
  * Ownership: fills a scene that the caller frees, also after an error
- * Threads:   one thread
+ * Threads:   one, which starts others for long texts
  * Errors:    malformed number, no OBJ statement at all, memory
  */
 #ifndef GLIM_OBJ_H

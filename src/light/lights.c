@@ -367,13 +367,17 @@ static bool make_footprints(const struct world *w, const bool *is_used,
     return true;
 }
 
-/* Finds the materials that shine. Returns the number of their triangles. */
+/* Finds the materials that shine. Returns the number of their triangles. Looks
+ * through the triangles only if there is such a material. */
 static uint32_t find_shining(const struct world *w, bool *is_used)
 {
     uint32_t instance_count = shining_instances(w);
     uint32_t count = 0;
+    bool may = false;
 
-    for (uint32_t i = 0; i < plain_tri_count(w); i++) {
+    for (uint32_t i = 0; i < w->settings.material_count && !may; i++)
+        may = material_shines(&w->materials[i]);
+    for (uint32_t i = 0; may && i < plain_tri_count(w); i++) {
         uint32_t material = w->tris[i].material;
 
         is_used[material] = material_shines(&w->materials[material]);

@@ -366,7 +366,7 @@ static bool portals_init(struct sky_portals *o, const struct bvh8_world *w,
            (!has_glass(&w->world) || guide_flux_init(&o->glazed, grid));
 }
 
-static bool search_init(struct search *s)
+static bool search_init(struct search *s, struct pool *pool)
 {
     const struct world *w = &s->w->world;
     uint32_t count = guide_cell_count(s->grid);
@@ -380,14 +380,10 @@ static bool search_init(struct search *s)
     s->enclosed = alloc_array(count, sizeof *s->enclosed);
     s->bounces = alloc_array(count, sizeof *s->bounces);
     s->lit = alloc_array(count, sizeof *s->lit);
-    if (!triangle_cdf_init(&s->surfaces, listed_tri_count(w)) ||
-        s->probes == NULL || s->points == NULL || s->portals == NULL ||
-        s->portal_rays == NULL || s->probe_counts == NULL ||
-        s->enclosed == NULL || s->bounces == NULL || s->lit == NULL)
-        return false;
-    for (uint32_t i = 0; i < listed_tri_count(w); i++)
-        triangle_cdf_add(&s->surfaces, i, tri_area(w, i));
-    return true;
+    return s->probes != NULL && s->points != NULL && s->portals != NULL &&
+           s->portal_rays != NULL && s->probe_counts != NULL &&
+           s->enclosed != NULL && s->bounces != NULL && s->lit != NULL &&
+           triangle_cdf_of_areas(&s->surfaces, w, pool);
 }
 
 /* Traces in parallel, and adds the results in the order of probes. */
@@ -407,7 +403,7 @@ bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
                       struct pool *pool, struct sky_portals *portals)
 {
     struct search s = {.w = w, .grid = grid, .found = portals};
-    bool ok = portals_init(portals, w, grid) && search_init(&s);
+    bool ok = portals_init(portals, w, grid) && search_init(&s, pool);
 
     if (ok)
         find(&s, pool);

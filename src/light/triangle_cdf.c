@@ -6,6 +6,9 @@
 #include "base/memory.h"
 #include "kernels/instance.h"
 
+/* Triangles that are measured as one. */
+#define BLOCK_TRIS 16384u
+
 /* A list of so many takes 50 MB and half a second. */
 #define LISTED_MOST (1u << 22)
 
@@ -76,4 +79,40 @@ double tri_area(const struct world *w, uint32_t tri)
     tri_corners(w, tri, p);
     return 0.5 *
            (double)v3_length(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])));
+}
+
+/* ---- the areas ---- */
+
+struct areas {
+    const struct world *world;
+    struct triangle_cdf *list;
+};
+
+static void measure_block(void *context, uint32_t block, int worker)
+{
+    const struct areas *a = context;
+    uint32_t begin = block * BLOCK_TRIS, left = a->list->count - begin;
+    uint32_t end = begin + (left < BLOCK_TRIS ? left : BLOCK_TRIS);
+
+    (void)worker;
+    for (uint32_t i = begin; i < end; i++) {
+        a->list->tris[i] = i;
+        a->list->sums[i] = tri_area(a->world, i);
+    }
+}
+
+bool triangle_cdf_of_areas(struct triangle_cdf *l, const struct world *w,
+                           struct pool *pool)
+{
+    struct areas areas = {w, l};
+    uint32_t count = listed_tri_count(w);
+
+    if (!triangle_cdf_init(l, count))
+        return false;
+    l->count = count;
+    pool_each(pool, count / BLOCK_TRIS + (count % BLOCK_TRIS > 0),
+              measure_block, &areas);
+    for (uint32_t i = 1; i < count; i++)
+        l->sums[i] += l->sums[i - 1];
+    return true;
 }

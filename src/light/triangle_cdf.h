@@ -10,6 +10,7 @@
 #ifndef GLIM_TRIANGLE_CDF_H
 #define GLIM_TRIANGLE_CDF_H
 
+#include "base/thread_pool.h"
 #include "kernels/types.h"
 
 struct triangle_cdf {
@@ -22,6 +23,10 @@ struct triangle_cdf {
 bool triangle_cdf_init(struct triangle_cdf *list, uint32_t capacity);
 
 void triangle_cdf_add(struct triangle_cdf *list, uint32_t tri, double weight);
+
+/* Lists the first listed_tri_count() triangles by their areas. */
+bool triangle_cdf_of_areas(struct triangle_cdf *list, const struct world *world,
+                           struct pool *pool);
 
 double triangle_cdf_total(const struct triangle_cdf *list);
 

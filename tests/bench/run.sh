@@ -202,6 +202,15 @@ bench_filters() {
     "$build/bench/filters" scenes/cornell.obj scenes/interior.obj
 }
 
+# first_picture SCENE: prints the least of ten times from the start of the
+# program to the first picture
+first_picture() {
+    for round in 1 2 3 4 5 6 7 8 9 10; do
+        render "$(nproc)" first "$1" -w 200 -h 120 -s 1
+        value first_picture_s first
+    done | sort -n | head -n 1
+}
+
 # Measures loading: a million triangles of text and of binary data.
 bench_load() {
     echo
@@ -217,6 +226,9 @@ bench_load() {
     done
     "$build/bench/loads" "$work/grid.obj" "$work/grid.ply" "$work/grid.stl" \
         "$work/grid.glb"
+    for scene in "$work"/grid.* scenes/cornell.obj; do
+        echo "$scene: first picture after $(first_picture "$scene") s"
+    done
 }
 
 bench_sampling() {

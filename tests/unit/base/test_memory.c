@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/unit/check.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -65,6 +66,55 @@ static void arrays_keep_their_contents_as_they_grow(void **state)
     free(array);
 }
 
+#define LARGE_BYTES ((size_t)32 << 20)
+
+/* Returns whether the mapping of an address asks for large pages, by the flag
+ * of proc_pid_smaps(5). */
+static bool asks_for_large_pages(const void *p)
+{
+    FILE *from = fopen("/proc/self/smaps", "r");
+    unsigned long begin = 0, end = 0, address = (unsigned long)p;
+    char line[512];
+    bool asks = false;
+
+    assert_non_null(from);
+    while (fgets(line, sizeof line, from) != NULL)
+        if (strncmp(line, "VmFlags:", 8) == 0)
+            asks |= begin <= address && address < end &&
+                    strstr(line, " hg") != NULL;
+        else
+            sscanf(line, "%lx-%lx ", &begin, &end);
+    fclose(from);
+    return asks;
+}
+
+/* All bytes of an array have them, so that the system grows it in place. */
+static void large_arrays_ask_for_large_pages(void **state)
+{
+    size_t capacity = 0, sizes[] = {LARGE_BYTES / 2, LARGE_BYTES};
+    char *arrays[] = {alloc_array(LARGE_BYTES, 1),
+                      alloc_aligned(LARGE_BYTES, 1)};
+    void *grown = NULL;
+
+    (void)state;
+    if (access("/sys/kernel/mm/transparent_hugepage", F_OK) != 0) {
+        puts("memory: skipped: this system has no large pages");
+        skip();
+    }
+    for (int i = 0; i < 2; i++) {
+        char *p;
+
+        assert_true(grow_array(&grown, &capacity, sizes[i], 1));
+        p = grown;
+        assert_true(asks_for_large_pages(p));
+        assert_true(asks_for_large_pages(p + sizes[i] - 1));
+        assert_true(asks_for_large_pages(arrays[i]));
+        assert_true(asks_for_large_pages(arrays[i] + LARGE_BYTES - 1));
+        free(arrays[i]);
+    }
+    free(grown);
+}
+
 static void print_hook(void)
 {
     static const char text[] = "restored\n";
@@ -107,6 +157,7 @@ int main(void)
         cmocka_unit_test(strings_are_copied_and_formatted),
         cmocka_unit_test(arrays_beyond_memory_are_refused),
         cmocka_unit_test(arrays_keep_their_contents_as_they_grow),
+        cmocka_unit_test(large_arrays_ask_for_large_pages),
         cmocka_unit_test(out_of_memory_calls_the_hook_and_exits),
     };
 
