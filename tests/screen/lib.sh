@@ -97,13 +97,14 @@ rows_with()
     } END { print n + 0 }'
 }
 
-# Waits until the command succeeds.
+# Waits until the command succeeds. The limit allows for a device's compiler on a
+# machine that has other work.
 wait_until()
 {
     tries=0
     until "$@"; do
         tries=$((tries + 1))
-        [ $tries -lt 600 ] || die "waited for: $*"
+        [ $tries -lt 2000 ] || die "waited for: $*"
         sleep 0.05
     done
 }

@@ -66,7 +66,7 @@ run_case()
     XDG_STATE_HOME=$work/$name.state
     SOCKET=$work/$name.tmux
     export XDG_STATE_HOME SOCKET
-    (cd "$work/$name" && timeout --kill-after=5 180 \
+    (cd "$work/$name" && timeout --kill-after=5 300 \
         sh -eu -c '. "$SCREEN/lib.sh"; . "$SCREEN/cases/$0.sh"' "$name") \
         >"$out" 2>&1 </dev/null
     status=$?
