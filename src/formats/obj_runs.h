@@ -8,8 +8,10 @@
  * for the count of vertices, so that threads read blocks of the text in
  * advance. All other lines, and runs that do not fit, are left to the parser.
  *
- * Ownership: the caller initialises and frees; texts stay the caller's
+ * Units:     file units
+ * Ownership: obj_runs_read() owns the blocks; texts stay the caller's
  * Threads:   one thread, which uses a pool
+ * Errors:    memory; a line that is not plain is left to the parser
  */
 #ifndef GLIM_OBJ_RUNS_H
 #define GLIM_OBJ_RUNS_H

@@ -73,8 +73,7 @@ static bool find_parts(struct path_guide *g, const struct bvh8_world *w,
            (!has_portals || sky_portals_find(w, &g->grid, pool, &g->portals));
 }
 
-/* Searches for caustics of lamps, or frees the tables if there can
- * be none. */
+/* Searches for caustics of lamps, or frees the tables if there can be none. */
 static bool update_lamps(struct path_guide *g, const struct bvh8_world *w,
                          const struct lights *lights, struct pool *pool)
 {
