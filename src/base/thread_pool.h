@@ -28,6 +28,8 @@ struct cancel {
     /* set while no job runs: clock_ns() at which a stop is requested; 0: never
      */
     uint64_t deadline_ns;
+    /* asked from the deadline on whether a stop is requested; NULL: it is */
+    bool (*is_due)(void);
 };
 
 static inline void cancel_request(struct cancel *c)
@@ -43,7 +45,8 @@ static inline void cancel_reset(struct cancel *c)
 static inline bool cancel_requested(const struct cancel *c)
 {
     return atomic_load_explicit(&c->requested, memory_order_relaxed) != 0 ||
-           (c->deadline_ns != 0 && clock_ns() >= c->deadline_ns);
+           (c->deadline_ns != 0 && clock_ns() >= c->deadline_ns &&
+            (!c->is_due || c->is_due()));
 }
 
 typedef void pool_job(void *context, uint32_t item, int worker);

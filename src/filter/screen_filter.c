@@ -384,7 +384,7 @@ bool screen_filter_show(struct screen_filter *f, struct film *film,
     struct films context = {
         f, film, draft, surfaces, atomic_load(&film->samples) == 0, 0.0f};
     const struct filter_source source = {&context, 1, give_features, give_light,
-                                         NULL};
+                                         frame->cancel};
     struct target target = {&context, how, frame};
 
     if (!fits(film, surfaces, frame) || !resize(f, surfaces, film, frame))
@@ -396,7 +396,7 @@ bool screen_filter_show(struct screen_filter *f, struct film *film,
         screen_detail_find(&f->detail, film, f->rgb, f->seen);
     for (int y = 0; y < f->height; y++)
         row_changes(f, y, how);
-    for (int y = 0; y < frame->height; y++)
+    for (int y = 0; frame_has_row(frame, y); y++)
         put_row(&target, y);
     return true;
 }

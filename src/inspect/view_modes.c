@@ -149,7 +149,7 @@ static int scaled(int i, int n, int length)
 static void fill(const struct view_mode *s, struct frame *frame, int width,
                  int height, struct number_range range)
 {
-    for (int y = 0; y < frame->height; y++) {
+    for (int y = 0; frame_has_row(frame, y); y++) {
         for (int x = 0; x < frame->width; x++) {
             size_t at =
                 (size_t)scaled(y, frame->height, height) * (size_t)width +
@@ -189,7 +189,7 @@ static float mean_at(const struct view_mode *s, const struct frame *frame,
 static void fill_heat(const struct view_mode *s, struct frame *frame, int width,
                       int height, float largest)
 {
-    for (int y = 0; y < frame->height; y++) {
+    for (int y = 0; frame_has_row(frame, y); y++) {
         for (int x = 0; x < frame->width; x++) {
             float mean = mean_at(s, frame, x, y, width, height);
 
@@ -279,7 +279,7 @@ static bool paint_errors(struct view_mode *s, struct film *film,
         set_legend(s, "ERROR  unknown until each pixel has two samples");
         return false;
     }
-    for (int y = 0; y < frame->height; y++)
+    for (int y = 0; frame_has_row(frame, y); y++)
         for (int x = 0; x < frame->width; x++)
             frame_dot(frame, x, y,
                       error_map_color(

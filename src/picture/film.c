@@ -588,6 +588,6 @@ void film_preview_part(struct film *film, struct film *draft,
 void film_preview(struct film *film, struct film *draft, struct develop how,
                   struct frame *frame)
 {
-    for (int y = 0; y < frame->height; y++)
+    for (int y = 0; frame_has_row(frame, y); y++)
         film_preview_part(film, draft, how, 0, y, frame->width, frame);
 }

@@ -10,6 +10,7 @@ bool frame_init(struct frame *frame, int width, int height, struct error *err)
 {
     frame->width = width;
     frame->height = height;
+    frame->cancel = NULL;
     frame->rgb = alloc_array((size_t)width * (size_t)height, 3);
     if (frame->rgb == NULL)
         return fail(err, "out of memory for a frame of %dx%d pixels", width,

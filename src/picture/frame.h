@@ -14,13 +14,26 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/error.h"
+#include "base/thread_pool.h"
 
 /* Picture of 8-bit sRGB, 3 bytes per pixel, row 0 at the top. */
 struct frame {
     int width, height;
     uint8_t *rgb;
+    const struct cancel *cancel; /* ends what goes over its rows; NULL: none */
 };
+
+static inline bool frame_is_cancelled(const struct frame *frame)
+{
+    return frame->cancel && cancel_requested(frame->cancel);
+}
+
+/* Returns true if row y is to be filled. After a cancel the last rows keep the
+ * pixels that they had. */
+static inline bool frame_has_row(const struct frame *frame, int y)
+{
+    return y < frame->height && !frame_is_cancelled(frame);
+}
 
 /* Allocates the pixels without clearing them. */
 bool frame_init(struct frame *frame, int width, int height, struct error *err);

@@ -267,7 +267,7 @@ static void paint_differences(struct comparison *c, struct frame *frame)
         c->blocks_ns = now_ns;
         format_legend(c);
     }
-    for (int y = 0; y < frame->height; y++) {
+    for (int y = 0; frame_has_row(frame, y); y++) {
         for (int x = 0; x < frame->width; x++) {
             uint8_t *rgb = frame->rgb + 3 * (y * frame->width + x);
             const struct kept_block *b =

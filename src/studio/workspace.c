@@ -45,6 +45,10 @@
  * held come again within it. */
 #define REST_NS (400 * MS_NS)
 
+/* A frame that takes longer is cancelled when there is input. Frames of common
+ * windows take less. */
+#define PATIENCE_NS (30 * MS_NS)
+
 /* Frames take at most 1/FRAME_SHARE of a core while only new samples arrive:
  * the rest is for the render. */
 #define FRAME_SHARE 12
@@ -461,9 +465,29 @@ static void size_frame(struct workspace *workspace,
                                  &frame->width, &frame->height);
 }
 
-/* Writes text that has changed, then makes and writes a frame if `has_frame`.
- * The text of a new layout, which clears the screen, waits for the frame. */
-static enum screen_result send(struct workspace *workspace, bool has_frame)
+static void make_frame(struct workspace *workspace,
+                       enum pixel_graphics_pace pace)
+{
+    size_frame(workspace, pace);
+    paint(workspace);
+    workspace->has_frame = !frame_is_cancelled(&workspace->frame);
+}
+
+/* Lets input cancel the frame, unless it has cancelled the one before: pictures
+ * are shown while a key is held. */
+static void limit_frame(struct workspace *workspace, uint64_t now_ns)
+{
+    workspace->cancel.is_due = tty_has_input;
+    workspace->cancel.deadline_ns = now_ns + PATIENCE_NS;
+    workspace->frame.cancel =
+        workspace->is_cancelled ? NULL : &workspace->cancel;
+}
+
+/* Writes text that has changed, then a frame if `has_frame`, which is a new one
+ * if `is_new`. The text of a new layout, which clears the screen, waits for the
+ * frame. */
+static enum screen_result send(struct workspace *workspace, bool has_frame,
+                               bool is_new)
 {
     struct screen *screen = &workspace->screen;
     struct view_mode *view_mode = &workspace->inspector.view_mode;
@@ -478,10 +502,17 @@ static enum screen_result send(struct workspace *workspace, bool has_frame)
         return screen_draw(screen, &(struct screen_frame){.pixels = NULL});
     frame.pace = pace_of(workspace, now_ns);
     frame.step = frame_step(workspace);
-    size_frame(workspace, frame.pace);
-    paint(workspace);
-    screen_draw_text(screen);
+    limit_frame(workspace, now_ns);
+    if (is_new)
+        make_frame(workspace, frame.pace);
+    if (workspace->has_frame)
+        screen_draw_text(screen);
+    else
+        frame.pixels = NULL;
     result = screen_draw(screen, &frame);
+    workspace->is_cancelled = frame_is_cancelled(&workspace->frame);
+    if (!workspace->has_frame)
+        return result;
     workspace->layout_ns = 0;
     if (view_mode->is_filtered)
         workspace->filtered_until_ns = now_ns + FILTERED_NS;
@@ -514,12 +545,35 @@ static enum keys_state keys_state(const struct workspace *workspace)
     return control->is_live ? KEYS_LIVE : KEYS_NORMAL;
 }
 
+/* When a new frame or the rest of this one is due. */
+static uint64_t frame_due_ns(const struct workspace *workspace)
+{
+    return workspace->has_more ? 0 : workspace->frame_ns;
+}
+
+/* Plans the next frame, after cpu_ns of processor time for this one or a rest
+ * of it. */
+static void plan_frame(struct workspace *workspace, bool was_new,
+                       uint64_t now_ns, uint64_t cpu_ns)
+{
+    uint64_t took_ns = clock_ns() - now_ns;
+
+    if (!workspace->has_frame)
+        workspace->frame_ns = 0;
+    else if (was_new)
+        workspace->frame_ns =
+            now_ns + frame_interval(workspace, took_ns, cpu_ns);
+    else
+        workspace->frame_ns += FRAME_SHARE * cpu_ns;
+}
+
 bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
 {
     struct screen *screen = &workspace->screen;
     bool is_running = workspace->control->progress.state == RENDER_RUNNING;
+    bool is_new = workspace->frame_ns <= now_ns;
     bool shows = !render_control_awaits_picture(workspace->control) &&
-                 !workspace->is_settled && now_ns >= workspace->frame_ns;
+                 !workspace->is_settled && frame_due_ns(workspace) <= now_ns;
     uint64_t begin_ns = used_ns();
     struct window_rect room;
     enum screen_result result;
@@ -538,16 +592,16 @@ bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
     if (!shows && now_ns < workspace->layout_ns + LAYOUT_NS &&
         render_control_awaits_picture(workspace->control))
         return true;
-    result = send(workspace, shows);
+    if (shows && is_new) {
+        workspace->has_frame = true;
+        workspace->is_final = !is_running;
+    }
+    result = send(workspace, shows, is_new);
     if (shows && result != SCREEN_GONE) {
-        uint64_t took_ns = clock_ns() - now_ns;
-
-        workspace->is_settled = result == SCREEN_DONE && !is_running;
-        workspace->frame_ns =
-            result == SCREEN_MORE
-                ? 0
-                : now_ns +
-                      frame_interval(workspace, took_ns, used_ns() - begin_ns);
+        workspace->has_more = result == SCREEN_MORE;
+        workspace->is_settled = result == SCREEN_DONE && workspace->has_frame &&
+                                workspace->is_final && !is_running;
+        plan_frame(workspace, is_new, now_ns, used_ns() - begin_ns);
     }
     return result != SCREEN_GONE;
 }
@@ -599,7 +653,7 @@ uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns)
         next = now_ns;
     else if (!workspace->is_settled &&
              frame_pacing_may_send(&workspace->screen.pace))
-        next = earlier(next, workspace->frame_ns);
+        next = earlier(next, frame_due_ns(workspace));
     if (control->progress.state == RENDER_RUNNING || workspace->status_ns == 0)
         next = earlier(next, workspace->status_ns);
     if (editor_panel_is_busy(&workspace->panel))

@@ -42,10 +42,15 @@ struct workspace {
     struct help help;
     struct keys_bar keys_bar;
     struct glyph_choice glyph_choice;
-    const char *prompt; /* a question in the last line; NULL: none */
-    bool is_settled;    /* the screen shows the final picture */
+    const char *prompt;   /* a question in the last line; NULL: none */
+    bool is_settled;      /* the screen shows the final picture */
+    bool has_frame;       /* else it was cancelled while it was made */
+    bool has_more;        /* not all of the frame is on the screen */
+    bool is_final;        /* the frame was made when the render had ended */
+    bool is_cancelled;    /* input has ended the last drawing early */
+    struct cancel cancel; /* of the frame */
     uint64_t layout_ns; /* when a layout was made that no frame has; 0: none */
-    uint64_t frame_ns;  /* when the next frame is due */
+    uint64_t frame_ns;  /* when a new frame is due */
     uint64_t status_ns; /* when the status line is formatted next */
     uint64_t filtered_until_ns; /* the status line says so until then */
     int width_px, height_px;    /* size of the picture in this layout */

@@ -267,7 +267,15 @@ static int put_row(struct ansi_diff *a, const struct cells *cells, int row,
     return end;
 }
 
-bool ansi_diff_picture(struct ansi_diff *a, const struct cells *cells,
+/* Ends a frame. The next one begins at this cell. */
+static bool stop_at(struct ansi_diff *a, int row, int col)
+{
+    a->next_row = row;
+    a->next_col = col;
+    return false;
+}
+
+bool ansi_diff_picture(struct ansi_diff *a, struct cells *cells,
                        const struct ansi_diff_draw *how)
 {
     size_t limit = how->budget_bytes > SIZE_MAX - a->length
@@ -287,13 +295,14 @@ bool ansi_diff_picture(struct ansi_diff *a, const struct cells *cells,
         int row = (start_row + i) % a->rows;
         int begin = i == 0 ? start_col : 0;
         int end = i == a->rows ? start_col : a->cols;
-        int stop = put_row(a, cells, row, begin, end, limit, how);
+        int stop;
 
-        if (stop < end) {
-            a->next_row = row;
-            a->next_col = stop;
-            return false;
-        }
+        if (i > 0 && cells->frame && frame_is_cancelled(cells->frame))
+            return stop_at(a, row, begin);
+        cells_row(cells, row);
+        stop = put_row(a, cells, row, begin, end, limit, how);
+        if (stop < end)
+            return stop_at(a, row, stop);
     }
     a->next_row = 0;
     a->next_col = 0;

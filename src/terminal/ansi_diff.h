@@ -74,10 +74,11 @@ void ansi_diff_jump(struct ansi_diff *a, int row, int col);
  * covers. */
 int ansi_diff_uncovered(const struct ansi_diff_draw *how, int col, int row);
 
-/* Appends the changes from the shown picture to `cells`. Colours and cursor
- * position are undefined afterwards. Returns true if the picture is complete,
- * false if the budget ended the frame. */
-bool ansi_diff_picture(struct ansi_diff *a, const struct cells *cells,
+/* Appends the changes from the shown picture to `cells`, whose rows it makes as
+ * it comes to them. Colours and cursor position are undefined afterwards.
+ * Returns true if the picture is complete, false if the budget or a cancel of
+ * the cells' frame ended it; a frame that is cancelled has a row at least. */
+bool ansi_diff_picture(struct ansi_diff *a, struct cells *cells,
                        const struct ansi_diff_draw *how);
 
 /* Makes lines of text for a file or a pipe. Each line sets its colours and ends

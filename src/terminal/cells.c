@@ -260,25 +260,45 @@ static struct cell cell_of(struct cells *cells, const struct dots *dots,
     return block_cell(cells, dots, mask, col, row);
 }
 
-void cells_from_frame(struct cells *cells, const struct frame *frame,
-                      enum palette palette, enum glyphs glyphs)
+void cells_begin(struct cells *cells, const struct frame *frame,
+                 enum palette palette, enum glyphs glyphs)
 {
     struct glyph_grid grid = glyphs_grid(glyphs);
-    struct cell *out = cells->cell;
-    struct partition partition;
 
     assert(frame->width == grid.across * cells->cols &&
            frame->height == grid.down * cells->rows);
     cells->palette = palette;
     cells->glyphs = glyphs;
-    partition_init(&partition, grid.across * grid.down);
-    for (int row = 0; row < cells->rows; row++) {
-        for (int col = 0; col < cells->cols; col++) {
-            struct dots dots = dots_of(frame, grid, col, row);
+    cells->frame = frame;
+    cells->has_mark = false;
+}
 
-            *out++ = cell_of(cells, &dots, &partition, col, row);
-        }
+static struct cell *row_of(struct cells *cells, int row)
+{
+    return cells->cell + (size_t)row * (size_t)cells->cols;
+}
+
+static void convert_row(struct cells *cells, int row)
+{
+    struct glyph_grid grid = glyphs_grid(cells->glyphs);
+    struct cell *out = row_of(cells, row);
+    struct partition partition;
+
+    partition_init(&partition, grid.across * grid.down);
+    for (int col = 0; col < cells->cols; col++) {
+        struct dots dots = dots_of(cells->frame, grid, col, row);
+
+        out[col] = cell_of(cells, &dots, &partition, col, row);
     }
+}
+
+void cells_from_frame(struct cells *cells, const struct frame *frame,
+                      enum palette palette, enum glyphs glyphs)
+{
+    cells_begin(cells, frame, palette, glyphs);
+    for (int row = 0; row < cells->rows; row++)
+        cells_row(cells, row);
+    cells->frame = NULL;
 }
 
 struct cell cells_of_color(struct rgb color, enum palette palette)
@@ -317,14 +337,22 @@ static struct cell mark_cell(enum palette palette, char glyph)
 
 void cells_mark(struct cells *cells, int col, int row)
 {
+    cells->has_mark = true;
+    cells->mark_col = col;
+    cells->mark_row = row;
+}
+
+void cells_row(struct cells *cells, int row)
+{
     static const char text[] = "[+]";
 
-    for (int i = 0; i < 3; i++) {
-        int x = col - 1 + i;
+    if (cells->frame)
+        convert_row(cells, row);
+    for (int i = 0; i < 3 && cells->has_mark && row == cells->mark_row; i++) {
+        int x = cells->mark_col - 1 + i;
 
-        if (x >= 0 && x < cells->cols && row >= 0 && row < cells->rows)
-            cells->cell[(size_t)row * (size_t)cells->cols + (size_t)x] =
-                mark_cell(cells->palette, text[i]);
+        if (x >= 0 && x < cells->cols)
+            row_of(cells, row)[x] = mark_cell(cells->palette, text[i]);
     }
 }
 

@@ -31,14 +31,23 @@ struct cells {
     enum glyphs glyphs;
     struct cell *cell; /* cols * rows, row 0 at the top */
     struct dither dither;
+    const struct frame *frame; /* of cells_row(); NULL: all rows are made */
+    bool has_mark;
+    int mark_col, mark_row;
 };
 
 bool cells_init(struct cells *cells, int cols, int rows, struct error *err);
 void cells_free(struct cells *cells);
 
-/* Fills the cells from a frame of cols * across by rows * down pixels, see
- * glyphs_grid(). Without colours (PALETTE_MONO) each dot is set or not; glyphs
- * of one or two dots become characters, since so few dots show no shades. */
+/* Begins cells of a frame of cols * across by rows * down pixels, see
+ * glyphs_grid(): cells_row() makes each row from it. Without colours
+ * (PALETTE_MONO) each dot is set or not; glyphs of one or two dots become
+ * characters, since so few dots show no shades. */
+void cells_begin(struct cells *cells, const struct frame *frame,
+                 enum palette palette, enum glyphs glyphs);
+void cells_row(struct cells *cells, int row);
+
+/* Begins the cells and makes all rows. */
 void cells_from_frame(struct cells *cells, const struct frame *frame,
                       enum palette palette, enum glyphs glyphs);
 
@@ -46,7 +55,7 @@ void cells_from_frame(struct cells *cells, const struct frame *frame,
  * brightness. */
 struct cell cells_of_color(struct rgb color, enum palette palette);
 
-/* Draws a cursor around a cell: [+]. */
+/* Lets cells_row() draw a cursor around a cell: [+]. */
 void cells_mark(struct cells *cells, int col, int row);
 
 /* Rectangle of the picture in a window, in cells. */

@@ -21,17 +21,13 @@ static WINDOW *panel;
 static struct text_style styles[ROLES];
 static enum palette palette = PALETTE_MONO;
 
-/* A cell of the picture: blank until that is drawn. */
-static const struct window_cell spared = {WINDOW_CELL_SPARED,
-                                          L" ",
-                                          {CELL_DEFAULT, CELL_DEFAULT, 0}};
-
 /* Cells as the terminal shows them, and cells that windows_paint() has put, by
  * their place on the screen. */
 static struct {
     int cols, rows;
     struct window_cell *cell;
     struct cell *painted[WINDOW_PARTS];
+    bool *is_touched; /* rows that windows_update() looks at */
     bool must_clear;
 } shown;
 
@@ -74,12 +70,36 @@ static int window_row(enum window_part part, int row)
     return part == WINDOW_STATUS ? LINES - 1 + row : row;
 }
 
+static void touch_rows(int row, int count)
+{
+    for (int i = 0; i < count && row + i < shown.rows; i++)
+        shown.is_touched[row + i] = true;
+}
+
+static void touch_window(const WINDOW *w)
+{
+    touch_rows(getbegy(w), getmaxy(w));
+}
+
+/* Moves the cursor of a part to a cell that is going to change. Returns NULL if
+ * there is none. */
+static WINDOW *window_at(enum window_part part, int row, int col)
+{
+    WINDOW *w = window_of(part);
+
+    row = window_row(part, row);
+    if (!w || wmove(w, row, col) == ERR)
+        return NULL;
+    touch_rows(getbegy(w) + row, 1);
+    return w;
+}
+
 void windows_text(enum window_part part, int row, int col, int cols,
                   enum text_role role, const char *text)
 {
-    WINDOW *to = window_of(part);
+    WINDOW *to = window_at(part, row, col);
 
-    if (!to || wmove(to, window_row(part, row), col) == ERR)
+    if (!to)
         return;
     if (cols > getmaxx(to) - col)
         cols = getmaxx(to) - col;
@@ -91,30 +111,29 @@ void windows_text(enum window_part part, int row, int col, int cols,
 void windows_paint(enum window_part part, int row, int col,
                    const struct cell *cells, int count)
 {
-    WINDOW *to = window_of(part);
+    WINDOW *to = window_at(part, row, col);
     cchar_t blank;
 
     if (!to)
         return;
     if (count > getmaxx(to) - col)
         count = getmaxx(to) - col;
-    row = window_row(part, row);
     setcchar(&blank, L" ", PAINTED, 0, NULL);
-    if (count <= 0 || mvwhline_set(to, row, col, &blank, count) == ERR)
+    if (count <= 0 || whline_set(to, &blank, count) == ERR)
         return;
-    memcpy(&shown.painted[part]
-                         [(row + getbegy(to)) * shown.cols + col + getbegx(to)],
+    memcpy(&shown.painted[part][(getcury(to) + getbegy(to)) * shown.cols + col +
+                                getbegx(to)],
            cells, (size_t)count * sizeof *cells);
 }
 
 void windows_rule(enum window_part part, int row, int col, int cols)
 {
-    WINDOW *to = window_of(part);
+    WINDOW *to = window_at(part, row, col);
 
     if (!to || cols <= 0)
         return;
     wattr_set(to, A_NORMAL, ROLE_FRAME, NULL);
-    mvwhline_set(to, window_row(part, row), col, NULL, cols);
+    whline_set(to, NULL, cols);
     wattr_set(to, A_NORMAL, ROLE_OUTSIDE, NULL);
 }
 
@@ -123,11 +142,13 @@ void windows_use_theme(enum theme theme, enum palette new_palette)
     palette = new_palette;
     for (int role = 0; role < ROLES; role++)
         styles[role] = theme_style(theme, palette, (enum text_role)role);
+    touch_rows(0, shown.rows);
 }
 
 static void free_shown(void)
 {
     free(shown.cell);
+    free(shown.is_touched);
     for (int i = 0; i < WINDOW_PARTS; i++)
         free(shown.painted[i]);
     memset(&shown, 0, sizeof shown);
@@ -162,10 +183,9 @@ void windows_clear(void)
     shown.cell = xcalloc(count, sizeof *shown.cell);
     for (int i = 0; i < WINDOW_PARTS; i++)
         shown.painted[i] = xcalloc(count, sizeof *shown.painted[i]);
+    shown.is_touched = xcalloc((size_t)LINES, sizeof *shown.is_touched);
     shown.cols = COLS;
     shown.rows = LINES;
-    for (size_t i = 0; i < count; i++)
-        shown.cell[i] = spared;
     shown.must_clear = true;
 }
 
@@ -179,7 +199,7 @@ static int shown_columns(const char *text, int cols)
 
 void windows_hide_status(void)
 {
-    move(LINES - 1, 0);
+    window_at(WINDOW_STATUS, 0, 0);
     leave_to_picture(wclrtoeol);
 }
 
@@ -250,6 +270,7 @@ void windows_close(void)
 {
     if (!window)
         return;
+    touch_window(window);
     delwin(window);
     window = NULL;
 }
@@ -272,6 +293,7 @@ void windows_hide_panel(void)
 {
     if (!panel)
         return;
+    touch_window(panel);
     delwin(panel);
     panel = NULL;
 }
@@ -280,6 +302,7 @@ void windows_notice(const char *text)
 {
     int cols = text_width_of(text);
 
+    touch_rows(0, shown.rows);
     erase();
     if (cols <= COLS)
         move((LINES - 1) / 2, (COLS - cols) / 2);
@@ -369,7 +392,7 @@ static void look_at(int col, int row, struct window_cell *cell)
         attributes & A_ALTCHARSET ? WINDOW_CELL_LINE : WINDOW_CELL_TEXT;
     cell->style = style_of(role);
     if (attributes & SPARED)
-        *cell = spared;
+        memset(cell, 0, sizeof *cell);
     else if (attributes & PAINTED)
         *cell = painted_cell(w, col, row);
     else if ((c.attr & A_CHARTEXT) > 1) /* curses' mark of a right half */
@@ -436,12 +459,16 @@ static void put_glyph(struct writer *w, uint32_t glyph)
 static void put_cell(struct writer *w, const struct window_cell *cell, int col,
                      int row)
 {
+    static const struct text_style plain = {CELL_DEFAULT, CELL_DEFAULT, 0};
+
     if (w->row != row)
         fprintf(w->to, "\033[%d;%dH", row + 1, col + 1);
     else if (w->col != col)
         fprintf(w->to, "\033[%dC", col - w->col);
-    put_style(w, &cell->style);
-    if (cell->kind == WINDOW_CELL_PAINTED)
+    put_style(w, cell->kind == WINDOW_CELL_SPARED ? &plain : &cell->style);
+    if (cell->kind == WINDOW_CELL_SPARED)
+        fputc(' ', w->to);
+    else if (cell->kind == WINDOW_CELL_PAINTED)
         put_glyph(w, (uint32_t)cell->text[0]);
     else if (cell->kind == WINDOW_CELL_LINE)
         put_line(w, cell->text[0]);
@@ -449,6 +476,7 @@ static void put_cell(struct writer *w, const struct window_cell *cell, int col,
         fprintf(w->to, "%ls", cell->text);
     /* terminals disagree about the width of other characters */
     w->row = cell->kind == WINDOW_CELL_PAINTED ||
+                     cell->kind == WINDOW_CELL_SPARED ||
                      (wcwidth(cell->text[0]) == 1 && cell->text[1] == L'\0')
                  ? row
                  : -1;
@@ -487,8 +515,9 @@ size_t windows_update(void)
         fputs("\033[m\033[H\033[J", w.to);
     shown.must_clear = false;
     for (int row = 0; row < shown.rows; row++) {
-        for (int col = 0; col < shown.cols; col++)
+        for (int col = 0; shown.is_touched[row] && col < shown.cols; col++)
             update_cell(&w, col, row);
+        shown.is_touched[row] = false;
     }
     if (ftell(w.to) > 0)
         fprintf(w.to, "\033[m\033[%d;1H", shown.rows);

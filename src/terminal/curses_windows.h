@@ -88,7 +88,7 @@ void windows_notice(const char *text);
 size_t windows_update(void);
 
 enum window_cell_kind {
-    WINDOW_CELL_SPARED, /* written by others: the picture */
+    WINDOW_CELL_SPARED, /* blank until others write it: the picture */
     WINDOW_CELL_TEXT,
     WINDOW_CELL_LINE,    /* a name of curses' line drawing */
     WINDOW_CELL_PAINTED, /* a glyph of windows_paint() */

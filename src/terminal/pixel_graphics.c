@@ -434,7 +434,7 @@ static bool put_changes(struct pixel_graphics *g, struct ansi_diff *a,
                         const struct frame *frame,
                         const struct ansi_diff_draw *how)
 {
-    size_t limit = a->length + how->budget_bytes;
+    size_t before = a->length, limit = before + how->budget_bytes;
 
     for (int i = 0; i < g->image_count; i++) {
         int index = (g->next + i) % g->image_count;
@@ -446,7 +446,9 @@ static bool put_changes(struct pixel_graphics *g, struct ansi_diff *a,
 
         if (may_stay(g, image, frame, how->step))
             continue;
-        if (a->length >= limit || !put_image(g, a, image, frame, block, how)) {
+        if (a->length >= limit ||
+            (a->length > before && frame_is_cancelled(frame)) ||
+            !put_image(g, a, image, frame, block, how)) {
             g->next = index;
             return false;
         }

@@ -156,11 +156,11 @@ bool screen_layout(struct screen *screen, int width_px, int height_px,
     bool ok;
 
     free_sized(screen);
+    windows_use_theme(screen->display.theme, screen->display.palette);
     tty_relayout();
     size = term_size();
     screen->window = (struct ansi_diff_rect){0};
     screen->has_status = false;
-    windows_use_theme(screen->display.theme, screen->display.palette);
     screen->must_update = true;
     screen->is_too_small = is_too_small(&size);
     if (before.shape.kind == PIXEL_GRAPHICS_KITTY)
@@ -341,8 +341,8 @@ static bool add_picture(struct screen *screen, const struct screen_frame *frame,
         return pixel_graphics_picture(&screen->graphics, &screen->ansi,
                                       frame->pixels, frame->pace, &draw);
     }
-    cells_from_frame(&screen->cells, frame->pixels, screen->display.palette,
-                     screen->display.glyphs);
+    cells_begin(&screen->cells, frame->pixels, screen->display.palette,
+                screen->display.glyphs);
     if (screen->has_cursor)
         cells_mark(&screen->cells, screen->cursor_col, screen->cursor_row);
     return ansi_diff_picture(&screen->ansi, &screen->cells, &draw);
@@ -414,16 +414,24 @@ static bool awaits_answers(const struct screen *screen)
            (screen->pace.outstanding > 0 || !screen->has_all_answers);
 }
 
+static void take_answers(struct screen *screen, struct tty_input *input)
+{
+    struct event event;
+
+    while (tty_input_next(input, false, &event))
+        screen_answer(screen, &event);
+}
+
 void screen_drain(struct screen *screen, struct tty_input *input)
 {
     uint64_t until_ns = clock_ns() + DRAIN_NS;
     uint64_t now_ns;
 
     erase_images(screen);
+    take_answers(screen, input); /* read together with the last key */
     while (awaits_answers(screen) && (now_ns = clock_ns()) < until_ns) {
         struct pollfd in = {.fd = STDIN_FILENO, .events = POLLIN};
         unsigned char bytes[512];
-        struct event event;
         int count;
 
         if (poll(&in, 1, (int)((until_ns - now_ns) / 1000000) + 1) <= 0)
@@ -432,8 +440,7 @@ void screen_drain(struct screen *screen, struct tty_input *input)
         if (count < 0)
             return;
         tty_input_feed(input, bytes, (size_t)count);
-        while (tty_input_next(input, false, &event))
-            screen_answer(screen, &event);
+        take_answers(screen, input);
     }
     if (awaits_answers(screen))
         tty_flush_input();

@@ -110,7 +110,7 @@ void screen_close_window(struct screen *screen);
 
 enum screen_result {
     SCREEN_DONE, /* the screen shows all of the frame */
-    SCREEN_MORE, /* the budget of bytes was too small for all of it */
+    SCREEN_MORE, /* the budget of bytes or a cancel ended it before */
     SCREEN_GONE  /* the terminal is gone, or a signal ends the program */
 };
 

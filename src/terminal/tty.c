@@ -451,6 +451,14 @@ int tty_read(void *bytes, size_t size_bytes)
     return count == 0 ? -1 : (int)count;
 }
 
+bool tty_has_input(void)
+{
+    struct pollfd in[] = {{.fd = STDIN_FILENO, .events = POLLIN},
+                          {.fd = term.signal_pipe[0], .events = POLLIN}};
+
+    return poll(in, 2, 0) > 0;
+}
+
 bool tty_write(const char *bytes, size_t size_bytes)
 {
     return write_bytes(bytes, size_bytes, true);

@@ -72,6 +72,10 @@ int tty_signal(void);
  * none, -1 if the terminal is gone. */
 int tty_read(void *bytes, size_t size_bytes);
 
+/* Returns true if tty_read() or tty_signal() has something to return. Any
+ * thread may call it. */
+bool tty_has_input(void);
+
 /* Writes all bytes; blocks. Returns false if the terminal is gone or a signal
  * asks the program to end. */
 bool tty_write(const char *bytes, size_t size_bytes);

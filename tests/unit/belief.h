@@ -70,6 +70,12 @@ static void tell_text(void)
             struct vt_cell *text = &cell->text;
 
             memset(cell, 0, sizeof *cell);
+            if (shown->kind == WINDOW_CELL_SPARED) {
+                cell->text = (struct vt_cell){.fg = CELL_DEFAULT,
+                                              .bg = CELL_DEFAULT,
+                                              .glyph = ' '};
+                continue;
+            }
             text->fg = shown->style.fg;
             text->bg = shown->style.bg;
             text->glyph = shown->kind == WINDOW_CELL_TAIL

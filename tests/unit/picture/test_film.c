@@ -270,6 +270,38 @@ static void preview_averages(void **state)
     film_free(&film);
 }
 
+static int looks_left;
+
+static bool has_key(void)
+{
+    return looks_left-- <= 0;
+}
+
+/* A cancel ends a preview between two rows; the others stay as they are. */
+static void preview_ends_when_cancelled(void **state)
+{
+    struct cancel cancel = {.deadline_ns = 1, .is_due = has_key};
+    struct film film;
+    struct frame frame;
+    struct error err;
+
+    (void)state;
+    assert_true(film_init(&film, 4, 4, &err));
+    assert_true(frame_init(&frame, 5, 9, &err));
+    frame.cancel = &cancel;
+    for (looks_left = 9; looks_left >= 0; looks_left -= 3) {
+        int rows = looks_left;
+
+        memset(frame.rgb, 77, 3 * 5 * 9);
+        film_preview(&film, NULL, develop_linear(0.0f), &frame);
+        for (int i = 0; i < 3 * 5 * 9; i++)
+            assert_int_equal(frame.rgb[i], i < 3 * 5 * rows ? 0 : 77);
+        looks_left = rows;
+    }
+    frame_free(&frame);
+    film_free(&film);
+}
+
 static void fill(struct film *film, float value)
 {
     struct path_sample samples[8];
@@ -463,6 +495,7 @@ int main(void)
         cmocka_unit_test(bad_samples_count_as_zero),
         cmocka_unit_test(odd_samples_have_sums_of_their_own),
         cmocka_unit_test(preview_averages),
+        cmocka_unit_test(preview_ends_when_cancelled),
         cmocka_unit_test(previews_add_the_draft),
         cmocka_unit_test(young_films_turn_into_files),
         cmocka_unit_test(previews_of_too_much_light_are_white),

@@ -144,6 +144,106 @@ static void screen_shows_the_cells(void **state)
     cells_free(&c);
 }
 
+#define UNMADE 0xdeadu
+
+/* Makes cells of a frame of random pixels, no row of which is made yet. */
+static void begin_random(struct cells *c, struct frame *frame, uint64_t *seed)
+{
+    struct glyph_grid grid = glyphs_grid(GLYPHS_QUADRANT);
+    struct error err;
+
+    assert_true(frame_init(frame, grid.across * COLS, grid.down * ROWS, &err));
+    for (int i = 0; i < 3 * frame->width * frame->height; i++)
+        frame->rgb[i] = (uint8_t)(256 * check_random(seed));
+    cells_begin(c, frame, PALETTE_24BIT, GLYPHS_QUADRANT);
+}
+
+static void unmake(struct cells *c)
+{
+    for (int i = 0; i < COLS * ROWS; i++)
+        c->cell[i].glyph = UNMADE;
+}
+
+static int rows_made(const struct cells *c)
+{
+    int made = 0;
+
+    for (int y = 0; y < ROWS; y++)
+        made += c->cell[y * COLS].glyph != UNMADE;
+    return made;
+}
+
+static int looks_left;
+
+static bool has_key(void)
+{
+    return looks_left-- <= 0;
+}
+
+/* A key that waits ends a frame after the row at which it is seen, and the next
+ * frame goes on at the row after that. */
+static void keys_end_a_frame_between_rows(void **state)
+{
+    struct cells c = make_cells(COLS, ROWS);
+    struct ansi_diff a = make_ansi(COLS, ROWS);
+    struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX};
+    struct cancel cancel = {.deadline_ns = 1, .is_due = has_key};
+    struct frame frame;
+    uint64_t seed = 7;
+
+    (void)state;
+    vt_open(&vt, COLS, ROWS);
+    begin_random(&c, &frame, &seed);
+    frame.cancel = &cancel;
+    unmake(&c);
+    ansi_diff_begin(&a);
+    looks_left = 4;
+    assert_false(ansi_diff_picture(&a, &c, &how));
+    assert_int_equal(rows_made(&c), 5);
+    assert_int_equal(a.next_row, 5);
+    assert_int_equal(a.next_col, 0);
+    looks_left = 0; /* a key is there all the time: each frame has a row */
+    unmake(&c);
+    assert_false(ansi_diff_picture(&a, &c, &how));
+    assert_int_equal(rows_made(&c), 1);
+    assert_int_not_equal(c.cell[5 * COLS].glyph, UNMADE);
+    frame.cancel = NULL;
+    assert_true(ansi_diff_picture(&a, &c, &how));
+    show(&a);
+    cells_from_frame(&c, &frame, PALETTE_24BIT, GLYPHS_QUADRANT);
+    check_shown(&c, 0, 0);
+    frame_free(&frame);
+    ansi_diff_free(&a);
+    cells_free(&c);
+}
+
+/* A frame that needs many pieces of output makes each row once, and one more
+ * time in each piece that begins or ends in it. */
+static void pieces_make_only_their_rows(void **state)
+{
+    struct cells c = make_cells(COLS, ROWS);
+    struct ansi_diff a = make_ansi(COLS, ROWS);
+    struct ansi_diff_draw how = {.budget_bytes = 100};
+    bool is_done = false;
+    int pieces = 0, made = 0;
+    struct frame frame;
+    uint64_t seed = 8;
+
+    (void)state;
+    begin_random(&c, &frame, &seed);
+    for (; !is_done; pieces++) {
+        ansi_diff_begin(&a);
+        unmake(&c);
+        is_done = ansi_diff_picture(&a, &c, &how);
+        made += rows_made(&c);
+    }
+    assert_true(pieces > 10 * ROWS);
+    assert_in_range(made, pieces, pieces + 2 * ROWS);
+    frame_free(&frame);
+    ansi_diff_free(&a);
+    cells_free(&c);
+}
+
 /* However small the budget is, every cell is drawn some time, and no frame is
  * much larger than the budget. */
 static void budget_is_kept(void **state)
@@ -371,6 +471,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(screen_shows_the_cells),
         cmocka_unit_test(budget_is_kept),
+        cmocka_unit_test(keys_end_a_frame_between_rows),
+        cmocka_unit_test(pieces_make_only_their_rows),
         cmocka_unit_test(small_differences_may_stay),
         cmocka_unit_test(covered_cells_stay),
         cmocka_unit_test(changes_take_few_bytes),

@@ -313,6 +313,8 @@ static void marks_are_visible_in_every_palette(void **state)
         memset(cells.cell, 0, 8 * sizeof cells.cell[0]);
         cells.palette = cases[i].palette;
         cells_mark(&cells, 1, 1);
+        cells_row(&cells, 0);
+        cells_row(&cells, 1);
         for (int k = 0; k < 8; k++)
             assert_int_equal(cells.cell[k].glyph,
                              ((const char[]){0, 0, 0, 0, '[', '+', ']', 0})[k]);
@@ -321,8 +323,12 @@ static void marks_are_visible_in_every_palette(void **state)
     }
     memset(cells.cell, 0, 8 * sizeof cells.cell[0]);
     cells_mark(&cells, 3, 0);
+    cells_row(&cells, 0);
     cells_mark(&cells, 0, 1);
+    cells_row(&cells, 1);
     cells_mark(&cells, 1, 2); /* outside */
+    cells_row(&cells, 0);
+    cells_row(&cells, 1);
     for (int k = 0; k < 8; k++)
         assert_int_equal(cells.cell[k].glyph,
                          ((const char[]){0, 0, '[', '+', '+', ']', 0, 0})[k]);
