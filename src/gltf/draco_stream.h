@@ -33,8 +33,6 @@ struct draco_answer {
 struct draco_attribute {
     uint32_t component; /* enum gltf_component */
     uint32_t component_count;
-    uint32_t is_normalized;
-    uint32_t padding;
 };
 
 #endif

@@ -125,8 +125,7 @@ static bool add_accessor(struct walk *walk, const struct gltf_value *object,
                      "componentType", (json_int_t)a->component, "count",
                      (json_int_t)count, "type", types[a->component_count - 1],
                      "normalized",
-                     a->is_normalized != 0 ||
-                         json_is_true(json_object_get(old.json, "normalized")),
+                     json_is_true(json_object_get(old.json, "normalized")),
                      "sparse", sparse);
     return (json_array_append_new(list, made) == 0 &&
             json_object_set_new(object->json, key,

@@ -52,7 +52,6 @@ std::string add_attribute(const draco::Mesh &mesh, uint32_t id, answer *to)
         return "found no attribute " + std::to_string(id);
     head.component = component_of(a->data_type());
     head.component_count = a->num_components();
-    head.is_normalized = a->normalized() && head.component != 5126;
     if (head.component == 0 || head.component_count < 1 ||
         head.component_count > 4)
         return "found " + std::to_string(head.component_count) +

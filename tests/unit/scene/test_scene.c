@@ -25,18 +25,24 @@ struct loaded {
     struct error err;
 };
 
-static struct loaded load_turned(const char *text, enum scene_up up)
+static struct loaded load_as(const char *path, const char *text,
+                             enum scene_up up)
 {
     struct loaded l = {.scene = {.path = NULL}};
 
-    put_bytes("a.obj", text, strlen(text));
-    if (!scene_load(&l.scene, "a.obj", up, &l.report, &l.err) ||
+    put_bytes(path, text, strlen(text));
+    if (!scene_load(&l.scene, path, up, &l.report, &l.err) ||
         !world_init(&l.world, &l.scene, 2, &l.report, &l.err)) {
         print_error("%s\n", l.err.text);
         _fail(__FILE__, __LINE__);
     }
-    unlink("a.obj");
+    unlink(path);
     return l;
+}
+
+static struct loaded load_turned(const char *text, enum scene_up up)
+{
+    return load_as("a.obj", text, up);
 }
 
 static struct loaded load(const char *text)
@@ -445,6 +451,47 @@ static void framed_cubes_fill_the_picture(void **state)
     unload(&l);
 }
 
+#define OCTAHEDRON                                                    \
+    "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\n"     \
+    "property float y\nproperty float z\nelement face 8\n"            \
+    "property list uchar int vertex_indices\nend_header\n"            \
+    "1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 2 4\n3 2 1 4\n" \
+    "3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n"
+
+/* A model's own corners fill CAMERA_FILL of the picture. The box around an
+ * octahedron, which has three times its extent along a diagonal, would leave
+ * it smaller. */
+static void models_fill_the_picture(void **state)
+{
+    static const int sizes[][2] = {{400, 100}, {100, 400}};
+    struct loaded l = load_as("a.ply", OCTAHEDRON, SCENE_UP_OF_FILE);
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        double most[2] = {0, 0};
+        struct world world;
+        struct view view;
+
+        view_init(&view);
+        view.width_px = sizes[i][0];
+        view.height_px = sizes[i][1];
+        scene_frame(&l.scene, &view);
+        assert_true(world_lend(&l.world, &l.scene, &view, 0, &world, &l.err));
+        for (int corner = 0; corner < 6; corner++) {
+            double p[3] = {0, 0, 0}, xy[2], z;
+
+            p[corner / 2] = corner % 2 == 0 ? 1 : -1;
+            project(&l.scene, &world, p, &xy[0], &xy[1], &z);
+            for (int k = 0; k < 2; k++)
+                most[k] = fmax(most[k], fabs(xy[k]));
+        }
+        check_close(most[i == 0], CAMERA_FILL, 1e-5);
+        check_at_most(most[i != 0], CAMERA_FILL);
+        view_free(&view);
+    }
+    unload(&l);
+}
+
 static void check_vec(struct vec3 v, double x, double y, double z)
 {
     check_close((double)v.x, x, 1e-6);
@@ -725,6 +772,7 @@ int main(void)
         cmocka_unit_test(libraries_are_found_beside_the_scene),
         cmocka_unit_test(framing_shows_everything),
         cmocka_unit_test(framed_cubes_fill_the_picture),
+        cmocka_unit_test(models_fill_the_picture),
         cmocka_unit_test(camera_is_in_scene_units),
         cmocka_unit_test(up_along_the_view_is_replaced),
         cmocka_unit_test(impossible_cameras_are_refused),
