@@ -86,8 +86,8 @@ static void put_lights(const char *generator, double point, double sun)
 {
     char *root = format_text(
         ",\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":"
-        "\"point\",\"intensity\":%.9g},{\"type\":\"directional\","
-        "\"intensity\":%.9g}]}},\"extensionsUsed\":[\"KHR_lights_punctual\"]",
+        "\"point\",\"intensity\":%.17g},{\"type\":\"directional\","
+        "\"intensity\":%.17g}]}},\"extensionsUsed\":[\"KHR_lights_punctual\"]",
         point, sun);
 
     assert_non_null(root);
@@ -128,7 +128,6 @@ static void lights_of_blender_have_its_watts(void **state)
         {IO "v5.0.21", 1, false, 0, 2.5, false},
         {IO "v3.3.27", 1, true, 1000, 3, false},
         {IO "v1.2.75", 1, true, 54351.4, 3, false},
-        {IO "v4.2.8", 683, false, 1234, 3, true},
         {IO "v4.2.8", 683, false, 1234.5678, 3.14159, true},
     };
 
@@ -147,6 +146,37 @@ static void lights_of_blender_have_its_watts(void **state)
                     1e-6 * cases[i].watts);
         check_close(lamp_of(&o, LAMP_DIRECTIONAL), cases[i].strength,
                     1e-6 * cases[i].strength);
+        assert_int_equal(warns(&o, NOT_KNOWN), cases[i].is_guessed);
+        close_model(&o);
+    }
+}
+
+/* Powers of five and six digits, as Blender 5.0.1 wrote them: they are floats
+ * there. 6710.008 is near a number of three digits, but not by a float's
+ * error. Other programs keep five digits, of a kilowatt here. */
+static void lights_have_the_digits_of_floats(void **state)
+{
+    static const struct {
+        double intensity, watts;
+        bool is_guessed;
+    } cases[] = {
+        {6710.0081211258475, 123.456, true},
+        {9.824316429174008, 123.456, true},
+        {123.45600128173828, 123.456, true},
+        {2955.0862703384464, 54.37, false},
+        {4.326627042955265, 54.37, false},
+        {54.369998931884766, 54.37, false},
+        {79.577, 1000, false},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct opened o;
+
+        put_lights(IO "v5.0.21", cases[i].intensity, 0);
+        open_model(&o, NULL);
+        check_close(lamp_of(&o, LAMP_POINT), cases[i].watts / FOUR_PI,
+                    1e-5 * cases[i].watts / FOUR_PI);
         assert_int_equal(warns(&o, NOT_KNOWN), cases[i].is_guessed);
         close_model(&o);
     }
@@ -323,6 +353,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lights_of_blender_have_its_watts),
+        cmocka_unit_test(lights_have_the_digits_of_floats),
         cmocka_unit_test(other_programs_write_candela),
         cmocka_unit_test(views_set_the_unit),
         cmocka_unit_test(primitives_without_material_have_the_default),
