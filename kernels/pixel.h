@@ -44,10 +44,14 @@ static inline struct sum channel_sum(float x, uint32_t *bad, uint32_t *full)
 static inline bool rgb_join(GLOBAL struct sum *sums, struct sum r, struct sum g,
                             struct sum b)
 {
-    bool r_fits = sum_join(&sums[0], r);
-    bool g_fits = sum_join(&sums[1], g);
+    uint64_t high =
+        sum_put(&sums[0], r) | sum_put(&sums[1], g) | sum_put(&sums[2], b);
 
-    return sum_join(&sums[2], b) && g_fits && r_fits;
+    if (!(high >> 63))
+        return true;
+    for (uint32_t c = 0; c < 3; c++)
+        sum_saturate(&sums[c]);
+    return false;
 }
 
 /* Adds a colour to three sums, and to those of the odd samples if it is of

@@ -25,17 +25,33 @@ static inline bool sum_accepts(float x)
     return x >= 0.0f && x <= FLOAT_MAX;
 }
 
-/* Adds one sum to another. Sums saturate at 2^63: then the result is false. */
+/* Adds a number of at most 2^62, or a sum to one that has room for it. Returns
+ * the high part, whose top bit says that sum_saturate() must follow. */
+static inline uint64_t sum_put(GLOBAL struct sum *s, struct sum x)
+{
+    s->lo += x.lo;
+    s->hi += x.hi + (s->lo < x.lo ? 1 : 0);
+    return s->hi;
+}
+
+/* Sums saturate at 2^63. */
+static inline void sum_saturate(GLOBAL struct sum *s)
+{
+    if (s->hi >> 63) {
+        s->hi = (uint64_t)1 << 63;
+        s->lo = 0;
+    }
+}
+
+/* Adds one sum to another. Returns false if the result is saturated. */
 static inline bool sum_join(GLOBAL struct sum *s, struct sum x)
 {
     uint64_t large = s->hi | x.hi; /* two saturated sums wrap to 0 */
 
-    s->lo += x.lo;
-    s->hi += x.hi + (s->lo < x.lo ? 1 : 0);
-    if (!((large | s->hi) >> 63))
+    if (!((sum_put(s, x) | large) >> 63))
         return true;
-    s->hi = (uint64_t)1 << 63;
-    s->lo = 0;
+    s->hi |= (uint64_t)1 << 63;
+    sum_saturate(s);
     return false;
 }
 

@@ -150,19 +150,20 @@ void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
         size_t at = pixel_index(f, x + i * stride, y);
         struct sum *sums = f->sums + 3 * at;
         struct sum *odd_sums = f->odd_sums + 3 * at;
+        uint64_t count = f->counts[at];
 
-        if (counts[i] > 0 && f->counts[at] == 0) {
+        if (counts[i] > 0 && count == 0) {
             memset(sums, 0, 3 * sizeof *sums);
             memset(odd_sums, 0, 3 * sizeof *odd_sums);
             if (f->surfaces != NULL)
                 surface_clear(&f->surfaces[at]);
         }
         for (int s = 0; s < counts[i] && f->surfaces != NULL; s++)
-            surface_add(&f->surfaces[at],
-                        f->first_sample + f->counts[at] + (uint64_t)s,
+            surface_add(&f->surfaces[at], f->first_sample + count + (uint64_t)s,
                         *surfaces++, samples[s].radiance);
         for (int s = 0; s < counts[i]; s++)
-            pixel_add(sums, odd_sums, f->counts[at]++, *samples++, &tally);
+            pixel_add(sums, odd_sums, count++, *samples++, &tally);
+        f->counts[at] = count;
     }
     film_unlock_row(f, y);
     film_count_more(f, &tally);
