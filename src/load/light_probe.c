@@ -115,6 +115,6 @@ bool light_probe_take(struct light_probe *probe, struct host_world *host,
 bool light_probe_suffices(const struct light_probe *own,
                           const struct light_probe *with)
 {
-    return own->mean >= MEAN_SHARE * with->mean ||
-           own->shown >= SHOWN_SHARE * with->shown;
+    return own->mean > MEAN_SHARE * with->mean ||
+           own->shown > SHOWN_SHARE * with->shown;
 }

@@ -27,7 +27,7 @@ bool light_probe_take(struct light_probe *probe, struct host_world *host,
                       bool counts_seen, struct error *err);
 
 /* Returns true if this light does enough beside the light that could be added:
- * `with` is measured with both. */
+ * `with` is measured with both. Light that shows nothing never does. */
 bool light_probe_suffices(const struct light_probe *own,
                           const struct light_probe *with);
 

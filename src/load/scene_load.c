@@ -338,7 +338,7 @@ static bool help_light(const struct scene *scene, struct host_world *host,
 {
     struct light_probe own, with;
     bool is_model = scene->has_own_mtl;
-    bool says_so = !is_model || claims_lamps(host);
+    bool has_own_lamps = claims_lamps(host);
 
     if (!light_probe_take(&own, host, scene, view, !is_model, err) ||
         !add_light(scene, host, view, err) ||
@@ -346,11 +346,12 @@ static bool help_light(const struct scene *scene, struct host_world *host,
         return false;
     if (light_probe_suffices(&own, &with))
         return remove_light(scene, host, view, err);
-    if (says_so)
+    if (is_model ? has_own_lamps : with.shown > 0)
         warnings_add(report, SCENE_LITTLE_LIGHT,
                      "%s: found that its own light shows %.0f %% of what the "
                      "camera sees: %s",
-                     scene->path, 100 * own.shown / with.shown,
+                     scene->path,
+                     with.shown > 0 ? 100 * own.shown / with.shown : 0,
                      is_model ? "lit as a studio; 'background 0 0 0' in the "
                                 "view file leaves its own light alone"
                               : "not lit by a sky; 'background .7 .8 .9' in "
