@@ -30,6 +30,7 @@ struct parser {
     char *name; /* of the material that is being read; NULL before the first */
     uint64_t name_line;
     uint32_t file;          /* number of this file in scene->mtl_paths */
+    bool is_made;           /* the text is a reader's, not that of the file */
     uint32_t earlier_count; /* materials of the scene before this text */
     enum mtl_dialect dialect;
     struct mtl_source source;
@@ -216,7 +217,7 @@ static bool read_map(struct parser *p, struct word key, bool is_data,
                      uint32_t *texture, double *scale)
 {
     struct texture_origin origin = {.file = p->file,
-                                    .line = p->lex.line,
+                                    .line = p->is_made ? 0 : p->lex.line,
                                     .is_opacity = word_is(key, "map_d")};
     struct mtl_map_options o;
     char *name = mtl_map_read(&p->lex, &o);
@@ -232,11 +233,11 @@ static bool read_map(struct parser *p, struct word key, bool is_data,
         warnings_add(p->report, "maps with unknown options",
                      "%s:%" PRIu64 ": found an unknown option of %.*s, "
                      "expected one that the manual lists: ignored",
-                     p->path, origin.line, (int)key.length, key.start);
+                     p->path, p->lex.line, (int)key.length, key.start);
     if (*name == '\0') {
         warnings_add(p->report, "maps without a file",
                      "%s:%" PRIu64 ": found %.*s without a file name: ignored",
-                     p->path, origin.line, (int)key.length, key.start);
+                     p->path, p->lex.line, (int)key.length, key.start);
         free(name);
         return true;
     }
@@ -381,6 +382,7 @@ static bool add_file(struct parser *p)
         return true;
     copy = strdup(p->path);
     p->file = scene->mtl_path_count;
+    p->is_made = scene->has_own_mtl && p->file == 0;
     if (copy == NULL ||
         !grow_array(&paths, &capacity, (size_t)p->file + 1, sizeof copy)) {
         free(copy);

@@ -26,8 +26,8 @@
 
 /* Place of the first statement that names a texture. */
 struct texture_origin {
-    uint32_t file; /* index into mtl_paths */
-    uint64_t line;
+    uint32_t file; /* index into mtl_paths; NO_INDEX for those of glTF */
+    uint64_t line; /* 0 if the reader of the scene's file made the statement */
     double rotation_deg; /* as the statement has it */
     uint32_t image;      /* equal in textures of one image, however spelled */
     bool is_opacity;     /* its numbers are the image's alpha, if it has some */

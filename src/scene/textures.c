@@ -178,19 +178,31 @@ static void decode_image(void *context, uint32_t item, int worker)
         r->is_decoded = image_decode(&r->file, &r->image, &ignored, &r->error);
 }
 
-/* Warns that an image is missing, with the place of its first statement. */
+/* Writes the place of the first statement of a texture and a colon: the scene's
+ * file if a reader made the statement, and nothing for an image whose name has
+ * its place. */
+static void write_place(struct error *place, const struct scene *scene,
+                        uint32_t texture)
+{
+    struct texture_origin o = scene->texture_origins[texture];
+
+    if (o.file == NO_INDEX)
+        *place->text = '\0';
+    else if (o.line == 0)
+        fail(place, "%s: ", scene->path);
+    else
+        fail(place, "%s:%" PRIu64 ": ", scene->mtl_paths[o.file], o.line);
+}
+
+/* Warns that an image is missing. */
 static void report_missing(const struct scene *scene, const struct reading *r,
                            struct warnings *report, const char *why)
 {
-    struct texture_origin o = scene->texture_origins[r->texture];
+    struct error place;
 
-    if (o.file == NO_INDEX) /* it has no line; `why` names the image */
-        warnings_add_named(report, "unusable textures", r->path,
-                           "%s: the texture is not used", why);
-    else
-        warnings_add_named(report, "unusable textures", r->path,
-                           "%s:%" PRIu64 ": %s: the texture is not used",
-                           scene->mtl_paths[o.file], o.line, why);
+    write_place(&place, scene, r->texture);
+    warnings_add_named(report, "unusable textures", r->path,
+                       "%s%s: the texture is not used", place.text, why);
 }
 
 /* Copies the decoded image into the world. A texture whose image could not be
@@ -354,6 +366,7 @@ static void resolve_bump_map(const struct host_world *host,
                              struct warnings *report)
 {
     uint32_t map = m->bump_texture;
+    struct error place;
 
     if (map == NO_INDEX || !is_normal_map(host, &host->textures[map]))
         return;
@@ -362,11 +375,10 @@ static void resolve_bump_map(const struct host_world *host,
         m->normal_texture = map;
         m->normal_strength = m->normal_depth = m->bump_scale;
     }
+    write_place(&place, scene, map);
     warnings_add(report, "normal maps in map_Bump",
-                 "%s:%" PRIu64 ": found a map of normals, expected heights: "
-                 "used as norm",
-                 scene->mtl_paths[scene->texture_origins[map].file],
-                 scene->texture_origins[map].line);
+                 "%sfound a map of normals, expected heights: used as norm",
+                 place.text);
 }
 
 bool textures_are_tried(const struct host_world *host, const struct material *m)

@@ -57,6 +57,9 @@ echo 'newmtl clay
 Kd red' >model.ply.mtl
 run $b -o other.pfm model.ply
 rm model.ply.mtl
+# a message names the file that there is, not the MTL file that saves would make
+sed 's/^element v/comment TextureFile none.png\n&/' model.ply >image.ply
+run_untimed $b -o other.pfm image.ply
 # wrong files
 sed 's/^3 1 2 3/3 1 2 4/' model.ply >index.ply
 run $b index.ply
