@@ -9,9 +9,12 @@
 #include "kernels/instance.h"
 
 /* Elevation of the camera that frames a scene, and its azimuth before a model,
- * of which it shows two sides. */
+ * of which it shows two sides, and before a wall that it would see edge-on. */
 #define FRAME_ELEVATION_DEG 20
-#define MODEL_AZIMUTH_DEG   30
+#define FRAME_AZIMUTH_DEG   30
+
+/* Thickness of such a wall, relative to its length. */
+#define WALL_THICKNESS 1e-3
 
 /* Distance of the camera from a scene that is a point, in normalised units. */
 #define POINT_DISTANCE 3
@@ -127,19 +130,21 @@ static void add_model(struct pose_fit *f, const struct scene *scene)
 void scene_frame(const struct scene *scene, struct view *view)
 {
     double elevation = angle_rad(FRAME_ELEVATION_DEG);
-    double azimuth = scene->has_own_mtl ? angle_rad(MODEL_AZIMUTH_DEG) : 0;
     double distance = POINT_DISTANCE / scene->scale;
-    double half[3];
+    double azimuth, half[3];
     struct pose *pose = &view->pose;
     struct pose_fit fit;
 
+    for (int k = 0; k < 3; k++)
+        half[k] =
+            (scene->bounds_hi[k] / 2 - scene->bounds_lo[k] / 2) * scene->scale;
+    azimuth = scene->has_own_mtl || half[0] < WALL_THICKNESS * half[2]
+                  ? angle_rad(FRAME_AZIMUTH_DEG)
+                  : 0;
     memcpy(pose->at, scene->center, sizeof pose->at);
     pose->eye[0] = pose->at[0] + distance * cos(elevation) * sin(azimuth);
     pose->eye[1] = pose->at[1] + distance * sin(elevation);
     pose->eye[2] = pose->at[2] + distance * cos(elevation) * cos(azimuth);
-    for (int k = 0; k < 3; k++)
-        half[k] =
-            (scene->bounds_hi[k] / 2 - scene->bounds_lo[k] / 2) * scene->scale;
     pose_fit_begin(&fit, pose, (double)view->width_px / view->height_px);
     if (scene->has_own_mtl && scene->tri_count > 0)
         add_model(&fit, scene);

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "scene/pose_fit.h"
+#include "base/memory.h"
 #include "scene/world_lamps.h"
 #include "formats/obj.h"
 #include "load/scene_load.h"
@@ -458,6 +459,34 @@ static void framed_cubes_fill_the_picture(void **state)
     "1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 2 4\n3 2 1 4\n" \
     "3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n"
 
+/* A wall in the plane x = 0 is not seen edge-on: the eye is 30 degrees beside
+ * it, and 20 above. A wall of a hundredth of its length is thick enough. */
+static void a_wall_along_the_view_is_seen(void **state)
+{
+    static const struct {
+        const char *x;
+        double side;
+    } cases[] = {{"0", 0.5}, {"-0.02", 0}};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *text = format_text("v 0 0 0\nv 0 0 2\nv 0 2 2\nv %s 2 0\n"
+                                 "f 1 2 3 4\n",
+                                 cases[i].x);
+        struct loaded l = load(text);
+        struct view view;
+
+        view_init(&view);
+        scene_frame(&l.scene, &view);
+        check_close((view.pose.eye[0] - view.pose.at[0]) /
+                        pose_reach(&view.pose),
+                    cases[i].side * cos(20 * M_PI / 180), 1e-9);
+        view_free(&view);
+        unload(&l);
+        free(text);
+    }
+}
+
 /* A model's own corners fill CAMERA_FILL of the picture. The box around an
  * octahedron, which has three times its extent along a diagonal, would leave
  * it smaller. */
@@ -772,6 +801,7 @@ int main(void)
         cmocka_unit_test(libraries_are_found_beside_the_scene),
         cmocka_unit_test(framing_shows_everything),
         cmocka_unit_test(framed_cubes_fill_the_picture),
+        cmocka_unit_test(a_wall_along_the_view_is_seen),
         cmocka_unit_test(models_fill_the_picture),
         cmocka_unit_test(camera_is_in_scene_units),
         cmocka_unit_test(up_along_the_view_is_replaced),
