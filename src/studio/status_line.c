@@ -187,7 +187,7 @@ static void format_machine(char text[FIELD_BYTES], const struct status_line *s,
     else if (s->device)
         snprintf(text, FIELD_BYTES, "OpenCL %.24s", s->device);
     else
-        snprintf(text, FIELD_BYTES, "%d thread%s", s->thread_count,
+        snprintf(text, FIELD_BYTES, "CPU %d thread%s", s->thread_count,
                  print_plural((uint64_t)s->thread_count));
 }
 

@@ -99,7 +99,7 @@ static void normal_mode_shows_the_time_left(void **state)
     format(text, 130, &s);
     assert_string_equal(
         text, " NORMAL  8/16 spp  50 %  noise unknown            4 s  left 4 s "
-              " 2.00 Msamples/s  2 threads  10x20  mono           ? help  q "
+              " 2.00 Msamples/s  CPU 2 threads  10x20  mono       ? help  q "
               "quit ");
     s.is_orbiting = true;
     format(text, 120, &s);
@@ -122,7 +122,7 @@ static void normal_mode_shows_the_time_left(void **state)
     s.is_started = false;
     p.state = RENDER_IDLE;
     format(text, 120, &s);
-    assert_non_null(strstr(text, "NORMAL ready  2 threads"));
+    assert_non_null(strstr(text, "NORMAL ready  CPU 2 threads"));
 }
 
 static void live_mode_has_no_end(void **state)
@@ -135,7 +135,7 @@ static void live_mode_has_no_end(void **state)
     p.spp_limit = p.samples_limit = 0;
     format(text, 100, &s);
     assert_non_null(strstr(text, " LIVE  8 spp  noise unknown  4 s  2.00 "
-                                 "Msamples/s  1 thread  10x20  mono "));
+                                 "Msamples/s  CPU 1 thread  10x20  mono "));
     assert_null(strchr(text, '%'));
     p = (struct render_progress){.state = RENDER_RUNNING};
     /* No progress yet: no division by zero. */
