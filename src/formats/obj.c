@@ -409,8 +409,8 @@ static bool read_statement(struct parser *p)
     return skip_unknown(p, key);
 }
 
-/* Returns the material of faces before the first usemtl. A single material of
- * the MTL files is meant, as libassimp reads it. */
+/* Returns the material of faces before the first usemtl. In a file without
+ * usemtl a single material of the MTL files is meant, as libassimp reads it. */
 static uint32_t material_of_none(struct parser *p)
 {
     const struct scene *scene = p->scene;
@@ -419,7 +419,7 @@ static uint32_t material_of_none(struct parser *p)
 
     for (uint32_t i = 0; !is_needed && i < scene->tri_count; i++)
         is_needed = scene->tris[i].material == 0;
-    if (!is_needed || found == 0 || (found > 1 && p->materials.count > 1))
+    if (!is_needed || found == 0 || p->materials.count > 1)
         return 0;
     if (found == 1)
         warnings_add(p->report, "faces without usemtl",

@@ -299,13 +299,6 @@ static void a_single_material_needs_no_usemtl(void **state)
                         "a.obj: found faces without usemtl, and one material: "
                         "'red' is used");
     unload(&l);
-    /* so do Blender 5.0.1 and libassimp 5.2 before the first usemtl */
-    l = load_good("mtllib one.mtl\n" SQUARE "f 1 2 3\nusemtl red\nf 1 3 4\n",
-                  2);
-    assert_int_equal(l.scene.tris[0].material, 1);
-    assert_int_equal(l.scene.tris[1].material, 1);
-    assert_int_equal(l.report.entry_count, 1);
-    unload(&l);
     put("one.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
     l = load_good("mtllib one.mtl\n" SQUARE "f 1 2 3\n", 1);
     assert_int_equal(l.scene.tris[0].material, 0);
