@@ -340,8 +340,9 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
         l->tri_lights[i] = find_light(l, *emitters, w, i, footprints, &total);
     for (uint32_t i = 0; i < instance_count; i++) {
         const struct instance *at = &w->instances[i];
+        bool shines = material_shines(&w->materials[at->material]);
 
-        for (uint32_t k = 0; k < at->tri_count; k++)
+        for (uint32_t k = 0; shines && k < at->tri_count; k++)
             find_light(l, *emitters, w, at->first_tri + k, footprints, &total);
     }
     total +=
