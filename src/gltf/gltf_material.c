@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/name_table.h"
 #include "formats/mtl.h"
 #include "formats/scene_lists.h"
 #include "gltf/gltf_texture.h"
@@ -26,8 +27,9 @@
 /* A material while it is read. */
 struct reader {
     struct gltf_textures *textures;
-    struct gltf_value v;   /* the material */
-    struct gltf_value pbr; /* its pbrMetallicRoughness */
+    struct name_table *names; /* of the materials before */
+    struct gltf_value v;      /* the material */
+    struct gltf_value pbr;    /* its pbrMetallicRoughness */
     struct mtl_source source;
     struct error *err;
 };
@@ -423,12 +425,16 @@ static bool read_statements(struct reader *r)
            read_emission(r) && read_layers(r);
 }
 
-/* Returns a name that no other material of the scene has, for free(). */
-static char *unique_name(const struct scene *scene, const char *name, size_t i)
+/* Returns a name that no material before has, for free(). */
+static char *unique_name(struct name_table *names, const char *name, size_t i)
 {
-    return *name != '\0' && mtl_find(scene, name) == NO_INDEX
-               ? strdup(name)
-               : format_text("%s#%zu", name, i);
+    bool is_new = *name != '\0' && name_table_find(names, name) == NO_NAME;
+    char *unique = is_new ? strdup(name) : format_text("%s#%zu", name, i);
+
+    if (unique == NULL || name_table_add(names, unique) != NO_NAME)
+        return unique;
+    free(unique);
+    return NULL;
 }
 
 /* Adds the material that r->v has. */
@@ -445,7 +451,7 @@ static bool add_material(struct reader *r, size_t i, size_t *capacity)
         return false;
     origin.source = r->source;
     m = material_from_source(&origin.source, t->document->path, t->report);
-    unique = unique_name(t->scene, name, i);
+    unique = unique_name(r->names, name, i);
     ok = unique != NULL &&
          scene_add_material(t->scene, capacity, unique, &m, &origin);
     free(unique);
@@ -453,13 +459,11 @@ static bool add_material(struct reader *r, size_t i, size_t *capacity)
                       t->document->path);
 }
 
-static bool read_material(struct gltf_textures *t, size_t i, size_t *capacity,
-                          struct error *err)
+static bool read_material(struct reader *r, size_t i, size_t *capacity)
 {
-    struct reader r = {.textures = t, .source = mtl_source_empty(), .err = err};
-
-    return gltf_entry(t->document, "materials", i, &r.v, err) &&
-           add_material(&r, i, capacity);
+    r->source = mtl_source_empty();
+    return gltf_entry(r->textures->document, "materials", i, &r->v, r->err) &&
+           add_material(r, i, capacity);
 }
 
 /* Returns true if a primitive has no material. */
@@ -479,19 +483,19 @@ static bool needs_default(const struct gltf_document *d)
 }
 
 /* Adds the specification's default material, which is that of {}. */
-static bool add_default(struct gltf_textures *t, size_t count, size_t *capacity,
-                        struct error *err)
+static bool add_default(struct reader *r, size_t count, size_t *capacity)
 {
-    struct reader r = {.textures = t, .source = mtl_source_empty(), .err = err};
+    const struct gltf_document *document = r->textures->document;
     json_t *empty = json_pack("{ss}", "name", "default");
     bool ok;
 
     if (empty == NULL)
-        return fail(err, "%s: out of memory for the materials",
-                    t->document->path);
-    r.v = gltf_root(t->document);
-    r.v.json = empty;
-    ok = add_material(&r, count, capacity);
+        return fail(r->err, "%s: out of memory for the materials",
+                    document->path);
+    r->source = mtl_source_empty();
+    r->v = gltf_root(document);
+    r->v.json = empty;
+    ok = add_material(r, count, capacity);
     json_decref(empty);
     return ok;
 }
@@ -535,6 +539,8 @@ bool gltf_materials_read(const struct gltf_document *document,
                          struct error *err)
 {
     struct gltf_textures textures = {.document = document};
+    struct name_table names = {0};
+    struct reader r = {.textures = &textures, .names = &names, .err = err};
     struct gltf_value root = gltf_root(document);
     size_t count = gltf_entry_count(document, "materials");
     size_t capacity = scene->material_count;
@@ -542,9 +548,10 @@ bool gltf_materials_read(const struct gltf_document *document,
               gltf_textures_begin(&textures, document, scene, report, err);
 
     for (size_t i = 0; ok && i < count; i++)
-        ok = read_material(&textures, i, &capacity, err);
+        ok = read_material(&r, i, &capacity);
     if (ok && needs_default(document))
-        ok = add_default(&textures, count, &capacity, err);
+        ok = add_default(&r, count, &capacity);
+    name_table_free(&names);
     gltf_textures_end(&textures);
     return ok;
 }
