@@ -26,44 +26,77 @@ static void join_point(struct scene *scene, const double p[3])
     }
 }
 
-/* Returns true if the moved box of the mesh is within the bounds. */
-static bool is_inside(const struct scene *scene, const struct scene_mesh *mesh,
-                      const struct affine *matrix)
+/* Joins the bounds with those of all vertices of an instance. */
+static void join_vertices(struct scene *scene, uint32_t instance,
+                          bool *has_bounds)
 {
+    const struct scene_instance *at = &scene->instances.items[instance];
+    const struct scene_mesh *mesh = &scene->instances.meshes[at->mesh];
+
+    for (uint32_t c = 0; c < 3 * mesh->tri_count; c++) {
+        const struct tri *t = &scene->tris[mesh->first_tri + c / 3];
+        double p[3];
+
+        affine_point(&at->matrix,
+                     scene->file_positions + 3 * (size_t)t->v[c % 3], p);
+        for (int k = 0; k < 3 && !*has_bounds; k++)
+            scene->bounds_lo[k] = scene->bounds_hi[k] = p[k];
+        *has_bounds = true;
+        join_point(scene, p);
+    }
+}
+
+/* Finds the ends of the moved box of an instance's mesh along 0 x, 1 y, 2 z, 3
+ * to 5 their opposites. */
+static void find_ends(const struct scene_instances *s, uint32_t instance,
+                      double ends[6])
+{
+    const struct scene_instance *at = &s->items[instance];
+    const struct scene_mesh *mesh = &s->meshes[at->mesh];
+
+    for (int k = 0; k < 6; k++)
+        ends[k] = -INFINITY;
     for (int corner = 0; corner < 8; corner++) {
         double p[3], to[3];
 
         for (int k = 0; k < 3; k++)
             p[k] = (corner >> k & 1) != 0 ? mesh->hi[k] : mesh->lo[k];
-        affine_point(matrix, p, to);
-        for (int k = 0; k < 3; k++)
-            if (!(to[k] >= scene->bounds_lo[k] && to[k] <= scene->bounds_hi[k]))
-                return false;
+        affine_point(&at->matrix, p, to);
+        for (int k = 0; k < 3; k++) {
+            ends[k] = fmax(ends[k], to[k]);
+            ends[k + 3] = fmax(ends[k + 3], -to[k]);
+        }
     }
-    return true;
 }
 
+/* The instances whose boxes reach farthest come first, as then most others are
+ * within the bounds, also where they stand in a row. */
 void instances_join_bounds(struct scene *scene, bool has_bounds)
 {
     const struct scene_instances *s = &scene->instances;
+    uint32_t farthest[6] = {0};
+    double most[6], ends[6];
 
     for (uint32_t i = 0; i < s->count; i++) {
-        const struct affine *matrix = &s->items[i].matrix;
-        const struct scene_mesh *mesh = &s->meshes[s->items[i].mesh];
-
-        if (has_bounds && is_inside(scene, mesh, matrix))
-            continue;
-        for (uint32_t c = 0; c < 3 * mesh->tri_count; c++) {
-            const struct tri *t = &scene->tris[mesh->first_tri + c / 3];
-            double p[3];
-
-            affine_point(matrix,
-                         scene->file_positions + 3 * (size_t)t->v[c % 3], p);
-            for (int k = 0; k < 3 && !has_bounds; k++)
-                scene->bounds_lo[k] = scene->bounds_hi[k] = p[k];
-            has_bounds = true;
-            join_point(scene, p);
+        find_ends(s, i, ends);
+        for (int k = 0; k < 6; k++) {
+            if (i > 0 && !(ends[k] > most[k]))
+                continue;
+            most[k] = ends[k];
+            farthest[k] = i;
         }
+    }
+    for (int k = 0; k < 6 && s->count > 0; k++)
+        join_vertices(scene, farthest[k], &has_bounds);
+    for (uint32_t i = 0; i < s->count; i++) {
+        bool is_inside = has_bounds;
+
+        find_ends(s, i, ends);
+        for (int k = 0; k < 3; k++)
+            is_inside = is_inside && ends[k] <= scene->bounds_hi[k] &&
+                        -ends[k + 3] >= scene->bounds_lo[k];
+        if (!is_inside)
+            join_vertices(scene, i, &has_bounds);
     }
 }
 

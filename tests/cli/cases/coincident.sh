@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Thousands of faces or of instances in one place take the time of one.
+# Thousands of faces or of instances in one place take the time of one, those in
+# a row and thousands of materials a moment.
 {
     echo 'v 0 0 0'
     echo 'v 1 0 0'
@@ -8,16 +9,16 @@
 } >faces.obj
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >face.obj
 
-# A mesh of 2 n n triangles in so many nodes, all in one place.
-gltf() # nodes n
+# A mesh of 2 n n triangles in so many nodes, this far from each other.
+gltf() # nodes n file distance
 {
-    awk -v count="$1" -v n="$2" 'BEGIN {
+    awk -v count="$1" -v n="$2" -v step="${4-0}" 'BEGIN {
         printf "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0"
         for (i = 1; i < count; i++)
             printf ",%d", i
         printf "]}],\"nodes\":[{\"mesh\":0}"
         for (i = 1; i < count; i++)
-            printf ",{\"mesh\":0}"
+            printf ",{\"mesh\":0,\"translation\":[%d,0,0]}", step * i
         vertices = (n + 1) * (n + 1)
         printf "],\"meshes\":[{\"primitives\":[{\"attributes\":"
         printf "{\"POSITION\":0},\"indices\":1}]}],\"accessors\":["
@@ -47,6 +48,18 @@ awk -v n=60 'BEGIN {
 printf "$(cat octal)" >mesh.bin
 gltf 100000 60 many
 gltf 1 60 one
+gltf 100000 60 row 3
+printf 'background 0 0 0\nlight point 0 0 9\n' >row.view
+
+# Materials whose names begin alike
+awk 'BEGIN {
+    name = sprintf("%100s", "")
+    printf "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{}"
+    for (i = 0; i < 40000; i++)
+        printf ",{\"name\":\"%s%d\"}", name, i
+    printf "],"
+}' >materials.gltf
+tail -c +28 one.gltf >>materials.gltf
 
 # Processor time, unless a sanitizer takes more.
 limit_memory 8000000 && ulimit -t 4
@@ -57,4 +70,8 @@ for pair in 'face.obj faces.obj' 'one.gltf many.gltf'; do
     done
     set -- $pair
     same "$1.pfm" "$2.pfm"
+done
+for file in row.gltf materials.gltf; do
+    glim -b -t 1 -w 4 -h 3 -s 1 -o "$file.pfm" "$file" 2>/dev/null
+    echo "$file: exit $?"
 done
