@@ -104,8 +104,8 @@ wait_until()
     tries=0
     until "$@"; do
         tries=$((tries + 1))
-        [ $tries -lt 2000 ] || die "waited for: $*"
-        sleep 0.05
+        [ $tries -lt 3000 ] || die "waited for: $*"
+        sleep 0.03
     done
 }
 

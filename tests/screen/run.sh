@@ -22,9 +22,6 @@ LC_ALL=C.UTF-8
 POCL_CACHE_DIR=$build/pocl
 export PATH SCREEN LC_ALL POCL_CACHE_DIR root
 unset NO_COLOR GLIM_COLOR COLORTERM TMUX STY TERM
-# the user's configuration is not tested
-XDG_CONFIG_HOME=$root/tests/screen/none
-export XDG_CONFIG_HOME
 
 if [ ! -x "$build/glim" ]; then
     echo "screen: no program $build/glim, build it first"
@@ -43,6 +40,12 @@ if ! command -v tmux >/dev/null; then
     exit 0
 fi
 work=$(mktemp -d) || exit 1
+# the user's configuration is not tested; by day one thread renders, since cases
+# wait for the program, which renders as long as they do
+mkdir -p "$work/xdg/glim"
+[ -n "${THOROUGH-}" ] || echo 'option t 1' >"$work/xdg/glim/config"
+XDG_CONFIG_HOME=$work/xdg
+export XDG_CONFIG_HOME
 
 # Stops the programs in tmux when the run is interrupted.
 end_all()

@@ -8,27 +8,35 @@ cp /etc/OpenCL/vendors/pocl.icd . 2>/dev/null || {
 export OCL_ICD_VENDORS=$PWD
 flat_scene
 size=160x21
+device_is_there() # and takes its message away
+{
+    wait_for "renders; self-test: the CPU's bits"
+    keys Escape
+    wait_for "LIVE .* OpenCL pthread"
+}
 start -t 1 flat.obj
 wait_for "LIVE .* 1 thread "
 keys b
-wait_for "renders; self-test: the CPU's bits"
-wait_for "LIVE .* OpenCL pthread"
+device_is_there
 wait_for_rows 20 "48;2;188;124;0"
 keys w
+wait_for "nothing of the scene is in view"
+keys Escape
 wait_for "LIVE .* [1-9][0-9]* spp .* OpenCL pthread"
 wait_for_rows 20 "48;2;188;124;0"
 keys b
 wait_for "the CPU renders"
+keys Escape
 wait_for "LIVE .* 1 thread "
 keys b
-wait_for "LIVE .* OpenCL pthread"
+device_is_there
 keys Space b
 wait_for "the backend changes only in live mode"
 keys q
 expect_end 0
 fresh
 start --backend opencl -s 3 flat.obj
-wait_for "LIVE .* OpenCL pthread"
+device_is_there
 keys Space Enter
 wait_for "NORMAL done  3/3 spp .* OpenCL"
 keys p
@@ -60,7 +68,7 @@ expect_end 0
 fresh
 lamp_scene
 start -t 1 --backend opencl lamp.obj
-wait_for "LIVE .* OpenCL pthread"
+device_is_there
 sed -i 's/^v 0 1 0/v 0 2 0/' lamp.obj
 wait_for "changed: l loads"
 keys l

@@ -24,7 +24,7 @@ wait_for_rows 20 "$YELLOW"
 # a tap is as long as ever, whatever key comes at once
 at_once=$(written Right w c)
 wait_for "wrote the view"
-keys Enter
+keys Escape Enter
 wait_for "LIVE paused"
 wait_until rests
 [ "$(written c)" = "$at_once" ] || die "moved on: $(cat wall.view) after $at_once"

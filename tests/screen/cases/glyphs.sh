@@ -22,8 +22,8 @@ wait_for "[▀▄]"
 reject "@@@"
 keys q
 expect_end 0
-for case in "upper:▀" "lower:▄" "sextant:[🬕🬂🬎🬁🬓]" "ascii:@@@" "sixel:[▀▄]" \
-    "kitty:[▀▄]" "braille --color mono:⣿⣿" "quadrant --color mono:[▟▙]" \
+for case in "upper:▀" "lower:▄" "sextant:[🬕🬂🬎🬁🬓]" "ascii:@@@" \
+    "braille --color mono:⣿⣿" "quadrant --color mono:[▟▙]" \
     "half --color mono:@@@"; do
     fresh
     start "--glyph ${case%%:*}" lamp.obj
@@ -36,6 +36,7 @@ for case in "sixel:sixels" "kitty:kitty pixels"; do
     fresh
     start --glyph ${case%%:*} lamp.obj
     wait_for "half blocks: the terminal reports no ${case#*:}"
+    wait_for "[▀▄]"
     keys q
     expect_end 0
 done

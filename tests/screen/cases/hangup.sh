@@ -66,6 +66,7 @@ start scenes/lamp.obj
 wait_for "$asks"
 keys Enter
 wait_for "restored: view, changes, render"
+keys Escape
 wait_until_gone "restored"
 wait_until has_spp
 [ "$(spp)" -ge "$before" ] || die "$(spp) spp, but $before were kept"
@@ -179,6 +180,8 @@ fresh
 start -s 1000000000 scenes/lamp.obj
 wait_for "$asks"
 keys Enter
+wait_for "restored"
+keys Escape
 wait_for "NORMAL  [1-9][0-9][0-9][0-9]*/1000000000 spp"
 keys q
 wait_for "Unsaved render. Quit?"

@@ -41,6 +41,8 @@ story() # options: which backend
     printf 'eye 0 0 5\nat 0 0 0\nres 100 50\n' >wall.view
     start "$@" wall.obj
     wait_for "LIVE .* $machine"
+    [ "$machine" != OpenCL ] || wait_for "OpenCL .* renders; self-test"
+    keys Escape # takes the message away
     wait_for_rows 20 "$ORANGE"
     keys w # a step ahead, which is kept
 
@@ -60,7 +62,7 @@ story() # options: which backend
     wait_for_rows 20 "$GREEN"
     expect "wall.mtl:3: found 'oops'"
     shines .5 .2 0 >wall.mtl # in place
-    keys x                   # takes the message away
+    keys Escape              # takes the message away
     wait_for "changed: l loads"
     load
     wait_for_rows 20 "$ORANGE"

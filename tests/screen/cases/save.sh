@@ -13,9 +13,12 @@ keys P
 wait_for "saved flat.hdr 50x25, [1-9][0-9]* spp"
 head -n 1 flat.hdr | grep -q '^#?RADIANCE' || die "flat.hdr is no HDR picture"
 keys i # the message is seen without the status line, too
+expect "saved flat.hdr"
+keys Escape
 wait_until_gone "saved"
 keys p
 wait_for "saved flat-3.png"
+keys Escape
 wait_until_gone "saved"
 keys i
 wait_for "LIVE"

@@ -38,7 +38,7 @@ wait_for "undone"
 [ "$(line fovy)" = "fovy 40" ] || die "not back: $(line fovy)"
 keys 3
 wait_for "view 3 is not set"
-keys Enter
+keys Escape Enter
 wait_for "LIVE paused"
 keys k
 wait_for "Number for this view"
