@@ -90,6 +90,15 @@ run_script()
     echo "$counts"
 }
 
+# Runs cases of a folder: its script takes their names.
+run_cases() # name of the part, folder, cases
+{
+    local folder=$2
+
+    shift 2
+    run_script "$folder" "tests/$folder/run.sh" "$@"
+}
+
 # Runs a command that must end with status 0.
 run_check()
 {
@@ -141,11 +150,18 @@ program_is_hardened()
 
 # Tests whose limits are of time, and which therefore run alone
 timed=' base/test_stop base/test_child '
+timed_cases=' stop opencl '
 
 # Screens mostly wait, beside the others.
 part run_script screen tests/screen/run.sh &
 JOBS=$(($(nproc) + 1))
 
+cases=()
+for script in tests/cli/cases/*.sh; do
+    name=$(basename "$script" .sh)
+    [[ $timed_cases == *" $name "* ]] || cases+=("$name")
+done
+in_pool part run_cases cli cli "${cases[@]}"
 in_pool part run_check layers tests/layers.sh
 in_pool part run_check tour tests/tour.sh
 in_pool part run_check mutants tests/mutants/check.sh
@@ -162,7 +178,8 @@ for program in tests/unit/*/test_*.c; do
     [[ $timed == *" $name "* ]] || in_pool part run_unit "$name" "$BUILD/unit/$name"
 done
 wait
-part run_script cli tests/cli/run.sh
+# shellcheck disable=SC2086 # words
+part run_cases cli-timed cli $timed_cases
 for name in $timed; do
     part run_unit "$name" "$BUILD/unit/$name"
 done

@@ -59,11 +59,13 @@ $(L)/unit/gltf/test_gltf_draco: $(B)/unit/gltf/draco_encode.o
 $(B)/unit/gltf/draco_encode.o: tests/unit/gltf/draco_encode.cc $(B)/flags
 	$(compile_cxx)
 endif
+# It lets the clock jump.
+$(L)/unit/studio/test_session_keeper: private ALL_LDFLAGS += -Wl,--wrap=clock_ns
 # It makes the disk slow.
 $(L)/unit/session/test_session_film: private ALL_LDFLAGS += -Wl,--wrap=fsync
-# It lets allocations fail, and counts what is freed.
+# It lets allocations fail, counts what is freed, and does not wait for disks.
 WRAPPED := malloc calloc realloc aligned_alloc strdup strndup vasprintf \
-	__vasprintf_chk open_memstream getline __getdelim free
+	__vasprintf_chk open_memstream getline __getdelim free fsync
 $(L)/unit/api/test_out_of_memory: private ALL_LDFLAGS += \
 	$(WRAPPED:%=-Wl,--wrap=%)
 

@@ -227,7 +227,7 @@ static inline void check_rays(struct instance_test *t, int rays, uint64_t seed)
     instance_test_free(t);
 }
 
-#define RAYS 20000
+#define RAYS (check_is_thorough() ? 20000 : 8000)
 
 static void instances_have_the_hits_of_copies(void **state)
 {

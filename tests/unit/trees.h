@@ -143,7 +143,7 @@ static void compare(struct mesh *m, int rays, uint64_t seed)
     mesh_free(m);
 }
 
-#define RAYS (check_is_thorough() ? 200000 : 40000)
+#define RAYS (check_is_thorough() ? 200000 : 25000)
 
 static void soup_agrees(void **state)
 {

@@ -154,7 +154,7 @@ static inline void check_claim_at(struct lit_mesh *s, struct claim c,
                                   const char *file, int line)
 {
     for (int direct = DIRECT_MIS; direct <= DIRECT_BSDF; direct++) {
-        if ((c.without >> direct & 1) != 0 || !check_is_due(2))
+        if ((c.without >> direct & 1) != 0 || !check_is_due(4))
             continue;
         lit_mesh_lend(s, (enum direct)direct);
         check_claim_by(&s->mesh.world, &c, file, line);

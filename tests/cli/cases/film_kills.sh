@@ -28,7 +28,7 @@ ls -A | grep -v '^box' | sort
 # signals leave a film of all samples so far
 rm c.film
 for signal in INT TERM HUP; do
-    timeout --foreground -s $signal 0.3 glim -b -s 100000 -w 96 -h 72 \
+    timeout --foreground -s $signal 0.6 glim -b -s 100000 -w 96 -h 72 \
         --checkpoint c.film -o x.png box.obj 2>/dev/null
     glim info c.film >/dev/null && echo "$signal: a film"
     rm -f c.film

@@ -17,7 +17,7 @@ stop()
         until [ -e pid ]; do
             sleep 0.02
         done
-        sleep 1.5
+        sleep 0.8
         date +%s%N >sent
         kill -s "$signal" "$(cat pid)"
     } 2>/dev/null &

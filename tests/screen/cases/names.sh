@@ -34,6 +34,8 @@ fresh
 odd=$(printf 'q\033]0;X\007\302\2331m')
 cp names.obj "$odd.obj"
 start "\"\$(printf 'q\\033]0;X\\007\\302\\2331m').obj\""
+wait_for LIVE
+keys Escape # a message
 wait_for "LIVE .*[1-9][0-9]* spp"
 keys c
 wait_for 'wrote the view to q?\]0;X??1m.view'

@@ -140,6 +140,14 @@ void __wrap_free(void *p)
     __real_free(p);
 }
 
+/* No disk loses power here. */
+int __wrap_fsync(int fd);
+int __wrap_fsync(int fd)
+{
+    (void)fd;
+    return 0;
+}
+
 /* The result of a run. */
 struct outcome {
     bool is_done;
@@ -190,7 +198,7 @@ static void check_scene(const char *scene)
     count = call_count;
     assert_in_range(count, 10, RUNS_MAX);
     for (long n = 1; n <= count; n++) {
-        if (!check_is_due(4))
+        if (!check_is_due(8))
             continue;
         tried++;
         run(&now, scene, n);

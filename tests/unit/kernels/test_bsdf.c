@@ -324,6 +324,8 @@ static void coloured_metal_has_its_albedo(void **state)
         double alpha = (double)alphas[a];
         double mean = 0;
 
+        if (!check_is_due(3))
+            continue;
         for (int i = 0; i < 32; i++) { /* mu = t^2, because it is steep at 0 */
             double t = (i + 0.5) / 32;
 

@@ -15,8 +15,8 @@
 #include "tests/unit/check.h"
 
 static const char *const scenes[] = {
-    "scenes/cornell.obj",  "scenes/materials.obj", "scenes/glass_mirror.obj",
-    "scenes/interior.obj", "scenes/skylit.obj",    "scenes/lights200.obj",
+    "scenes/glass_mirror.obj", "scenes/cornell.obj",  "scenes/materials.obj",
+    "scenes/skylit.obj",       "scenes/interior.obj", "scenes/lights200.obj",
 };
 
 #define WIDTH  48
@@ -121,7 +121,7 @@ static void all_techniques_have_the_same_mean(void **state)
         struct session s;
         struct error err;
 
-        if (!check_is_due(2))
+        if (!check_is_due(3))
             continue;
         check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
         s.edit.now.view.width_px = WIDTH;

@@ -3,7 +3,7 @@
 #include "tests/unit/folder.h"
 
 /* Number of scenes that are also rendered on the device. */
-#define SCENES    300
+#define SCENES    (check_is_thorough() ? 300u : 150u)
 #define ON_DEVICE 15
 
 static void random_extremes_are_finite(void **state)

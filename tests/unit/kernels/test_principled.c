@@ -82,7 +82,7 @@ static void white_mixtures_lose_nothing(void **state)
         struct vec3 e;
 
         m.color = white;
-        if (!check_is_due(4))
+        if (!check_is_due(6))
             continue;
         e = albedo(&m, cosines[i % (int)COUNT(cosines)]);
         check_at_most(fmax((double)e.x, fmax((double)e.y, (double)e.z)),
@@ -104,7 +104,7 @@ static void coloured_mixtures_add_no_light(void **state)
         m.film = i % 2 == 0 ? m.film : 0;
         if (i / 2 % 2 == 0)
             m.coat_normal = any_direction(&seed, 0.3f);
-        if (!check_is_due(3))
+        if (!check_is_due(5))
             continue;
         e = albedo(&m, cosines[i % (int)COUNT(cosines)]);
 
@@ -206,7 +206,7 @@ static void stretched_facets_keep_all_light(void **state)
                          .kind = MATERIAL_PRINCIPLED};
 
         wo = v3(wo.x * cosf(phi), wo.x * sinf(phi), wo.z);
-        if (check_is_due(3))
+        if (check_is_due(5))
             check_close((double)sampled_albedo_from(&m, wo, 150).x, 1, 5e-3);
     }
 }
@@ -242,7 +242,7 @@ static void sheen_has_the_albedo_of_its_table(void **state)
         for (float mu = 0.0023f; mu <= 1; mu *= 1.31f) {
             double e;
 
-            if (!check_is_due(5))
+            if (!check_is_due(9))
                 continue;
             e = hemisphere_integral(sheen_of, &alpha, mu, 400);
             check_at_most(e, 1);

@@ -120,7 +120,7 @@ static void compare(const char *scene, const struct truth *truth, int width,
             !session_restart(&s,
                              (struct render_limits){
                                  .spp = (uint64_t)spp /
-                                        (check_is_thorough() ? 1 : 4)},
+                                        (check_is_thorough() ? 1 : 8)},
                              &err))
             print_error("%s\n", err.text);
         assert_string_equal(err.text, "");

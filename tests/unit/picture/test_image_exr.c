@@ -319,6 +319,10 @@ static void broken_files_are_refused(void **state)
         uint8_t before = bytes[at];
 
         bytes[at] = (uint8_t)(check_random(&random) * 256);
+        if (!check_is_due(3)) {
+            bytes[at] = before;
+            continue;
+        }
         assert_true(file_write("b.exr", bytes, size, false, NULL, &err));
         if (image_read_linear(&image, "b.exr", &clamped_count, &err))
             image_free(&image);

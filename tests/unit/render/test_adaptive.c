@@ -137,7 +137,7 @@ static void the_mean_is_that_of_uniform_sampling(void **state)
     (void)state;
     memset(means, 0, sizeof means);
     make_scene(&m);
-    for (uint32_t seed = 0; seed < (check_is_thorough() ? 1000 : 250); seed++)
+    for (uint32_t seed = 0; seed < (check_is_thorough() ? 1000 : 120); seed++)
         for (int k = 0; k < 2; k++) {
             start(r, &m, 48, k == 1, 2 * seed + (uint32_t)k);
             assert_true(render_wait(r, 60000));

@@ -63,13 +63,25 @@ static double exposure(const struct work *w)
     return w->session.edit.now.view.lighting.exposure;
 }
 
-/* Renders until a film is worth keeping. */
+/* The linker sends calls of clock_ns() here (--wrap in tests.mk). */
+static _Atomic uint64_t clock_ahead_ns;
+
+uint64_t __real_clock_ns(void);
+uint64_t __wrap_clock_ns(void);
+uint64_t __wrap_clock_ns(void)
+{
+    return __real_clock_ns() + clock_ahead_ns;
+}
+
+/* Renders until a film is worth keeping: some samples, and then the clock goes
+ * on. */
 static void render_a_while(struct work *w)
 {
     do {
         render_wait(w->session.render, 100);
         render_control_update(&w->control);
-    } while (w->control.progress.render_ns < UINT64_C(5200000000));
+    } while (w->control.progress.spp_done == 0);
+    clock_ahead_ns += UINT64_C(5100000000);
 }
 
 static int count_sessions(void)
