@@ -141,5 +141,6 @@ lint:
 		FLAGS='$(ALL_CFLAGS)' BUILD='$(B)' tests/lint.sh
 
 .PHONY: test tests run-tests fuzz search stress mutants scenes tables format lint
--include $(GENERATOR:.o=.d) $(B)/fuzz/replay.d $(patsubst $(L)/%,$(B)/%.d,$(UNITS) \
+-include $(GENERATOR:.o=.d) $(B)/fuzz/replay.d $(B)/unit/paths.d \
+	$(B)/unit/gltf/draco_encode.d $(patsubst $(L)/%,$(B)/%.d,$(UNITS) \
 	$(STRESSES) $(FUZZERS) $(BENCHES) $(TOOLS))
