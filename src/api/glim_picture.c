@@ -112,7 +112,9 @@ bool glim_read_bytes(struct glim *g, uint8_t *rgb, size_t count,
 
     if (film == NULL || !check_count(film, count, err))
         return false;
-    frame = (struct frame){film->width, film->height, rgb};
+    frame = (struct frame){.width = film->width,
+                           .height = film->height,
+                           .rgb = rgb};
     film_resolve(film, develop_of(g), &frame);
     return true;
 }
