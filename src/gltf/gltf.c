@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/gltf.h"
 
+#include <stdlib.h>
+
+#include "base/memory.h"
 #include "formats/mesh_finish.h"
 #include "gltf/gltf_animation.h"
 #include "gltf/gltf_draco.h"
@@ -31,6 +34,21 @@ static bool place_nodes(const struct gltf_document *document,
            gltf_nodes_place(document, scene, nodes, err);
 }
 
+/* Gives the scene the names of the files of its buffers. */
+static bool take_paths(struct gltf_document *document, struct scene *scene,
+                       struct error *err)
+{
+    scene->data_paths =
+        alloc_array(document->file_count, sizeof *scene->data_paths);
+    if (scene->data_paths == NULL)
+        return fail(err, "%s: out of memory for its buffers", scene->path);
+    for (size_t i = 0; i < document->file_count; i++) {
+        scene->data_paths[scene->data_path_count++] = document->files[i].path;
+        document->files[i].path = NULL;
+    }
+    return true;
+}
+
 static bool hint(const struct gltf_document *document,
                  const struct scene *scene, struct warnings *report)
 {
@@ -46,6 +64,7 @@ bool gltf_parse(struct scene *scene, const char *bytes, size_t size_bytes,
     bool ok =
         mesh_begin(scene, path, err) &&
         gltf_document_open(&document, bytes, size_bytes, path, report, err) &&
+        take_paths(&document, scene, err) &&
         gltf_draco_unpack(&document, scene->program, err) &&
         mesh_mtl_begin(scene, "", report, err) &&
         gltf_materials_read(&document, scene, report, err) &&

@@ -191,7 +191,10 @@ static bool read_file(struct gltf_document *d, const struct gltf_value *v,
         file++;
     if (file == end) {
         file->identity = identity;
+        file->path = strdup(path);
         d->file_count++;
+        if (file->path == NULL)
+            return fail(err, "%s: out of memory for its buffers", d->path);
         if (!read_new_file(d, v, path, &identity, &file->data, err))
             return false;
     }

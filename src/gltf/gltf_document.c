@@ -233,8 +233,10 @@ void gltf_document_close(struct gltf_document *document)
 {
     for (size_t i = 0; i < document->buffer_count; i++)
         free(document->buffers[i].owned);
-    for (size_t i = 0; i < document->file_count; i++)
+    for (size_t i = 0; i < document->file_count; i++) {
+        free(document->files[i].path);
         free(document->files[i].data.owned);
+    }
     for (size_t i = 0; i < document->view_count; i++)
         free(document->views[i].data.owned);
     free(document->buffers);

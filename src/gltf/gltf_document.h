@@ -34,6 +34,7 @@ struct gltf_bytes {
 /* A file that buffers name. */
 struct gltf_file {
     struct file_identity identity;
+    char *path;
     struct gltf_bytes data;
 };
 

@@ -453,7 +453,16 @@ const char *scene_file(const struct scene *scene, const struct view *view,
     if (number < scene->mtl_path_count)
         return scene->mtl_paths[number];
     number -= scene->mtl_path_count;
-    return number < scene->texture_count ? scene->texture_paths[number] : NULL;
+    if (number < scene->data_path_count)
+        return scene->data_paths[number];
+    number -= scene->data_path_count;
+    if (number < scene->texture_count)
+        return scene->texture_paths[number];
+    number -= scene->texture_count;
+    for (size_t i = 0; i < view->lamps.count; i++)
+        if (view->lamps.items[i].profile != NULL && number-- == 0)
+            return view->lamps.items[i].profile->path;
+    return NULL;
 }
 
 /* ---- materials that the view gives to objects ---- */

@@ -550,6 +550,7 @@ void scene_free(struct scene *scene)
     free(scene->material_origins);
     free_strings(scene->material_names, scene->material_count);
     free_strings(scene->mtl_paths, scene->mtl_path_count);
+    free_strings(scene->data_paths, scene->data_path_count);
     free(scene->textures);
     free(scene->texture_origins);
     free_strings(scene->texture_paths, scene->texture_count);

@@ -118,6 +118,8 @@ struct scene {
     uint32_t material_count;
     char **mtl_paths; /* paths of the MTL files, in order of reading */
     uint32_t mtl_path_count;
+    char **data_paths; /* paths of further files, such as buffers of glTF */
+    uint32_t data_path_count;
     bool has_own_mtl; /* the first is glim's, for edits, and may not exist */
 
     struct texture *textures; /* lookup parameters, without texels */

@@ -5,6 +5,7 @@
  */
 #include <math.h>
 #include <stdlib.h>
+#include <unistd.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -349,9 +350,50 @@ static void ktx2_images_have_a_message(void **state)
     close_model(&o);
 }
 
+/* ---- files ---- */
+
+/* Buffers and the profiles of lamps are files of the scene, which --watch looks
+ * at: each once, and none of a data URI. */
+static void buffers_are_files_of_the_scene(void **state)
+{
+    static const char *const files[] = {"model.gltf", "v.view",
+                                        "model.gltf.mtl", "a.bin", "b.bin"};
+    struct opened o;
+    uint32_t count = 0;
+    const char *name;
+
+    (void)state;
+    put_bytes("a.bin", "0123", 4);
+    put_bytes("b.bin", "0123", 4);
+    put("model.gltf", "{\"asset\":{\"version\":\"2.0\"},\"buffers\":["
+                      "{\"byteLength\":4,\"uri\":\"a.bin\"},"
+                      "{\"byteLength\":4,\"uri\":\"b.bin\"},"
+                      "{\"byteLength\":1,\"uri\":\"data:;base64,AAAA\"},"
+                      "{\"byteLength\":2,\"uri\":\"./a.bin\"}]}");
+    open_model(&o, NULL);
+    while ((name = scene_file(&o.scene, &o.view, "v.view", count)) != NULL) {
+        assert_true(count < sizeof files / sizeof *files);
+        assert_string_equal(name, files[count]);
+        count++;
+    }
+    assert_int_equal(count, sizeof files / sizeof *files);
+    close_model(&o);
+    put("i.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 50\n"
+                 "0 90\n0\n9 9\n");
+    open_model(&o, "light point 0 0 0\nlight point 0 0 1 ies i.ies\n");
+    assert_string_equal(scene_file(&o.scene, &o.view, "v.view", count),
+                        "i.ies");
+    assert_null(scene_file(&o.scene, &o.view, "v.view", count + 1));
+    close_model(&o);
+    unlink("a.bin");
+    unlink("b.bin");
+    unlink("i.ies");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(buffers_are_files_of_the_scene),
         cmocka_unit_test(lights_of_blender_have_its_watts),
         cmocka_unit_test(lights_have_the_digits_of_floats),
         cmocka_unit_test(other_programs_write_candela),
