@@ -318,6 +318,15 @@ static const struct reader {
 
 enum { READER_COUNT = sizeof readers / sizeof readers[0] };
 
+/* KTX2 images, of textures of glTF, which the program ktx of Khronos
+ * converts. */
+static bool is_ktx2(const struct image_file *f)
+{
+    struct bytes b = bytes_of(f);
+
+    return b.size >= 12 && memcmp(b.data, "\xabKTX 20\xbb\r\n\x1a\n", 12) == 0;
+}
+
 /* Fails with the kinds that are read. */
 static bool fail_unknown(const struct image_file *f, struct error *err)
 {
@@ -332,8 +341,12 @@ static bool fail_unknown(const struct image_file *f, struct error *err)
                                  : i < READER_COUNT - 1 ? ", "
                                                         : " or ",
                                  readers[i].name);
-    return fail(err, "%s: found no image that can be read, expected %s",
-                f->path, known);
+    return fail(err, "%s: found %s, expected %s%s", f->path,
+                is_ktx2(f) ? "a KTX2 image" : "no image that can be read",
+                known,
+                is_ktx2(f) ? ": 'ktx extract --transcode rgba8 IN OUT.png' "
+                             "converts it"
+                           : "");
 }
 
 bool image_header(struct image_file *f, struct error *err)

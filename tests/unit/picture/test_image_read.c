@@ -399,6 +399,8 @@ static void unreadable_files_have_their_message(void **state)
     both_fail("empty.png", "empty.png: found no image that can be read");
     put_text("text.png", "This is not a picture at all, it is text.\n");
     both_fail("text.png", "text.png: found no image that can be read");
+    put_bytes("a.ktx2", "\xabKTX 20\xbb\r\n\x1a\n", 13);
+    both_fail("a.ktx2", "a.ktx2: found a KTX2 image, expected PNG");
     put_png_header("wide.png", 65537, 65535);
     both_fail("wide.png", "wide.png: found 65537x65535 pixels, expected sides");
     put_png_header("large.png", 32768, 32767);
