@@ -14,7 +14,7 @@
 #define BUILDS(X) X(paths_plain)
 #endif
 #define DECLARE(build) extern const struct cpu_kernel build;
-#define ADDRESS(build) &build,
+#define ADDRESS(build) &(build),
 
 BUILDS(DECLARE)
 static const struct cpu_kernel *const builds[] = {BUILDS(ADDRESS)};

@@ -192,6 +192,14 @@ table_cores() {
     plain cores
 }
 
+table_theses() {
+    plain theses
+}
+
+table_box() {
+    plain box
+}
+
 table_triangles() {
     plain triangles
 }

@@ -8,8 +8,8 @@
 # file stays.
 #
 # BUILD is the folder of the program. FILTER selects a section. Optional:
-# PEER       a Python that has bpy, Blender as a module (sections peers and
-#            blender)
+# PEER       a Python that has bpy, Blender as a module (sections peers, box
+#            and blender)
 # OIDN       a Python that has pyoidn and numpy (section oidn)
 # STRESS_LOG output of an earlier `make stress` (sections stress, calibration,
 #            filter, blender), else the checks run, which takes up to an hour
@@ -27,8 +27,8 @@ mkdir -p "$results" "$cache"
 shipped='cornell.obj materials.obj glass_mirror.obj interior.obj skylit.obj'
 shipped="$shipped lights200.obj principled.obj bottles.glb bubbles.glb"
 shipped="$shipped chess.glb forest.glb jellyfish.glb knot.glb"
-sections='samples cores frames triangles features convergence peers oidn stress'
-sections="$sections calibration filter adaptive blender surfaces"
+sections='samples cores theses box frames triangles features convergence peers'
+sections="$sections oidn stress calibration filter adaptive blender surfaces"
 
 say() {
     echo "results: $*"
@@ -99,17 +99,110 @@ measure_samples() {
     done | save samples 'samples per pixel,stated error of the raw picture'
 }
 
-# The fastest of three runs for each number of threads.
+# The fastest of three runs for each number of threads. Rows of other machines
+# stay.
 measure_cores() {
-    for _ in 1 2 3; do
-        FILTER=threads tests/bench/run.sh
-    done | awk '$1 ~ /^[0-9]+$/ && NF == 4 {
-            if (!($1 in s) || $2 < s[$1]) { s[$1] = $2; rate[$1] = $3 }
-            if ($1 > most) most = $1
+    local name
+
+    name="${machine%%, *} with $(nproc) cores"
+    {
+        grep -v -e '^#' -e '^machine,' -e "^$name," "$results/cores.csv" || :
+        for _ in 1 2 3; do
+            FILTER=threads tests/bench/run.sh
+        done | awk -v name="$name" '$1 ~ /^[0-9]+$/ && NF == 4 {
+                if (!($1 in s) || $2 < s[$1]) { s[$1] = $2; rate[$1] = $3 }
+                if ($1 > most) most = $1
+            }
+            END { for (n = 1; n <= most; n++)
+                printf "%s,%d,%.2f,%.2f,%.2f\n", name, n, s[n], rate[n],
+                    s[1] / s[n] }'
+    } | save cores 'machine,threads,seconds,million samples per second,speed-up'
+}
+
+# The picture that the thesis on trac0r counts rays for: 30 paths of five rays
+# for each of 1920x1080 pixels; beside it direct light alone and all light.
+measure_theses() {
+    local scene light
+
+    for scene in cornell interior; do
+        for light in 'direct light:-d 0' 'paths of 5 rays:-d 4' 'all light:'; do
+            # shellcheck disable=SC2086 # an option and its number
+            "$build/glim" -b -w 1920 -h 1080 -s 30 ${light#*:} \
+                --stats "$work/stats" -o "$work/picture.pfm" \
+                "scenes/$scene.obj" 2>"$work/said"
+            echo "$scene,${light%:*},$(value render_s "$work/stats"),$(value \
+                samples "$work/stats"),$(value rays "$work/stats"),$(value \
+                error "$work/stats")"
+        done
+    done | awk -F, '{ printf "%s,%s,%.1f,%.2f,%.2f,%.1f,%.1f %%\n", $1, $2, $3,
+            $4 / $3 / 1e6, $5 / $3 / 1e6, $5 / 1920 / 1080, 100 * $6 }' |
+        save theses 'scene,light,seconds,million samples per second,million rays per second,rays per pixel,stated error'
+}
+
+# Prints the 16 means of a 4x4 grid of a square PFM picture: row, column, red,
+# green, blue.
+region_means() { # PICTURE SIDE
+    tail -c $((12 * $2 * $2)) "$1" | od -An -v -tf4 -w12 |
+        awk -v side="$2" '{
+                row = int((side - 1 - int((NR - 1) / side)) * 4 / side)
+                column = int((NR - 1) % side * 4 / side)
+                for (c = 1; c <= 3; c++) sum[row, column, c] += $c
+            }
+            END { n = side * side / 16
+                for (row = 0; row < 4; row++)
+                    for (column = 0; column < 4; column++)
+                        print row + 1, column + 1, sum[row, column, 1] / n,
+                            sum[row, column, 2] / n, sum[row, column, 3] / n }'
+}
+
+# The published Cornell box in 16 regions, beside those of Cycles: means over
+# eight seeds, and the largest difference of a channel. The file has the front of
+# the tall box twice, between which Cycles loses light, so one goes. Cycles'
+# light samples are exact for small triangles only, hence --scale.
+measure_box() {
+    local box=$shared/scenes-real/CornellBox-Original seed out=$work/picture.pfm
+
+    if [ -z "${PEER:-}" ] || [ ! -d "$box" ]; then
+        say "box: skipped, PEER is not set or $box is missing"
+        return 0
+    fi
+    grep -v '^f -8 -7 -6 -5' "$box/CornellBox-Original.obj" >"$work/box.obj"
+    cp "$box/CornellBox-Original.mtl" "$work"
+    sed 's/^res .*/res 128 128/' "$box/camera.txt" >"$work/camera.txt"
+    for seed in 1 2 3 4 5 6 7 8; do
+        "$build/glim" -b -w 128 -h 128 -s 1024 --seed $seed -o "$out" \
+            "$work/box.obj" 2>"$work/said"
+        region_means "$out" 128 >"$work/means"
+        "$PEER" "$shared/lab/peers/render_cycles.py" -- --scene "$work/box.obj" \
+            --camera "$work/camera.txt" --scale .001 --spp 256 --threads 2 \
+            --seed $seed --out "$out" >"$work/said" 2>&1
+        region_means "$out" 128 | paste -d ' ' "$work/means" -
+    done | awk '{
+            at = $1 "," $2
+            if (!(at in n)) order[++count] = at
+            n[at]++
+            for (c = 3; c <= 5; c++) {
+                ours[at, c] += $c
+                theirs[at, c] += $(c + 5)
+                squares[at, c] += ($c - $(c + 5)) ^ 2
+            }
         }
-        END { for (n = 1; n <= most; n++)
-            printf "%d,%.2f,%.2f,%.2f\n", n, s[n], rate[n], s[1] / s[n] }' |
-        save cores 'threads,seconds,million samples per second,speed-up'
+        END { for (i = 1; i <= count; i++) {
+            at = order[i]
+            a = b = ""
+            share = errors = 0
+            for (c = 3; c <= 5; c++) {
+                x = ours[at, c] / n[at]
+                y = theirs[at, c] / n[at]
+                e = sqrt((squares[at, c] / n[at] - (x - y) ^ 2) / (n[at] - 1))
+                a = a sprintf(" %.4f", x)
+                b = b sprintf(" %.4f", y)
+                if ((x / y - 1) ^ 2 > share ^ 2) share = x / y - 1
+                if (((x - y) / e) ^ 2 > errors ^ 2) errors = (x - y) / e
+            }
+            printf "%s,%s,%s,%.2f %%,%.1f\n", at, substr(a, 2), substr(b, 2),
+                100 * share, errors
+        } }' | renderer="$("$build/glim" --version | head -n 1), Mitsuba 3" save box 'row,column,glim,Cycles,largest difference,in standard errors'
 }
 
 # Cells of the table of bench/frames are "SAMPLES ERROR %" or "-".
