@@ -152,16 +152,17 @@ program_is_hardened()
 timed=' base/test_stop base/test_child '
 timed_cases=' stop opencl '
 
-# Screens mostly wait, beside the others.
-part run_script screen tests/screen/run.sh &
-JOBS=$(($(nproc) + 1))
-
+# What mostly waits runs beside the others.
 cases=()
 for script in tests/cli/cases/*.sh; do
     name=$(basename "$script" .sh)
     [[ $timed_cases == *" $name "* ]] || cases+=("$name")
 done
-in_pool part run_cases cli cli "${cases[@]}"
+part run_script screen tests/screen/run.sh &
+part run_cases cli cli "${cases[@]}" &
+part run_script fuzz tests/fuzz/run.sh &
+JOBS=$(($(nproc) + 3)) # with these three
+
 in_pool part run_check layers tests/layers.sh
 in_pool part run_check tour tests/tour.sh
 in_pool part run_check mutants tests/mutants/check.sh
@@ -171,7 +172,6 @@ in_pool part run_check man-lint mandoc -T lint -W warning man/glim.1 man/libglim
 in_pool part run_check scenes scenes_are_generated
 in_pool part run_check hardening program_is_hardened
 in_pool part run_script api tests/api/run.sh
-in_pool part run_script fuzz tests/fuzz/run.sh
 for program in tests/unit/*/test_*.c; do
     name=${program#tests/unit/}
     name=${name%.c}
