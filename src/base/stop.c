@@ -28,6 +28,7 @@ static sem_t asked;
 static atomic_int asked_status;
 static _Atomic uint64_t asked_ns; /* 0: never */
 static atomic_bool is_impatient;
+static atomic_bool is_ending;
 
 static atomic_int holds, allows;
 static _Atomic uint64_t allow_ns, release_ns; /* the latest of each */
@@ -63,6 +64,7 @@ static void *watch(void *unused)
         continue; /* interrupted */
     while (!is_over())
         nanosleep(&look, NULL);
+    atomic_store(&is_ending, true);
     for (int i = atomic_load(&last_count); i-- > 0;)
         atomic_load (&lasts[i])();
     _exit(atomic_load(&asked_status));
@@ -128,4 +130,10 @@ void stop_at_end(void (*last)(void))
         atomic_store(&lasts[i], last);
     else
         atomic_fetch_sub(&last_count, 1);
+}
+
+void stop_stay(void)
+{
+    while (atomic_load(&is_ending))
+        pause();
 }

@@ -44,4 +44,8 @@ void stop_allow_end(void);
  * first. Other threads still run, and may hold any lock. */
 void stop_at_end(void (*last)(void));
 
+/* Returns unless these functions are called: whatever fails meanwhile fails
+ * because of them, and must not end the program with another status. */
+void stop_stay(void);
+
 #endif

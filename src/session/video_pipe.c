@@ -177,6 +177,8 @@ bool video_pipe_write(struct video_pipe *v, const struct frame *frame,
     atomic_store(&is_between, false);
     ok = file_write_pipe(v->fd, frame->rgb, size_bytes);
     atomic_store(&is_between, ok);
+    if (!ok)
+        stop_stay();
     return ok || fail(err, "%s: ffmpeg took no more pictures: %s", v->path,
                       strerror(errno));
 }
@@ -224,6 +226,7 @@ bool video_pipe_close(struct video_pipe *v, struct error *err)
         return fail(err, "%s: lost ffmpeg: %s", ended.path, strerror(errno));
     if (!has_failed(status))
         return true;
+    stop_stay();
     remove_partial(&ended);
     return fail(err, "%s: ffmpeg failed with %s %d", ended.path,
                 WIFEXITED(status) ? "status" : "signal",

@@ -177,6 +177,35 @@ static void a_later_signal_ends_that_too(void **state)
     assert_true(seconds < 1.2 + 0.5);
 }
 
+static int pipe_ends[2];
+
+/* Ends the reader, after which the thread would go on to its status. */
+static void end_reader(void)
+{
+    close(pipe_ends[0]);
+    pause_s(0.3);
+}
+
+static void write_to_a_reader_that_ends(void)
+{
+    static const char bytes[1 << 20];
+
+    signal(SIGPIPE, SIG_IGN);
+    stop_at_end(end_reader);
+    if (pipe(pipe_ends) == 0 &&
+        !file_write_pipe(pipe_ends[1], bytes, sizeof bytes))
+        stop_stay();
+}
+
+static void what_the_end_breaks_is_no_failure(void **state)
+{
+    double seconds;
+
+    (void)state;
+    assert_int_equal(run(write_to_a_reader_that_ends, 1, 0, &seconds), 143);
+    assert_true(seconds < 1.3);
+}
+
 static void end_and_say_so(void)
 {
     stop_at_end(says_so);
@@ -208,6 +237,7 @@ int main(void)
         cmocka_unit_test(work_on_files_is_completed),
         cmocka_unit_test(a_later_signal_ends_that_too),
         cmocka_unit_test(last_words_are_heard),
+        cmocka_unit_test(what_the_end_breaks_is_no_failure),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
