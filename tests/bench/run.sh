@@ -99,9 +99,9 @@ bench_builds() {
 }
 
 # instructions BUILD SCENE: prints instructions per sample by valgrind, which
-# supports AVX2 at most
+# supports AVX2 at most; those of probes while the scene is loaded do not count
 instructions() {
-    n=$(valgrind --tool=callgrind --toggle-collect=samples \
+    n=$(valgrind --tool=callgrind --toggle-collect=render_block \
         --callgrind-out-file=/dev/null --log-file="$work/valgrind.log" \
         "$build/bench/builds" --once "$1" "$2")
     all=$(sed -n 's/.*Collected : *//p' "$work/valgrind.log")

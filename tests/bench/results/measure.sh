@@ -125,7 +125,7 @@ measure_theses() {
     local scene light
 
     for scene in cornell interior; do
-        for light in 'direct light:-d 0' 'paths of 5 rays:-d 4' 'all light:'; do
+        for light in 'direct light:-d 1' 'paths of 5 rays:-d 4' 'all light:'; do
             # shellcheck disable=SC2086 # an option and its number
             "$build/glim" -b -w 1920 -h 1080 -s 30 ${light#*:} \
                 --stats "$work/stats" -o "$work/picture.pfm" \
@@ -160,12 +160,14 @@ region_means() { # PICTURE SIDE
 # the tall box twice, between which Cycles loses light, so one goes. Cycles'
 # light samples are exact for small triangles only, hence --scale.
 measure_box() {
-    local box=$shared/scenes-real/CornellBox-Original seed out=$work/picture.pfm
+    local box=$shared/scenes-real/CornellBox-Original seed version
+    local out=$work/picture.pfm
 
     if [ -z "${PEER:-}" ] || [ ! -d "$box" ]; then
         say "box: skipped, PEER is not set or $box is missing"
         return 0
     fi
+    version=$("$PEER" -c 'import bpy; print(bpy.app.version_string)' | tail -n 1)
     grep -v '^f -8 -7 -6 -5' "$box/CornellBox-Original.obj" >"$work/box.obj"
     cp "$box/CornellBox-Original.mtl" "$work"
     sed 's/^res .*/res 128 128/' "$box/camera.txt" >"$work/camera.txt"
@@ -202,7 +204,8 @@ measure_box() {
             }
             printf "%s,%s,%s,%.2f %%,%.1f\n", at, substr(a, 2), substr(b, 2),
                 100 * share, errors
-        } }' | renderer="$("$build/glim" --version | head -n 1), Mitsuba 3" save box 'row,column,glim,Cycles,largest difference,in standard errors'
+        } }' | renderer="$("$build/glim" --version | head -n 1), Cycles $version" \
+        save box 'row,column,glim,Cycles,largest difference,in standard errors'
 }
 
 # Cells of the table of bench/frames are "SAMPLES ERROR %" or "-".
