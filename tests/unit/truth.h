@@ -150,8 +150,8 @@ static inline void check_claim_by(const struct world *w, const struct claim *c,
     }
 }
 
-/* Every claim is checked by all techniques in a thorough test, otherwise by one,
- * each in its turn. */
+/* Every claim is checked by all techniques in a thorough test, otherwise by
+ * one, each in its turn. */
 static inline void check_claim_at(struct lit_mesh *s, struct claim c,
                                   const char *file, int line)
 {

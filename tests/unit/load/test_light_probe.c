@@ -154,7 +154,7 @@ static void light_that_shows_little_is_helped(void **state)
         {.5f, .5f, 25, 0, "", false, false},
         {.5f, .5f, 1, 0, "", false, false}, /* a ceiling of emissiveFactor 1 */
         {.5f, -.5f, 25, 0, "", true, true}, /* hidden by the floor */
-        {.5f, 500, 25, 0, "", true, true}, /* so far that both are specks */
+        {.5f, 500, 25, 0, "", true, true},  /* so far that both are specks */
         {.02f, .2f, 0, 5, "", false, false},
         {.02f, .2f, 0, 1e-3, "", true, true}, /* milliwatts for watts */
         {.02f, .2f, 25, 0, "background 0 0 0\n", false, false},
