@@ -50,7 +50,8 @@ static inline bool rgb_join(GLOBAL struct sum *sums, struct sum r, struct sum g,
     if (!(high >> 63))
         return true;
     for (uint32_t c = 0; c < 3; c++)
-        sum_saturate(&sums[c]);
+        if (sums[c].hi >> 63)
+            sum_saturate(&sums[c]);
     return false;
 }
 

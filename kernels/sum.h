@@ -37,10 +37,8 @@ static inline uint64_t sum_put(GLOBAL struct sum *s, struct sum x)
 /* Sums saturate at 2^63. */
 static inline void sum_saturate(GLOBAL struct sum *s)
 {
-    if (s->hi >> 63) {
-        s->hi = (uint64_t)1 << 63;
-        s->lo = 0;
-    }
+    s->hi = (uint64_t)1 << 63;
+    s->lo = 0;
 }
 
 /* Adds one sum to another. Returns false if the result is saturated. */
@@ -50,7 +48,6 @@ static inline bool sum_join(GLOBAL struct sum *s, struct sum x)
 
     if (!((sum_put(s, x) | large) >> 63))
         return true;
-    s->hi |= (uint64_t)1 << 63;
     sum_saturate(s);
     return false;
 }

@@ -318,8 +318,8 @@ static const struct reader {
 
 enum { READER_COUNT = sizeof readers / sizeof readers[0] };
 
-/* KTX2 images, of textures of glTF, which the program ktx of Khronos
- * converts. */
+/* Returns true for a KTX2 image, of a texture of glTF, which the program ktx of
+ * Khronos converts. */
 static bool is_ktx2(const struct image_file *f)
 {
     struct bytes b = bytes_of(f);
@@ -341,12 +341,13 @@ static bool fail_unknown(const struct image_file *f, struct error *err)
                                  : i < READER_COUNT - 1 ? ", "
                                                         : " or ",
                                  readers[i].name);
-    return fail(err, "%s: found %s, expected %s%s", f->path,
-                is_ktx2(f) ? "a KTX2 image" : "no image that can be read",
-                known,
-                is_ktx2(f) ? ": 'ktx extract --transcode rgba8 IN OUT.png' "
-                             "converts it"
-                           : "");
+    if (is_ktx2(f))
+        return fail(err,
+                    "%s: found a KTX2 image, expected %s: 'ktx extract "
+                    "--transcode rgba8 IN OUT.png' converts it",
+                    f->path, known);
+    return fail(err, "%s: found no image that can be read, expected %s",
+                f->path, known);
 }
 
 bool image_header(struct image_file *f, struct error *err)

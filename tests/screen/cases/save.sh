@@ -20,8 +20,19 @@ keys c # an error is seen without the status line, too, and until a key
 wait_for "sub/flat.view"
 rm sub
 mv away sub
-keys p
-wait_until test -s flat-3.png
+says_what_it_saves() # again if the machine stood still while it was said
+{
+    keys p
+    for _ in $(seq 60); do
+        ! has_line "saved flat-[0-9]*.png" || return 0
+        sleep 0.05
+    done
+    return 1
+}
+wait_until says_what_it_saves
+test -s flat-3.png
+keys Escape
+wait_until_gone "saved"
 keys i
 wait_for "LIVE"
 cp sub/flat.view mine.view

@@ -487,9 +487,8 @@ static void a_wall_along_the_view_is_seen(void **state)
     }
 }
 
-/* A model's own corners fill CAMERA_FILL of the picture. The box around an
- * octahedron, which has three times its extent along a diagonal, would leave
- * it smaller. */
+/* A model's own corners fill CAMERA_FILL of the picture. The corners of the box
+ * around an octahedron lie far outside of it, and would leave it smaller. */
 static void models_fill_the_picture(void **state)
 {
     static const int sizes[][2] = {{400, 100}, {100, 400}};
