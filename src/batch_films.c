@@ -85,7 +85,7 @@ static bool print_film(struct film_file *f, const char *path,
                h->identity.is_adaptive ? "yes" : "no");
     print_line(stdout, "  denoising  %s",
                h->identity.has_surfaces ? "possible" : "not possible");
-    print_line(stdout, "  error      %s%s", error, error_text_meaning(&e));
+    print_line(stdout, "  error      %s", error);
     if (error_text_faults(faults, h->non_finite, h->saturated))
         print_line(stdout, "  fault      %s", faults);
     print_line(stdout, "  time       %.1f s", seconds_between(0, h->render_ns));
@@ -192,11 +192,10 @@ static bool write(struct film_file *f, const struct options *o,
         return false;
     warn_of_gaps(&f->header);
     error_text_interval(text, &e);
-    print_line(stderr, "%s: %dx%d, %" PRIu64 " spp, %.1f s, error %s%s",
+    print_line(stderr, "%s: %dx%d, %" PRIu64 " spp, %.1f s, error %s",
                o->output_path, f->film.width, f->film.height,
                film_header_spp(&f->header),
-               seconds_between(start_ns, clock_ns()), text,
-               error_text_meaning(&e));
+               seconds_between(start_ns, clock_ns()), text);
     batch_warn_of_samples(atomic_load(&f->film.non_finite),
                           atomic_load(&f->film.saturated));
     return true;

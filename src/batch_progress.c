@@ -275,14 +275,12 @@ void batch_say_result(const char *name, int width, int height,
     format_spp(spp, p);
     error_text_interval(error, &e);
     if (stop_signal != 0)
-        print_line(stderr, "stopped by %s at %s: wrote %s, error %s%s",
-                   signal_name(stop_signal), spp, name, error,
-                   error_text_meaning(&e));
+        print_line(stderr, "stopped by %s at %s: wrote %s, error %s",
+                   signal_name(stop_signal), spp, name, error);
     else
-        print_line(stderr, "%s: %s%dx%d, %" PRIu64 " spp, %.1f s, error %s%s",
+        print_line(stderr, "%s: %s%dx%d, %" PRIu64 " spp, %.1f s, error %s",
                    name, limit, width, height, p->spp,
-                   seconds_between(start_ns, clock_ns()), error,
-                   error_text_meaning(&e));
+                   seconds_between(start_ns, clock_ns()), error);
     batch_warn_of_samples(p->non_finite, p->saturated);
 }
 

@@ -9,6 +9,9 @@
 #define PERCENT_MAX  9999
 #define DECIMALS_MAX 6
 
+/* What follows an unresolved error */
+#define IN_FEW_PIXELS ", mostly in few pixels"
+
 static int decimals_of(double percent)
 {
     double bound = 9.95;
@@ -55,13 +58,7 @@ void error_text_interval(char text[ERROR_TEXT_BYTES],
     format_percent(low, e->low);
     format_percent(high, e->high);
     snprintf(text, ERROR_TEXT_BYTES, "%.10s %% (%.10s to %.10s %%)%s", middle,
-             low, high, e->is_resolved ? "" : ", unresolved");
-}
-
-const char *error_text_meaning(const struct film_error *e)
-{
-    return e->is_known && !e->is_resolved ? ": few pixels carry most of it"
-                                          : "";
+             low, high, e->is_resolved ? "" : IN_FEW_PIXELS);
 }
 
 void error_text_noise(char text[ERROR_TEXT_BYTES], const struct film_error *e)
@@ -71,7 +68,7 @@ void error_text_noise(char text[ERROR_TEXT_BYTES], const struct film_error *e)
     error_text_percent(number, e->error);
     snprintf(text, ERROR_TEXT_BYTES, "noise %.20s%s",
              e->is_known ? number : "unknown",
-             e->is_known && !e->is_resolved ? ", unresolved" : "");
+             e->is_known && !e->is_resolved ? IN_FEW_PIXELS : "");
 }
 
 bool error_text_faults(char text[ERROR_FAULTS_BYTES], uint64_t non_finite,

@@ -20,14 +20,12 @@
 void error_text_percent(char text[ERROR_TEXT_BYTES], double error);
 
 /* Formats the error and its interval: "0.98 % (0.97 to 0.99 %)", followed by
- * ", unresolved" if it is, or "unknown". */
+ * ", mostly in few pixels" if it is unresolved, or "unknown". */
 void error_text_interval(char text[ERROR_TEXT_BYTES],
                          const struct film_error *e);
 
-/* Returns what explains the word behind the interval: text, or "". */
-const char *error_text_meaning(const struct film_error *e);
-
-/* Formats "noise 2.3 %", "noise 3 %, unresolved" or "noise unknown". */
+/* Formats "noise 2.3 %", "noise 3 %, mostly in few pixels" or "noise unknown".
+ */
 void error_text_noise(char text[ERROR_TEXT_BYTES], const struct film_error *e);
 
 /* Formats how many samples were not finite, or else how many were too bright

@@ -66,12 +66,12 @@ static void format_done(char *line, const struct render_progress *p)
     put_sides(line, left, right);
 }
 
-/* The word "unresolved" takes the place of "noise", as there is no room for
- * both. */
+/* The interval gives way to the words for an unresolved error. */
 static void format_noise(char *line, const struct render_progress *p)
 {
     struct film_error e = p->film_error;
-    const char *left = e.is_known && !e.is_resolved ? "unresolved" : "noise";
+    const char *left =
+        e.is_known && !e.is_resolved ? "noise, few pixels" : "noise";
     char interval[ERROR_TEXT_BYTES];
 
     e.is_resolved = true;

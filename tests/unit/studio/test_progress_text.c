@@ -76,7 +76,7 @@ static void half_done_renders_show_their_progress(void **state)
     assert_string_equal(lines[2], "noise     2.3 % (2.2 to 2.4 %)");
     p.film_error.is_resolved = false;
     progress_text_format(lines, &f);
-    assert_string_equal(lines[2], "unresolved               2.3 %");
+    assert_string_equal(lines[2], "noise, few pixels        2.3 %");
     assert_string_equal(lines[11], "█▄");
 }
 

@@ -163,7 +163,7 @@ static void noise_is_shown_with_the_time_to_a_target(void **state)
     p.state = RENDER_RUNNING;
     p.film_error.is_resolved = false;
     format(text, 100, &s);
-    check_has(text, "  8 spp  noise 1.9 %, unresolved");
+    check_has(text, "  8 spp  noise 1.9 %, mostly in few pixels");
     p.film_error.is_resolved = true;
     /* -e 1%: 29.7 samples, so 32 */
     s = normal_line(&p);
