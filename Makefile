@@ -82,7 +82,7 @@ SOURCES := $(filter-out $(MPI_SOURCES) $(KERNEL_SOURCES) \
 OBJECTS := $(SOURCES:src/%.c=$(B)/%.o) $(if $(DRACO),$(B)/import/draco_decode.o) \
 	$(KERNEL_OBJECTS)
 # libglim: the folders up to src/api/ in the table of CONTRIBUTING.md.
-LIB_FOLDERS := base picture filter bvh light scene formats gltf import load render opencl api
+LIB_FOLDERS := base picture filter bvh light scene formats gltf import load render opencl cluster engine api
 LIB_OBJECTS := $(filter-out $(B)/import/draco%,$(foreach d,$(LIB_FOLDERS), \
 	$(filter $(B)/$(d)/%,$(OBJECTS)))) $(KERNEL_OBJECTS)
 VERSION := $(shell sed -n 's/.*GLIM_VERSION *"\(.*\)"/\1/p' include/glim/version.h)

@@ -78,7 +78,7 @@ bool batch_aov_check(const struct session *s, const char *picture,
 static float *render(struct view_mode *show, uint32_t kinds, struct error *err)
 {
     const struct session *s = show->session;
-    struct rect crop = s->crop;
+    struct rect crop = s->engine.crop;
     size_t size = 3 * (size_t)crop.width * (size_t)crop.height;
     struct world world;
     float *numbers, *to;
@@ -96,7 +96,8 @@ static float *render(struct view_mode *show, uint32_t kinds, struct error *err)
         fail(err, "--aov: out of memory for %dx%d pixels", crop.width,
              crop.height);
     for (int i = 0; i < AOV_KINDS && numbers != NULL; i++) {
-        struct aov_picture a = {(enum aov_kind)i, &s->scene, &world, crop};
+        struct aov_picture a = {(enum aov_kind)i, &s->engine.scene, &world,
+                                crop};
 
         if ((kinds >> i & 1) == 0)
             continue;
@@ -109,7 +110,7 @@ static float *render(struct view_mode *show, uint32_t kinds, struct error *err)
 static bool write(struct view_mode *show, int kind, const char *path,
                   struct error *err)
 {
-    struct rect crop = show->session->crop;
+    struct rect crop = show->session->engine.crop;
     float *numbers = render(show, 1u << kind, err);
     bool ok = numbers != NULL &&
               image_write_floats(numbers, crop.width, crop.height, path, err);
@@ -141,7 +142,8 @@ bool batch_aov_write_layers(struct view_mode *show, struct film *film,
                             struct error *err)
 {
     const struct session *s = show->session;
-    size_t size = 3 * (size_t)s->crop.width * (size_t)s->crop.height;
+    size_t size =
+        3 * (size_t)s->engine.crop.width * (size_t)s->engine.crop.height;
     struct exr_layer layers[AOV_KINDS];
     float *numbers = render(show, s->options->aovs, err);
     int count = 0;

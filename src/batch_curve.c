@@ -11,12 +11,10 @@
 #include "base/print.h"
 #include "base/stop.h"
 #include "picture/image_write.h"
-#include "api/handle.h"
 #include "terminal/tty.h"
 #include "measure/curve.h"
 #include "measure/text_chart.h"
 #include "batch_compare.h"
-#include "batch_handle.h"
 #include "batch_progress.h"
 
 #define SPP_DEFAULT 256
@@ -29,7 +27,9 @@
 /* The measurement in progress. */
 struct measurement {
     const struct options *o;
-    struct glim *g;
+    struct options options; /* with the size of the reference */
+    struct session session;
+    bool is_complete; /* no limit or signal has come */
     struct image reference;
     struct reference_info own;
     float *rgb;
@@ -37,12 +37,6 @@ struct measurement {
     uint64_t cpu_ns; /* processor time of the render so far */
     struct batch_bar bar;
 };
-
-static bool on_progress(void *context, const struct glim_progress *p)
-{
-    batch_bar_draw(context, p);
-    return true;
-}
 
 /* Finds mistakes before minutes of rendering. */
 static bool check_output(const struct measurement *m, const char *option,
@@ -53,7 +47,7 @@ static bool check_output(const struct measurement *m, const char *option,
     if (path_is_same(path, m->o->reference_path))
         return fail(err, "%s: found '%s', the reference, expected another file",
                     option, path);
-    return batch_handle_spares(m->g, option, path, err) &&
+    return session_check_output(&m->session, option, path, err) &&
            file_check(path, err);
 }
 
@@ -68,26 +62,25 @@ static bool check_outputs(const struct measurement *m, struct error *err)
            check_output(m, "--csv", csv, err);
 }
 
-/* Gives the render the size of the reference, unless the options have one,
- * which must be the same. */
-static bool fit_size(struct measurement *m, struct error *err)
+/* Opens the scene. The render has the size of the reference, unless the options
+ * have one, which must be the same. */
+static bool open_scene(struct measurement *m, uint64_t start_ns,
+                       struct error *err)
 {
-    const struct options *o = m->o;
+    struct options *o = &m->options;
     const struct image *r = &m->reference;
-    int width, height;
-    struct glim_error why;
+    const struct rect *crop = &m->session.engine.crop;
 
-    if (o->width_px == 0 && o->height_px == 0 && !o->has_crop)
-        return glim_set_size(m->g, r->width, r->height, &why) ||
-               batch_fail_as(err, &why);
-    glim_get_size(m->g, &width, &height);
-    if (o->has_crop) {
-        width = o->crop.width;
-        height = o->crop.height;
+    if (o->width_px == 0 && o->height_px == 0 && !o->has_crop) {
+        o->width_px = r->width;
+        o->height_px = r->height;
     }
-    return (width == r->width && height == r->height) ||
+    if (!batch_open(&m->session, o, start_ns, err))
+        return false;
+    return (crop->width == r->width && crop->height == r->height) ||
            fail(err, "%s: found %dx%d pixels, expected %dx%d as rendered",
-                o->reference_path, r->width, r->height, width, height);
+                o->reference_path, r->width, r->height, crop->width,
+                crop->height);
 }
 
 /* Warns if the render would share its noise with the reference. */
@@ -102,38 +95,36 @@ static void check_seed(const struct measurement *m)
                    (unsigned long)m->o->seed, m->o->reference_path);
 }
 
-/* Renders up to this many samples. *is_complete is false if a limit or a signal
- * came first. */
-static bool render(struct measurement *m, uint64_t spp, bool *is_complete,
+/* Renders up to this many samples, from the first one or after those before.
+ * *is_complete is false if a limit or a signal came first. */
+static bool render(struct measurement *m, uint64_t spp, bool is_first,
                    struct error *err)
 {
-    double limit_s = (double)m->o->time_ns * 1e-9;
-    double left_s = limit_s - glim_get_progress(m->g).seconds;
-    struct glim_error why;
-    enum glim_result result;
+    struct session *s = &m->session;
+    struct render_limits limits = {.spp = spp, .time_ns = m->o->time_ns};
     uint64_t begin_ns = clock_cpu_ns();
+    struct render_progress p;
 
-    *is_complete = false;
-    if (m->o->time_ns > 0 && left_s <= 0)
-        return true;
-    result = glim_render(m->g, spp, m->o->time_ns > 0 ? left_s : 0,
-                         m->bar.is_wanted ? on_progress : NULL, &m->bar, &why);
+    if (!is_first)
+        render_resume(s->engine.render, limits);
+    else if (!session_restart(s, limits, err))
+        return false;
+    p = batch_wait(s, &m->bar);
     m->cpu_ns += clock_cpu_ns() - begin_ns;
-    batch_bar_erase(&m->bar);
-    if (result == GLIM_FAILED)
-        return batch_fail_as(err, &why);
-    *is_complete = result == GLIM_DONE && glim_get_progress(m->g).spp >= spp;
-    return true;
+    m->is_complete = p.state == RENDER_DONE && p.spp_done >= spp;
+    if (p.state == RENDER_FAILED)
+        *err = p.error;
+    return p.state != RENDER_FAILED;
 }
 
 /* Renders one sample of another seed, so that the first point has no part of
  * the time to build the tree and to bring up threads. */
-static bool warm_up(struct measurement *m, bool *is_complete, struct error *err)
+static bool warm_up(struct measurement *m, struct error *err)
 {
-    glim_set_seed(m->g, m->o->seed + 1);
-    if (!render(m, 1, is_complete, err))
+    m->session.engine.options.seed = m->o->seed + 1;
+    if (!render(m, 1, true, err))
         return false;
-    glim_set_seed(m->g, m->o->seed);
+    m->session.engine.options.seed = m->o->seed;
     m->cpu_ns = 0;
     return true;
 }
@@ -143,20 +134,17 @@ static bool add_point(struct measurement *m, struct error *err)
 {
     struct picture_pair pair = {m->reference.width, m->reference.height, m->rgb,
                                 m->reference.rgb};
-    size_t count = 3 * (size_t)pair.width * (size_t)pair.height;
-    struct glim_progress p = glim_get_progress(m->g);
+    struct render *r = m->session.engine.render;
+    struct render_progress p = render_progress(r);
     struct curve_render render = {
-        .spp = p.spp,
-        .seconds = p.seconds - p.build_seconds,
+        .spp = p.spp_done,
+        .seconds = seconds_between(p.build_ns, p.render_ns),
         .cpu_seconds = seconds_between(0, m->cpu_ns),
-        .exposure = m->g->view.lighting.exposure,
-        .stated = {p.error_is_known, p.error_is_resolved, p.error, p.error_low,
-                   p.error_high},
+        .exposure = m->session.edit.now.view.lighting.exposure,
+        .stated = p.film_error,
     };
-    struct glim_error why;
 
-    if (!glim_read_floats(m->g, m->rgb, count, &why))
-        return batch_fail_as(err, &why);
+    film_linear(render_film(r), m->rgb);
     curve_add(&m->curve, &render, &pair, &m->own);
     curve_write_row(stdout, &m->curve.points[m->curve.count - 1]);
     return print_finish(stdout, err); /* the reader may have gone */
@@ -167,9 +155,8 @@ static bool measure(struct measurement *m, struct error *err)
     uint64_t last = m->o->has_spp       ? m->o->spp
                     : m->o->time_ns > 0 ? UINT64_MAX
                                         : SPP_DEFAULT;
-    bool is_complete;
 
-    if (!warm_up(m, &is_complete, err))
+    if (!warm_up(m, err))
         return false;
     print_line(stdout, "%s: %dx%d pixels", m->o->reference_path,
                m->reference.width, m->reference.height);
@@ -182,10 +169,10 @@ static bool measure(struct measurement *m, struct error *err)
         print_line(stdout, "its own error is not known");
     curve_write_head(stdout);
     for (uint64_t spp = 1;
-         is_complete && spp <= last && m->curve.count < SERIES_POINTS;
+         m->is_complete && spp <= last && m->curve.count < SERIES_POINTS;
          spp *= 2) {
-        if (!render(m, spp, &is_complete, err) ||
-            (is_complete && !add_point(m, err)))
+        if (!render(m, spp, spp == 1, err) ||
+            (m->is_complete && !add_point(m, err)))
             return false;
     }
     return true;
@@ -236,7 +223,7 @@ static bool write_csv(const struct measurement *m, struct error *err)
 
 static bool report(const struct measurement *m, struct error *err)
 {
-    struct glim_progress p = glim_get_progress(m->g);
+    struct render_progress p = render_progress(m->session.engine.render);
     bool ok;
 
     batch_warn_of_samples(p.non_finite, p.saturated);
@@ -247,16 +234,14 @@ static bool report(const struct measurement *m, struct error *err)
     return ok;
 }
 
-static bool run(struct measurement *m, struct error *err)
+static bool run(struct measurement *m, uint64_t start_ns, struct error *err)
 {
     size_t count;
-    int wake_fd;
 
     if (!batch_compare_read(&m->reference, m->o->reference_path, 0, err))
         return false;
     m->own = reference_info_read(m->o->reference_path);
-    m->g = batch_handle_open(m->o, err);
-    if (m->g == NULL || !check_outputs(m, err) || !fit_size(m, err))
+    if (!open_scene(m, start_ns, err) || !check_outputs(m, err))
         return false;
     count = (size_t)m->reference.width * (size_t)m->reference.height;
     m->rgb = alloc_array(count, 3 * sizeof *m->rgb);
@@ -265,20 +250,18 @@ static bool run(struct measurement *m, struct error *err)
                     m->reference.height);
     check_seed(m);
     /* before our signals are set: drivers put theirs over them */
-    if (m->o->backend != BACKEND_CPU &&
-        !batch_handle_use_device(m->g, m->o, err))
-        return false;
-    return batch_catch_signals(m->g, &wake_fd, err) && measure(m, err) &&
-           report(m, err);
+    return batch_use_device(&m->session, err) && batch_catch_signals(err) &&
+           measure(m, err) && report(m, err);
 }
 
-bool batch_curve_run(const struct options *o, int *status, struct error *err)
+bool batch_curve_run(const struct options *o, uint64_t start_ns, int *status,
+                     struct error *err)
 {
-    struct measurement m = {.o = o, .bar = batch_bar_begin()};
-    bool ok = run(&m, err);
+    struct measurement m = {.o = o, .options = *o, .bar = batch_bar_begin()};
+    bool ok = run(&m, start_ns, err);
 
     *status = batch_stop_signal() != 0 ? 128 + batch_stop_signal() : 0;
-    glim_close(m.g);
+    session_close(&m.session);
     image_free(&m.reference);
     free(m.rgb);
     return ok;

@@ -14,6 +14,7 @@
 
 /* Measures and prints. *status becomes 0, or 128 + signal after the output of
  * the points measured before it. */
-bool batch_curve_run(const struct options *o, int *status, struct error *err);
+bool batch_curve_run(const struct options *o, uint64_t start_ns, int *status,
+                     struct error *err);
 
 #endif

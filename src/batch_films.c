@@ -14,7 +14,6 @@
 #include "filter/film_filter.h"
 #include "render/error_text.h"
 #include "render/render_metadata.h"
-#include "batch_filter.h"
 #include "batch_progress.h"
 
 static struct develop develop_of(const struct film_header *h,
@@ -163,13 +162,13 @@ static bool write_pictures(struct film_file *f, const struct film_error *e,
                     "--denoise: found a film without features, expected one "
                     "of a render with --denoise");
     if (o->denoise && !film_filter_applies(film))
-        batch_filter_warn();
+        batch_warn_unfiltered();
     else if (o->denoise)
         ok = film_filter_copy(film, options_threads(o), &filtered, err);
     if (ok && filtered.sums != NULL && o->denoise_path) {
         ok = write_picture(f, &filtered, e, o->denoise_path, o, err);
         if (ok)
-            batch_filter_say(o->denoise_path);
+            batch_say_filtered(o->denoise_path);
     } else if (filtered.sums != NULL) {
         film = &filtered;
     }

@@ -7,6 +7,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -17,8 +18,41 @@
 #include "base/stop.h"
 #include "picture/image_write.h"
 #include "render/error_text.h"
+#include "render/render_left.h"
 
-/* ---- output file ---- */
+/* The bar is drawn this often, which also bounds what a slow link gets. */
+#define DRAW_MS 100
+
+/* ---- scene, device and output file ---- */
+
+bool batch_open(struct session *s, const struct options *o, uint64_t start_ns,
+                struct error *err)
+{
+    /* warnings about a file matter only if it is rendered */
+    if (!session_open(s, o, start_ns, err))
+        return false;
+    warnings_print(&s->engine.report, stderr);
+    return true;
+}
+
+bool batch_use_device(struct session *s, struct error *err)
+{
+    const struct options *o = s->options;
+    struct view view = edit_view(&s->edit);
+    bool is_auto = o->backend == BACKEND_AUTO;
+    char *log;
+    bool is_up;
+
+    if (o->backend == BACKEND_CPU)
+        return true;
+    is_up = engine_use_device(&s->engine, &view, &log, err);
+    if (!is_up && log && (o->device || !is_auto))
+        print_lines(stderr, log);
+    free(log);
+    if (!is_up && !o->device && !is_auto)
+        batch_warn_of_device(err->text);
+    return is_up || !o->device;
+}
 
 bool batch_check_picture(const char *path, struct error *err)
 {
@@ -45,8 +79,7 @@ static const struct {
 /* What a handler may touch: the first signal, and what wakes poll().
  * Later signals change nothing, so the picture is saved in peace. */
 static volatile sig_atomic_t stop_signal;
-static int stop_fd;
-static struct glim *volatile stopped; /* NULL: none */
+static int stop_fd = -1;
 
 static void on_stop_signal(int number)
 {
@@ -56,8 +89,6 @@ static void on_stop_signal(int number)
         stop_signal = number;
     stop_request(128 + number, true);
     event_fd_set(stop_fd);
-    if (stopped != NULL)
-        glim_cancel(stopped);
     errno = saved_errno;
 }
 
@@ -85,7 +116,7 @@ static void say_end(void)
         return; /* errors cannot be reported here */
 }
 
-bool batch_catch_signals(struct glim *g, int *wake_fd, struct error *err)
+bool batch_catch_signals(struct error *err)
 {
     struct sigaction action = {.sa_handler = on_stop_signal,
                                .sa_flags = SA_RESTART};
@@ -94,8 +125,6 @@ bool batch_catch_signals(struct glim *g, int *wake_fd, struct error *err)
     if (stop_fd < 0 || !stop_begin(err))
         return false;
     stop_at_end(say_end);
-    *wake_fd = stop_fd;
-    stopped = g;
     sigemptyset(&action.sa_mask);
     for (int i = 0; i < STOP_SIGNAL_COUNT; i++) {
         struct sigaction old;
@@ -135,50 +164,51 @@ static int terminal_cols(void)
     return size.ws_col;
 }
 
-static struct film_error error_of(const struct glim_progress *p)
-{
-    return (struct film_error){p->error_is_known, p->error_is_resolved,
-                               p->error, p->error_low, p->error_high};
-}
-
 /* Formats the samples: "12 of 16 spp", or "12 spp" without a limit. */
-static void format_spp(char text[48], const struct glim_progress *p)
+static void format_spp(char text[48], const struct render_progress *p)
 {
     if (p->spp_limit > 0)
-        snprintf(text, 48, "%" PRIu64 " of %" PRIu64 " spp", p->spp,
+        snprintf(text, 48, "%" PRIu64 " of %" PRIu64 " spp", p->spp_done,
                  p->spp_limit);
     else
-        snprintf(text, 48, "%" PRIu64 " spp", p->spp);
+        snprintf(text, 48, "%" PRIu64 " spp", p->spp_done);
 }
+
+/* What the bar shows. */
+struct bar_values {
+    struct render_progress progress;
+    struct render_left left; /* of all pictures, if there are several */
+    char of[32];             /* which of them it is, or "" */
+    double before_s;         /* time of the pictures before */
+};
 
 /* Formats the line for `cols` columns, without the speed or also without the
  * noise if there is no room. Samples per second are those of the tracing alone,
  * from which the time left follows. */
 static void format_bar(char *text, size_t size_bytes, int cols,
-                       const struct batch_bar *bar,
-                       const struct glim_progress *p)
+                       const struct bar_values *v)
 {
     static const char full[] = "####################";
     static const char empty[] = "--------------------";
-    struct film_error error = error_of(p);
-    double tracing = p->seconds - p->build_seconds;
+    const struct render_progress *p = &v->progress;
+    double tracing = seconds_between(p->build_ns, p->render_ns);
     double rate = tracing > 0.0 ? (double)p->samples / tracing : 0.0;
-    int filled = (int)(p->part_done * 20.0);
+    int filled = (int)(v->left.part * 20.0);
     char elapsed[16], left[16] = "-", spp[48], noise[ERROR_TEXT_BYTES];
     char speed[48];
 
-    format_time(elapsed, bar->before_s + p->seconds);
-    if (p->seconds_left >= 0)
-        format_time(left, ceil(p->seconds_left)); /* 0:00 means done */
+    format_time(elapsed, v->before_s + seconds_between(0, p->render_ns));
+    if (v->left.limit != RENDER_LIMIT_NONE)
+        format_time(left, ceil(v->left.ns * 1e-9)); /* 0:00 means done */
     format_spp(spp, p);
-    error_text_noise(noise, &error);
+    error_text_noise(noise, &p->film_error);
     snprintf(speed, sizeof speed, ", %.2f Msamples/s", rate * 1e-6);
     for (int left_out = 0; left_out < 3; left_out++) {
         int length =
             snprintf(text, size_bytes,
                      "%3d %% [%.*s%.*s] %s%s%s, %s, left %s%s%s",
-                     (int)(p->part_done * 100.0), filled, full, 20 - filled,
-                     empty, bar->of, spp, left_out < 1 ? speed : "", elapsed,
+                     (int)(v->left.part * 100.0), filled, full, 20 - filled,
+                     empty, v->of, spp, left_out < 1 ? speed : "", elapsed,
                      left, left_out < 2 ? ", " : "", left_out < 2 ? noise : "");
 
         if (length <= cols)
@@ -210,17 +240,25 @@ struct batch_bar batch_bar_begin(void)
     return (struct batch_bar){.is_wanted = isatty(STDERR_FILENO) == 1};
 }
 
-void batch_bar_draw(struct batch_bar *bar, const struct glim_progress *p)
+static void draw(struct batch_bar *bar, const struct render_progress *p)
 {
+    const struct frame_series *f = bar->series;
+    struct bar_values v = {.progress = *p, .left = render_left(p)};
     char text[256];
 
     if (!bar->is_wanted)
         return;
-    format_bar(text, sizeof text, terminal_cols() - 1, bar, p);
+    if (f != NULL) {
+        snprintf(v.of, sizeof v.of, "%d of %d: ", frame_series_done(f) + 1,
+                 frame_series_count(f));
+        v.before_s = seconds_between(f->begin_ns, f->frame_begin_ns);
+        v.left = frame_series_left(f, v.left, clock_ns());
+    }
+    format_bar(text, sizeof text, terminal_cols() - 1, &v);
     bar_show(bar, text);
 }
 
-void batch_bar_erase(struct batch_bar *bar)
+static void erase(struct batch_bar *bar)
 {
     if (bar->shown_cols == 0)
         return;
@@ -229,6 +267,42 @@ void batch_bar_erase(struct batch_bar *bar)
     fputc('\r', stderr);
     stop_allow_end();
     bar->shown_cols = 0;
+}
+
+/* Says that a checkpoint failed: once, since a full disk stays full. */
+static void say_failure(struct batch_bar *bar)
+{
+    struct error err;
+
+    if (bar->film == NULL || !session_film_failed(bar->film, &err) ||
+        bar->has_failed)
+        return;
+    bar->has_failed = true;
+    print_line(stderr,
+               "glim: warning: --checkpoint: %s; the last good file stays",
+               err.text);
+}
+
+struct render_progress batch_wait(struct session *s, struct batch_bar *bar)
+{
+    struct render *r = s->engine.render;
+    const struct options *o = s->options;
+    bool looks = bar->is_wanted || o->stats_path || o->checkpoint_path;
+    struct pollfd fds[2] = {{.fd = render_event_fd(r), .events = POLLIN},
+                            {.fd = stop_fd, .events = POLLIN}};
+    struct render_progress p = session_progress(s);
+
+    while (p.state == RENDER_RUNNING && stop_signal == 0) {
+        draw(bar, &p);
+        say_failure(bar);
+        poll(fds, 2, looks ? DRAW_MS : -1);
+        if (fds[0].revents & POLLIN)
+            event_fd_clear(fds[0].fd);
+        p = session_progress(s);
+    }
+    erase(bar);
+    render_halt(r);
+    return session_progress(s);
 }
 
 /* ---- lines ---- */
@@ -247,41 +321,52 @@ bool batch_say_empty(struct error *err)
  * The text is empty if there was no choice, since samples were the only limit.
  */
 static void format_limit(char text[ERROR_TEXT_BYTES],
-                         const struct glim_progress *p, const struct options *o)
+                         const struct render_progress *p,
+                         const struct options *o)
 {
     struct render_limits limits = options_limits(o);
     bool has_choice = limits.error > 0 || limits.time_ns != 0;
 
     text[0] = '\0';
-    if (p->limit == GLIM_LIMIT_ERROR)
+    if (p->stopped_by == RENDER_LIMIT_ERROR)
         snprintf(text, ERROR_TEXT_BYTES,
                  "stopped at %g %%: ", 100 * limits.error);
-    else if (p->limit == GLIM_LIMIT_SECONDS)
+    else if (p->stopped_by == RENDER_LIMIT_TIME)
         snprintf(text, ERROR_TEXT_BYTES,
                  "stopped after %g s: ", seconds_between(0, limits.time_ns));
-    else if (p->limit == GLIM_LIMIT_SPP && has_choice)
+    else if (p->stopped_by == RENDER_LIMIT_SPP && has_choice)
         snprintf(text, ERROR_TEXT_BYTES,
                  "stopped at %" PRIu64 " spp: ", p->spp_limit);
 }
 
-void batch_say_result(const char *name, int width, int height,
-                      const struct glim_progress *p, const struct options *o,
-                      uint64_t start_ns)
+void batch_say_result(const char *name, const struct session *s,
+                      const struct render_progress *p)
 {
-    struct film_error e = error_of(p);
-    char limit[ERROR_TEXT_BYTES], error[ERROR_TEXT_BYTES], spp[48];
+    const struct film *film = render_film(s->engine.render);
+    char limit[ERROR_TEXT_BYTES], spp[48], error[ERROR_TEXT_BYTES];
 
-    format_limit(limit, p, o);
+    format_limit(limit, p, s->options);
     format_spp(spp, p);
-    error_text_interval(error, &e);
+    error_text_interval(error, &p->film_error);
     if (stop_signal != 0)
         print_line(stderr, "stopped by %s at %s: wrote %s, error %s",
                    signal_name(stop_signal), spp, name, error);
     else
         print_line(stderr, "%s: %s%dx%d, %" PRIu64 " spp, %.1f s, error %s",
-                   name, limit, width, height, p->spp,
-                   seconds_between(start_ns, clock_ns()), error);
+                   name, limit, film->width, film->height, p->spp_done,
+                   seconds_between(s->start_ns, clock_ns()), error);
     batch_warn_of_samples(p->non_finite, p->saturated);
+}
+
+void batch_say_filtered(const char *name)
+{
+    print_line(stderr, "%s: filtered", name);
+}
+
+void batch_warn_unfiltered(void)
+{
+    print_line(stderr, "glim: warning: --denoise: a pixel has fewer than two "
+                       "samples or no features; the picture is not filtered");
 }
 
 void batch_warn_of_samples(uint64_t non_finite, uint64_t saturated)

@@ -13,7 +13,6 @@
 #include "terminal/xmalloc.h"
 #include "measure/reference_info.h"
 #include "measure/replicates.h"
-#include "batch_handle.h"
 #include "batch_progress.h"
 
 #define SPP_DEFAULT 4096
@@ -24,19 +23,13 @@
 /* The reference in progress. */
 struct making {
     const struct options *o;
-    struct glim *g;
+    struct session session;
     char *json_path;
     struct replicates replicates;
     uint64_t spp; /* samples of each seed */
     uint64_t non_finite, saturated;
     struct batch_bar bar;
 };
-
-static bool on_progress(void *context, const struct glim_progress *p)
-{
-    batch_bar_draw(context, p);
-    return true;
-}
 
 static uint32_t first_seed(const struct options *o)
 {
@@ -49,7 +42,7 @@ static bool check_outputs(const struct making *m, struct error *err)
     const char *const paths[] = {m->o->output_path, m->json_path};
 
     for (int i = 0; i < 2; i++)
-        if (!batch_handle_spares(m->g, "reference", paths[i], err) ||
+        if (!session_check_output(&m->session, "reference", paths[i], err) ||
             !file_check(paths[i], err))
             return false;
     return true;
@@ -61,34 +54,33 @@ static bool check_outputs(const struct making *m, struct error *err)
 static bool render_seed(struct making *m, int index, bool *is_complete,
                         struct error *err)
 {
-    double limit_s =
-        index == 0 ? (double)m->o->time_ns * 1e-9 / m->o->seed_count : 0;
-    size_t count =
-        3 * (size_t)m->replicates.width * (size_t)m->replicates.height;
-    struct glim_error why;
-    struct glim_progress p;
-    enum glim_result result;
+    struct session *s = &m->session;
+    struct render_limits limits = {.spp = m->spp};
+    struct render_progress p;
 
-    glim_set_seed(m->g, first_seed(m->o) + (uint32_t)index);
-    result = glim_render(m->g, m->spp, limit_s,
-                         m->bar.is_wanted ? on_progress : NULL, &m->bar, &why);
-    batch_bar_erase(&m->bar);
-    if (result == GLIM_FAILED)
-        return batch_fail_as(err, &why);
-    *is_complete = result == GLIM_DONE;
+    if (index == 0)
+        limits.time_ns = m->o->time_ns / (uint64_t)m->o->seed_count;
+    s->engine.options.seed = first_seed(m->o) + (uint32_t)index;
+    if (!session_restart(s, limits, err))
+        return false;
+    p = batch_wait(s, &m->bar);
+    if (p.state == RENDER_FAILED) {
+        *err = p.error;
+        return false;
+    }
+    *is_complete = p.state == RENDER_DONE;
     if (!*is_complete)
         return true;
-    p = glim_get_progress(m->g);
-    m->spp = p.spp;
+    m->spp = p.spp_done;
     m->non_finite += p.non_finite;
     m->saturated += p.saturated;
     if (m->spp == 0)
         return fail(err,
                     "--time: found no complete sample in %.3g s for each "
                     "of %d seeds, expected more time",
-                    limit_s, m->o->seed_count);
-    return glim_read_floats(m->g, m->replicates.rgb[index], count, &why) ||
-           batch_fail_as(err, &why);
+                    seconds_between(0, limits.time_ns), m->o->seed_count);
+    film_linear(render_film(s->engine.render), m->replicates.rgb[index]);
+    return true;
 }
 
 static bool render(struct making *m, struct error *err)
@@ -169,31 +161,22 @@ static bool write(struct making *m, uint64_t start_ns, struct error *err)
     return ok;
 }
 
-static bool prepare(struct making *m, struct error *err)
+static bool prepare(struct making *m, uint64_t start_ns, struct error *err)
 {
-    int width, height, wake_fd;
+    const struct rect *crop = &m->session.engine.crop;
 
     m->json_path = xchecked(reference_info_path(m->o->output_path));
-    m->g = batch_handle_open(m->o, err);
-    if (m->g == NULL || !check_outputs(m, err))
-        return false;
-    glim_get_size(m->g, &width, &height);
-    if (m->o->has_crop) {
-        width = m->o->crop.width;
-        height = m->o->crop.height;
-    }
-    if (!replicates_init(&m->replicates, width, height, m->o->seed_count, err))
-        return false;
     /* before our signals are set: drivers put theirs over them */
-    if (m->o->backend != BACKEND_CPU &&
-        !batch_handle_use_device(m->g, m->o, err))
-        return false;
-    return batch_catch_signals(m->g, &wake_fd, err);
+    return batch_open(&m->session, m->o, start_ns, err) &&
+           check_outputs(m, err) &&
+           replicates_init(&m->replicates, crop->width, crop->height,
+                           m->o->seed_count, err) &&
+           batch_use_device(&m->session, err) && batch_catch_signals(err);
 }
 
 static bool make(struct making *m, uint64_t start_ns, struct error *err)
 {
-    if (!prepare(m, err) || !render(m, err))
+    if (!prepare(m, start_ns, err) || !render(m, err))
         return false;
     if (m->replicates.count >= REPLICATES_MIN)
         return write(m, start_ns, err);
@@ -211,7 +194,7 @@ bool batch_reference_run(const struct options *o, uint64_t start_ns,
     bool ok = make(&m, start_ns, err);
 
     *status = batch_stop_signal() != 0 ? 128 + batch_stop_signal() : 0;
-    glim_close(m.g);
+    session_close(&m.session);
     replicates_free(&m.replicates);
     free(m.json_path);
     return ok;

@@ -42,7 +42,8 @@ bool batch_text_write(struct view_mode *show, struct film *film, char **name,
     const struct session *s = show->session;
     const struct options *o = s->options;
     struct cells_rect fit =
-        cells_fit(s->crop.width, s->crop.height, o->text_cols, o->text_rows,
+        cells_fit(s->engine.crop.width, s->engine.crop.height, o->text_cols,
+                  o->text_rows,
                   o->display.cell_aspect > 0 ? o->display.cell_aspect : 2);
     enum palette palette = text_palette(o);
     struct ansi_text_style style = {fit.cols, fit.rows, palette,

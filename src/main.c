@@ -45,7 +45,7 @@
 #include "batch_compare.h"
 #include "batch_curve.h"
 #include "batch_films.h"
-#include "batch_picture.h"
+#include "batch_progress.h"
 #include "batch_reference.h"
 
 /* Width of the lines of --formats. */
@@ -201,12 +201,14 @@ static bool check_terminal(const struct options *o, struct error *err)
 /* Renders for rank 0 with the CPU, or with the device that the options name. */
 static bool work(const struct options *o, struct error *err)
 {
-    struct backends b;
+    struct cl_request request = options_engine(o).device;
+    struct backends b = {.cpu = NULL};
     char *log = NULL;
-    bool ok = backends_open(&b, o, err);
+    bool ok = backends_open(&b, o->paths, options_threads(o), err);
 
+    request.features = FEATURES_ALL;
     if (ok && o->backend != BACKEND_CPU &&
-        backends_begin_device(&b, FEATURES_ALL, err) &&
+        backends_begin_device(&b, &request, err) &&
         !backends_end_device(&b, &log, err) && o->device)
         ok = false;
     free(log);
@@ -253,25 +255,18 @@ static bool begin_cluster(const struct options *o, struct error *err)
 static bool run(struct session *s, const struct options *o, uint64_t start_ns,
                 int *status, struct error *err)
 {
-    bool ok;
-
     if (o->command == COMMAND_COMPARE)
         return batch_compare_run(o, status, err);
     if (o->command == COMMAND_CURVE)
-        return batch_curve_run(o, status, err);
+        return batch_curve_run(o, start_ns, status, err);
     if (o->command == COMMAND_REFERENCE)
         return batch_reference_run(o, start_ns, status, err);
     if (o->command == COMMAND_INFO)
         return batch_films_info(o, err);
     if (o->command == COMMAND_MERGE || o->command == COMMAND_DEVELOP)
         return batch_films_merge(o, start_ns, err);
-    if (cluster_size() == 1 && batch_picture_is_wanted(o))
-        return batch_picture_run(o, start_ns, status, err);
-    ok = session_open(s, o, start_ns, err);
-    /* warnings about a file matter only if it is rendered */
-    if (!ok)
+    if (!batch_open(s, o, start_ns, err))
         return false;
-    warnings_print(&s->report, stderr);
     if (o->batch)
         return batch_run(s, status, err);
     recent_add(o->scene_path);

@@ -4,10 +4,8 @@
 
 #include <stdlib.h>
 
-#include "filter/film_filter.h"
 #include "picture/film.h"
 #include "picture/image_write.h"
-#include "render/render_metadata.h"
 
 static struct develop develop_of(const struct glim *g)
 {
@@ -15,44 +13,17 @@ static struct develop develop_of(const struct glim *g)
                             g->view.lighting.tone};
 }
 
-void handle_drop_filtered(struct glim *g)
-{
-    film_free(&g->filtered);
-    g->filtered_samples = 0;
-}
-
 bool glim_is_denoised(struct glim *g)
 {
-    return g != NULL && g->has_picture && g->wants_denoise &&
-           film_filter_applies(render_film(g->render));
-}
-
-static struct image_metadata metadata_of(struct glim *g)
-{
-    struct render_progress p = render_progress(g->render);
-
-    return render_metadata(&p, g->scene.path, g->seed, glim_is_denoised(g));
-}
-
-/* Filters the film, unless that was done at this number of samples. */
-static bool need_filtered(struct glim *g, struct error *err)
-{
-    struct film *film = render_film(g->render);
-    uint64_t samples = atomic_load(&film->samples);
-
-    if (g->filtered_samples == samples)
-        return true;
-    handle_drop_filtered(g);
-    if (!film_filter_copy(film, handle_threads(g), &g->filtered, err))
-        return false;
-    g->filtered_samples = samples;
-    return true;
+    return g != NULL && g->has_picture && g->engine.options.wants_filter &&
+           engine_can_filter(&g->engine);
 }
 
 /* Returns the film or the filtered one, or NULL with an error if there is no
  * picture. */
 static struct film *film_of(struct glim *g, struct glim_error *err)
 {
+    struct film *film = NULL;
     struct error why;
 
     if (!handle_given(g, "handle", err))
@@ -60,17 +31,18 @@ static struct film *film_of(struct glim *g, struct glim_error *err)
     if (!g->has_picture)
         fail(&why, "picture: found none, expected glim_render() before");
     else if (!glim_is_denoised(g))
-        return render_film(g->render);
-    else if (need_filtered(g, &why))
-        return &g->filtered;
-    handle_fail(err, &why);
-    return NULL;
+        film = render_film(g->engine.render);
+    else
+        film = engine_filtered(&g->engine, &why);
+    if (film == NULL)
+        handle_fail(err, &why);
+    return film;
 }
 
 void glim_get_picture_size(const struct glim *g, int *width, int *height)
 {
     const struct film *film =
-        g != NULL && g->has_picture ? render_film(g->render) : NULL;
+        g != NULL && g->has_picture ? render_film(g->engine.render) : NULL;
 
     if (width != NULL)
         *width = film != NULL ? film->width : 0;
@@ -128,7 +100,7 @@ bool glim_save(struct glim *g, const char *path, struct glim_error *err)
 
     if (film == NULL)
         return false;
-    metadata = metadata_of(g);
+    metadata = engine_metadata(&g->engine, glim_is_denoised(g));
     return image_write(film, develop_of(g), &metadata, path, &why) ||
            handle_fail(err, &why);
 }
@@ -144,7 +116,7 @@ const char *glim_save_new(struct glim *g, const char *stem,
 
     if (film == NULL)
         return NULL;
-    metadata = metadata_of(g);
+    metadata = engine_metadata(&g->engine, glim_is_denoised(g));
     name =
         image_write_numbered(film, develop_of(g), &metadata, stem, "png", &why);
     if (name == NULL) {

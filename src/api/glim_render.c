@@ -10,8 +10,6 @@
 #include "base/event_fd.h"
 #include "base/memory.h"
 #include "base/thread.h"
-#include "opencl/cl_start.h"
-#include "render/cpu_dispatch.h"
 #include "render/render_left.h"
 #include "scene/pose_fit.h"
 
@@ -23,86 +21,41 @@
 
 /* ---- backends ---- */
 
-void handle_drop_render(struct glim *g)
+bool handle_find_threads(int given, int *count, struct error *err)
 {
-    render_destroy(g->render);
-    g->render = NULL;
-    if (g->cpu != NULL)
-        g->cpu->destroy(g->cpu);
-    g->cpu = NULL;
-    g->has_picture = false;
-    handle_drop_filtered(g);
-}
-
-int handle_threads(const struct glim *g)
-{
-    return g->thread_count > 0 ? g->thread_count : usable_threads();
-}
-
-/* Creates the renderer if there is none. */
-static bool need_render(struct glim *g, struct error *err)
-{
-    if (g->render != NULL)
-        return true;
-    if (g->device == NULL)
-        g->cpu = backend_cpu_create(handle_threads(g), cpu_kernel_best(), err);
-    if (g->device == NULL && g->cpu == NULL)
-        return false;
-    g->render = render_create(g->device != NULL ? g->device : g->cpu, err);
-    if (g->render == NULL)
-        handle_drop_render(g);
-    return g->render != NULL;
-}
-
-bool handle_set_threads(struct glim *g, int count, struct error *err)
-{
-    if (count < 0 || count > THREADS_MAX)
-        return fail(err, "threads: found %d, expected 0 to %d", count,
+    if (given < 0 || given > THREADS_MAX)
+        return fail(err, "threads: found %d, expected 0 to %d", given,
                     THREADS_MAX);
-    g->thread_count = count;
+    *count = given > 0 ? given : usable_threads();
     return true;
+}
+
+/* Ends the render of the handle, whose picture is lost. */
+static void end_render(struct glim *g)
+{
+    engine_end(&g->engine);
+    g->has_picture = false;
 }
 
 bool glim_set_threads(struct glim *g, int count, struct glim_error *err)
 {
     struct error why;
+    int found;
 
     if (!handle_given(g, "handle", err))
         return false;
-    if (!handle_set_threads(g, count, &why))
+    if (!handle_find_threads(count, &found, &why))
         return handle_fail(err, &why);
-    handle_drop_render(g);
-    g->world.thread_count = handle_threads(g);
+    end_render(g);
+    g->engine.options.scene.thread_count = found;
+    g->engine.world.thread_count = found;
     return true;
-}
-
-/* Returns the kernel features that pictures of the handle need. */
-static uint32_t features_of(const struct glim *g)
-{
-    return world_features(&g->world) |
-           (g->wants_denoise ? (uint32_t)FEATURE_FILTER : 0);
-}
-
-static bool start_device(struct glim *g, const struct cl_request *request,
-                         struct error *err)
-{
-    struct cl_start *start = cl_start_begin(request, NULL, err);
-    char *verdict = NULL;
-
-    if (start == NULL)
-        return false;
-    g->device = cl_start_end(start, &verdict, &g->backend_log, err);
-    free(verdict);
-    return g->device != NULL;
 }
 
 bool glim_set_backend(struct glim *g, enum glim_backend backend,
                       const char *device, struct glim_error *err)
 {
-    struct cl_request request = {
-        .device = device,
-        .needs_gpu = backend == GLIM_BACKEND_GPU,
-    };
+    struct cl_request *request;
     struct error why;
 
     if (!handle_given(g, "handle", err))
@@ -112,21 +65,17 @@ bool glim_set_backend(struct glim *g, enum glim_backend backend,
              GLIM_BACKEND_CPU, GLIM_BACKEND_OPENCL);
         return handle_fail(err, &why);
     }
-    request.program = g->program;
-    handle_drop_render(g);
-    if (g->device != NULL)
-        g->device->destroy(g->device);
-    g->device = NULL;
+    end_render(g);
+    backends_drop_device(&g->engine.backends);
     free(g->backend_log);
     g->backend_log = NULL;
     if (backend == GLIM_BACKEND_CPU)
         return true;
-    /* first, since the guide adds a feature that the kernels must have */
-    if (!world_guide(&g->world, &g->scene, &g->view, &why))
-        return handle_fail(err, &why);
-    request.features = features_of(g);
-    g->device_features = request.features;
-    return start_device(g, &request, &why) || handle_fail(err, &why);
+    request = &g->engine.options.device;
+    request->device = device;
+    request->needs_gpu = backend == GLIM_BACKEND_GPU;
+    return engine_use_device(&g->engine, &g->view, &g->backend_log, &why) ||
+           handle_fail(err, &why);
 }
 
 const char *glim_backend_log(const struct glim *g)
@@ -147,7 +96,7 @@ static enum glim_limit limit_of(enum render_limit limit)
     return GLIM_LIMIT_NONE;
 }
 
-struct glim_progress handle_progress(const struct render_progress *p)
+static struct glim_progress convert(const struct render_progress *p)
 {
     bool is_running = p->state == RENDER_RUNNING;
     struct render_left left = render_left(p);
@@ -179,8 +128,8 @@ struct glim_progress glim_get_progress(struct glim *g)
 
     if (g == NULL || !g->has_picture)
         return (struct glim_progress){0};
-    p = render_progress(g->render);
-    return handle_progress(&p);
+    p = render_progress(g->engine.render);
+    return convert(&p);
 }
 
 bool glim_set_error_limit(struct glim *g, double error, struct glim_error *err)
@@ -201,8 +150,9 @@ void glim_set_adaptive(struct glim *g, bool is_adaptive)
 {
     if (g == NULL)
         return;
-    g->has_picture = g->has_picture && g->is_adaptive == is_adaptive;
-    g->is_adaptive = is_adaptive;
+    g->has_picture =
+        g->has_picture && g->engine.options.is_adaptive == is_adaptive;
+    g->engine.options.is_adaptive = is_adaptive;
 }
 
 bool glim_set_denoise(struct glim *g, bool is_wanted, struct glim_error *err)
@@ -211,16 +161,17 @@ bool glim_set_denoise(struct glim *g, bool is_wanted, struct glim_error *err)
 
     if (!handle_given(g, "handle", err))
         return false;
-    if (is_wanted && g->device != NULL &&
-        (g->device_features & FEATURE_FILTER) == 0) {
+    if (is_wanted && g->engine.backends.device != NULL &&
+        (g->engine.backends.features & FEATURE_FILTER) == 0) {
         fail(&why, "denoise: found a device without the filter's kernels, "
                    "expected glim_set_denoise() before glim_set_backend()");
         return handle_fail(err, &why);
     }
     /* switching the filter off keeps what it needs, to switch it on again */
-    g->has_picture = g->has_picture &&
-                     (!is_wanted || render_film(g->render)->surfaces != NULL);
-    g->wants_denoise = is_wanted;
+    g->has_picture =
+        g->has_picture &&
+        (!is_wanted || render_film(g->engine.render)->surfaces != NULL);
+    g->engine.options.wants_filter = is_wanted;
     return true;
 }
 
@@ -260,28 +211,9 @@ static struct render_limits limits_of(const struct glim_call *call,
 
 bool handle_prepare(struct glim *g, struct render_job *job, struct error *err)
 {
-    *job = (struct render_job){.host = &g->world,
-                               .crop = g->crop,
-                               .exposure = (float)g->view.lighting.exposure,
-                               .is_adaptive = g->is_adaptive};
     if (!g->view.has_camera) /* depends on the aspect ratio */
-        scene_frame(&g->scene, &g->view);
-    if (!need_render(g, err) ||
-        !world_guide(&g->world, &g->scene, &g->view, err) ||
-        !world_lend(&g->world, &g->scene, &g->view, g->seed, &job->world, err))
-        return false;
-    if (g->device != NULL) /* the device has its own tree */
-        world_drop_tree(&g->world);
-    job->world.settings.features = features_of(g);
-    return true;
-}
-
-bool handle_start(struct glim *g, const struct render_job *job,
-                  struct error *err)
-{
-    handle_drop_filtered(g);
-    g->has_picture = render_start(g->render, job, err);
-    return g->has_picture;
+        scene_frame(&g->engine.scene, &g->view);
+    return engine_prepare(&g->engine, &g->view, job, err);
 }
 
 /* Starts a new picture with the current settings. */
@@ -293,7 +225,7 @@ static bool begin(struct glim *g, const struct glim_call *call,
     if (!handle_prepare(g, &job, err))
         return false;
     job.limits = limits_of(call, 0);
-    return handle_start(g, &job, err);
+    return g->has_picture = engine_start(&g->engine, &job, err);
 }
 
 /* Waits until a limit is reached, or the render is stopped by the progress
@@ -301,13 +233,13 @@ static bool begin(struct glim *g, const struct glim_call *call,
 static enum glim_result wait_for_end(struct glim *g, glim_progress_fn *progress,
                                      void *context)
 {
-    struct pollfd fds[2] = {{.fd = render_event_fd(g->render),
+    struct pollfd fds[2] = {{.fd = render_event_fd(g->engine.render),
                              .events = POLLIN},
                             {.fd = g->cancel_fd, .events = POLLIN}};
 
     for (;;) {
-        struct render_progress p = render_progress(g->render);
-        struct glim_progress shown = handle_progress(&p);
+        struct render_progress p = render_progress(g->engine.render);
+        struct glim_progress shown = convert(&p);
 
         if (p.state != RENDER_RUNNING)
             return GLIM_DONE;
@@ -342,15 +274,15 @@ enum glim_result glim_render(struct glim *g, uint64_t spp, double seconds,
     }
     call = call_of(g, spp, seconds);
     if (g->has_picture) {
-        p = render_progress(g->render);
-        render_resume(g->render, limits_of(&call, p.render_ns));
+        p = render_progress(g->engine.render);
+        render_resume(g->engine.render, limits_of(&call, p.render_ns));
     } else if (!begin(g, &call, &why)) {
         handle_fail(err, &why);
         return GLIM_FAILED;
     }
     result = wait_for_end(g, progress, context);
-    render_halt(g->render);
-    p = render_progress(g->render);
+    render_halt(g->engine.render);
+    p = render_progress(g->engine.render);
     if (p.state != RENDER_FAILED)
         return result;
     g->has_picture = false;

@@ -10,7 +10,6 @@
 #include "base/event_fd.h"
 #include "base/memory.h"
 #include "scene/world_materials.h"
-#include "load/scene_load.h"
 
 /* The program whose copies run the code of others. */
 #ifndef GLIM_PROGRAM
@@ -46,28 +45,29 @@ _Static_assert((int)GLIM_UP_Y == SCENE_UP_Y && (int)GLIM_UP_Z == SCENE_UP_Z,
 
 static void take_whole_picture(struct glim *g)
 {
-    g->crop = (struct rect){0, 0, g->view.width_px, g->view.height_px};
+    engine_set_whole(&g->engine, &g->view);
     g->has_picture = false;
 }
 
 static bool make_warnings(struct glim *g, struct error *err)
 {
-    size_t count = (size_t)g->report.entry_count;
+    size_t count = (size_t)g->engine.report.entry_count;
 
     g->warnings = alloc_array(count + 1, sizeof *g->warnings);
     for (size_t i = 0; g->warnings != NULL && i < count; i++) {
-        g->warnings[i] = warnings_line(&g->report.entries[i]);
+        g->warnings[i] = warnings_line(&g->engine.report.entries[i]);
         if (g->warnings[i] == NULL)
-            return fail(err, "%s: out of memory for warnings", g->scene.path);
+            return fail(err, "%s: out of memory for warnings",
+                        g->engine.scene.path);
     }
-    return (g->warnings != NULL && !g->report.has_lost) ||
-           fail(err, "%s: out of memory for warnings", g->scene.path);
+    return (g->warnings != NULL && !g->engine.report.has_lost) ||
+           fail(err, "%s: out of memory for warnings", g->engine.scene.path);
 }
 
 /* Assigns materials to objects according to the view file. */
 static bool assign(struct glim *g, struct error *err)
 {
-    const struct scene *scene = &g->scene;
+    const struct scene *scene = &g->engine.scene;
     uint32_t *assigned = alloc_array(scene->object_count, sizeof *assigned);
     struct mtl_source *sources =
         alloc_array(scene->material_count, sizeof *sources);
@@ -75,27 +75,16 @@ static bool assign(struct glim *g, struct error *err)
               fail(err, "%s: out of memory for the materials", scene->path);
 
     if (ok) {
-        scene_find_assigned(scene, &g->view.assigns, assigned, &g->report);
+        scene_find_assigned(scene, &g->view.assigns, assigned,
+                            &g->engine.report);
         for (uint32_t i = 0; i < scene->material_count; i++)
             sources[i] = scene->material_origins[i].source;
-        ok = world_set_materials(&g->world, scene, scene->material_count,
+        ok = world_set_materials(&g->engine.world, scene, scene->material_count,
                                  sources, assigned, err);
     }
     free(sources);
     free(assigned);
     return ok;
-}
-
-/* Sets the sun of the options. */
-static bool set_sun(struct view *view, const struct glim_open_options *o,
-                    struct error *err)
-{
-    const struct glim_sun *sun = o->sun;
-
-    if (sun != NULL &&
-        !view_set_sun(view, sun->azimuth_deg, sun->elevation_deg, err))
-        return false;
-    return o->turbidity == 0 || view_set_turbidity(view, o->turbidity, err);
 }
 
 static bool check_options(const struct glim_open_options *o, struct error *err)
@@ -110,33 +99,54 @@ static bool check_options(const struct glim_open_options *o, struct error *err)
                 o->anim_time_s);
 }
 
+static struct engine_options options_of(const char *path,
+                                        const struct glim_open_options *o)
+{
+    struct engine_options e = {
+        .scene_path = path,
+        .view_path = o->view_path,
+        .scene = {.up = (enum scene_up)o->up,
+                  .camera = o->camera,
+                  .choice = {.scene = o->scene,
+                             .animation = o->animation,
+                             .variant = o->variant,
+                             .has_time = o->has_anim_time,
+                             .time_s = o->anim_time_s},
+                  .view_lines = o->view_lines},
+        .turbidity = o->turbidity,
+        .drops_tree = true,
+    };
+
+    if (o->sun == NULL)
+        return e;
+    e.has_sun = true;
+    e.sun_azimuth_deg = o->sun->azimuth_deg;
+    e.sun_elevation_deg = o->sun->elevation_deg;
+    return e;
+}
+
 static bool open_all(struct glim *g, const char *path,
                      const struct glim_open_options *o, struct error *err)
 {
-    struct scene_options how = {.up = (enum scene_up)o->up,
-                                .camera = o->camera,
-                                .choice = {.scene = o->scene,
-                                           .animation = o->animation,
-                                           .variant = o->variant,
-                                           .has_time = o->has_anim_time,
-                                           .time_s = o->anim_time_s},
-                                .view_lines = o->view_lines};
+    struct engine_options how = options_of(path, o);
+    struct engine *e = &g->engine;
+    struct view file;
 
     g->program = strdup(o->program != NULL ? o->program : GLIM_PROGRAM);
     if (g->program == NULL)
         return fail(err, "%s: out of memory", path);
-    g->scene.program = g->program;
+    how.device.program = g->program;
     g->cancel_fd = event_fd_open("glim", err);
     if (g->cancel_fd < 0 || !check_options(o, err) ||
-        !handle_set_threads(g, o->threads, err))
+        !handle_find_threads(o->threads, &how.scene.thread_count, err) ||
+        !engine_load(e, &how, &g->view, &file, err))
         return false;
-    how.thread_count = handle_threads(g);
-    return view_find(&g->view, path, o->view_path, &g->view_path, &g->report,
-                     err) &&
-           set_sun(&g->view, o, err) &&
-           scene_open(&g->scene, &g->world, &g->view, path, &how, &g->report,
-                      err) &&
-           assign(g, err) && make_warnings(g, err);
+    /* these texts are the caller's */
+    e->options.scene_path = e->scene.path;
+    e->options.view_path = NULL;
+    e->options.scene =
+        (struct scene_options){.thread_count = how.scene.thread_count};
+    return assign(g, err) && make_warnings(g, err);
 }
 
 struct glim *glim_open(const char *path,
@@ -169,17 +179,12 @@ void glim_close(struct glim *g)
 {
     if (g == NULL)
         return;
-    handle_drop_render(g);
-    if (g->device != NULL)
-        g->device->destroy(g->device);
-    world_free(&g->world);
-    scene_free(&g->scene);
-    view_free(&g->view);
-    for (int i = 0; g->warnings != NULL && i < g->report.entry_count; i++)
+    for (int i = 0; g->warnings != NULL && i < g->engine.report.entry_count;
+         i++)
         free(g->warnings[i]);
     free(g->warnings);
-    warnings_free(&g->report);
-    free(g->view_path);
+    engine_close(&g->engine);
+    view_free(&g->view);
     free(g->program);
     free(g->backend_log);
     free(g->saved_name);
@@ -190,7 +195,7 @@ void glim_close(struct glim *g)
 
 const char *glim_warning(const struct glim *g, int number)
 {
-    return g != NULL && number >= 0 && number < g->report.entry_count
+    return g != NULL && number >= 0 && number < g->engine.report.entry_count
                ? g->warnings[number]
                : NULL;
 }
@@ -198,7 +203,8 @@ const char *glim_warning(const struct glim *g, int number)
 const char *glim_file(const struct glim *g, int number)
 {
     return g != NULL && number >= 0
-               ? scene_file(&g->scene, &g->view, g->view_path, (uint32_t)number)
+               ? scene_file(&g->engine.scene, &g->view, g->engine.view_path,
+                            (uint32_t)number)
                : NULL;
 }
 
@@ -283,14 +289,8 @@ bool glim_set_crop(struct glim *g, int x, int y, int width, int height,
 
     if (!handle_given(g, "handle", err))
         return false;
-    if (!view_has_part(&g->view, x, y, width, height)) {
-        fail(&why,
-             "crop: found %d,%d,%d,%d, expected a part of the picture, which "
-             "has %dx%d pixels",
-             x, y, width, height, g->view.width_px, g->view.height_px);
+    if (!engine_set_crop(&g->engine, &g->view, &crop, "crop", &why))
         return handle_fail(err, &why);
-    }
-    g->crop = crop;
     g->has_picture = false;
     return true;
 }
@@ -315,6 +315,6 @@ void glim_set_seed(struct glim *g, uint32_t seed)
 {
     if (g == NULL)
         return;
-    g->seed = seed;
+    g->engine.options.seed = seed;
     g->has_picture = false;
 }

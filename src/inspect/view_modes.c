@@ -58,7 +58,7 @@ static bool find_world(const struct view_mode *s, struct world *w,
 {
     struct session *of = s->session;
 
-    if (!world_lend(&of->world, &of->scene, &of->edit.now.view,
+    if (!world_lend(&of->engine.world, &of->engine.scene, &of->edit.now.view,
                     of->options->seed, w, err))
         return false;
     w->nodes = s->bvh.nodes;
@@ -77,7 +77,7 @@ struct camera view_mode_camera(const struct view_mode *s,
                                const struct camera *camera,
                                const struct frame *frame)
 {
-    struct rect r = s->session->crop;
+    struct rect r = s->session->engine.crop;
     struct projection_part part = {r.x,      r.y,          r.width,
                                    r.height, frame->width, frame->height};
 
@@ -86,7 +86,7 @@ struct camera view_mode_camera(const struct view_mode *s,
 
 bool view_mode_need_tree(struct view_mode *s, struct error *err)
 {
-    uint64_t shape = s->session->world.versions[WORLD_SHAPE];
+    uint64_t shape = s->session->engine.world.versions[WORLD_SHAPE];
     struct world w;
 
     if (s->bvh_shape == shape)
@@ -101,7 +101,7 @@ bool view_mode_need_tree(struct view_mode *s, struct error *err)
 struct pool *view_mode_pool(struct view_mode *s)
 {
     if (!s->pool)
-        s->pool = world_pool(&s->session->world);
+        s->pool = world_pool(&s->session->engine.world);
     return s->pool;
 }
 
@@ -201,7 +201,7 @@ static void fill_heat(const struct view_mode *s, struct frame *frame, int width,
 
 static void say_depth(struct view_mode *s, struct number_range r)
 {
-    double scale = s->session->scene.scale;
+    double scale = s->session->engine.scene.scale;
 
     set_legend(s, "DEPTH  from %.4g, white, to %.4g, dark", r.lo / scale,
                r.hi / scale);
@@ -253,7 +253,7 @@ static bool paint_samples(struct view_mode *s, struct film *film,
 static bool find_errors(struct view_mode *s, struct film *film)
 {
     struct session *of = s->session;
-    struct render_progress p = render_progress(of->render);
+    struct render_progress p = render_progress(of->engine.render);
 
     if (s->error_spp == p.spp_done && s->error_restart_ns == of->restart_ns)
         return s->error_spp > 0;
@@ -292,7 +292,7 @@ static bool paint_errors(struct view_mode *s, struct film *film,
 /* Counts costs again if the camera or the frame's size has changed. */
 static bool count_costs(struct view_mode *s, const struct frame *frame)
 {
-    uint64_t generation = s->session->world.generation;
+    uint64_t generation = s->session->engine.world.generation;
     struct error ignored;
     struct world w;
 

@@ -138,6 +138,38 @@ bool options_adaptive(const struct options *o)
            (!o->no_adaptive && (o->error_limit > 0 || is_filtered));
 }
 
+struct engine_options options_engine(const struct options *o)
+{
+    return (struct engine_options){
+        .scene_path = o->scene_path,
+        .view_path = o->view_path,
+        .scene = {.up = o->up,
+                  .thread_count = options_threads(o),
+                  .camera = o->camera,
+                  .choice = o->choice,
+                  .view_lines = o->view_lines},
+        .width_px = o->width_px,
+        .height_px = o->height_px,
+        .has_max_bounces = o->has_max_bounces,
+        .max_bounces = o->max_bounces,
+        .has_sun = o->has_sun,
+        .sun_azimuth_deg = o->sun_azimuth_deg,
+        .sun_elevation_deg = o->sun_elevation_deg,
+        .turbidity = o->turbidity,
+        .has_crop = o->has_crop,
+        .crop = o->crop,
+        .seed = o->seed,
+        .is_adaptive = options_adaptive(o),
+        .wants_filter = o->denoise,
+        .drops_tree = o->batch,
+        .kernel = o->paths,
+        .device = {.program = "/proc/self/exe",
+                   .device = o->device,
+                   .kernels_path = o->kernels_path,
+                   .needs_gpu = o->backend == BACKEND_AUTO},
+    };
+}
+
 bool options_output_is_video(const struct options *o)
 {
     return o->output_path && o->text_cols == 0 &&

@@ -15,8 +15,7 @@
 
 #include "base/error.h"
 #include "base/library_child.h"
-#include "render/render_loop.h"
-#include "load/scene_format.h"
+#include "engine/engine.h"
 #include "terminal/term_caps.h"
 #include "session/keymap.h"
 
@@ -176,6 +175,9 @@ struct render_limits options_limits(const struct options *o);
 
 /* Returns the number of CPU threads. */
 int options_threads(const struct options *o);
+
+/* Returns what the engine takes of them. */
+struct engine_options options_engine(const struct options *o);
 
 /* Names of enum show_kind in batch mode, and of enum aov_kind, ending with
  * NULL. */

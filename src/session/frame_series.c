@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/frame_series.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,7 +63,7 @@ static void number_names(struct frame_series *f)
     *o = *f->given;
     if (f->default_path != NULL)
         o->output_path = f->default_path;
-    if (f->session->video.process == 0)
+    if (f->video.process == 0)
         number_name(f, 0, &o->output_path);
     number_name(f, 1, &o->denoise_path);
     number_name(f, 2, &o->error_map_path);
@@ -87,7 +88,7 @@ static bool find_keys(struct frame_series *f, struct error *err)
            fail(err,
                 "--fly: found %d numbered view%s in %s, expected at least 2",
                 f->key_count, print_plural((uint64_t)f->key_count),
-                f->session->view_path);
+                f->session->engine.view_path);
 }
 
 /* Returns the name of the scene as that of a picture in the current folder. */
@@ -124,8 +125,8 @@ static bool find_output(struct frame_series *f, struct error *err)
         return true;
     if (!session_check_output(s, "-o", path, err) || !file_check(path, err))
         return false;
-    if (video_pipe_open(&s->video, path, s->crop.width, s->crop.height,
-                        f->given->fps, &is_missing, err))
+    if (video_pipe_open(&f->video, path, s->engine.crop.width,
+                        s->engine.crop.height, f->given->fps, &is_missing, err))
         return true;
     if (!is_missing)
         return false;
@@ -156,7 +157,8 @@ bool frame_series_begin(struct frame_series *f, struct session *s,
     f->present = f->first - 1;
     if (o->fly_count > 0 && !find_keys(f, err))
         return false;
-    if (o->fly_count == 0 && o->turntable_count == 0 && !s->scene.has_choices)
+    if (o->fly_count == 0 && o->turntable_count == 0 &&
+        !s->engine.scene.has_choices)
         return fail(err,
                     "--frames: found no animation in %s, expected a glTF "
                     "file, --turntable or --fly",
@@ -223,32 +225,30 @@ int frame_series_done(const struct frame_series *f)
     return f->present - f->first;
 }
 
-struct glim_progress frame_series_progress(const struct frame_series *f,
-                                           const struct glim_progress *frame,
-                                           uint64_t now_ns)
+struct render_left frame_series_left(const struct frame_series *f,
+                                     struct render_left frame, uint64_t now_ns)
 {
-    struct glim_progress all = *frame;
     int done = frame_series_done(f), count = frame_series_count(f);
-    double spent_s = seconds_between(f->frame_begin_ns, now_ns);
-    double mean_s =
-        frame->seconds_left < 0 ? -1 : spent_s + frame->seconds_left;
+    bool is_known = frame.limit != RENDER_LIMIT_NONE;
+    double spent_ns = (double)(now_ns - f->frame_begin_ns);
+    double mean_ns = spent_ns + frame.ns;
+    double left_ns = frame.ns;
 
+    frame.part = (done + frame.part) / count;
     if (done > 0)
-        mean_s = seconds_between(f->begin_ns, f->frame_begin_ns) / done;
-    all.part_done = (done + frame->part_done) / count;
-    if (mean_s >= 0) {
-        double left_s =
-            frame->seconds_left >= 0 ? frame->seconds_left : mean_s - spent_s;
-
-        all.seconds_left =
-            (left_s > 0 ? left_s : 0) + mean_s * (count - done - 1);
-    }
-    return all;
+        mean_ns = (double)(f->frame_begin_ns - f->begin_ns) / done;
+    else if (!is_known)
+        return frame;
+    if (!is_known)
+        left_ns = fmax(mean_ns - spent_ns, 0);
+    frame.limit = is_known ? frame.limit : RENDER_LIMIT_SPP;
+    frame.ns = left_ns + mean_ns * (count - done - 1);
+    return frame;
 }
 
 bool frame_series_close(struct frame_series *f, struct error *err)
 {
-    return video_pipe_close(&f->session->video, err);
+    return video_pipe_close(&f->video, err);
 }
 
 void frame_series_end(struct frame_series *f)

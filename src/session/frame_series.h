@@ -15,9 +15,9 @@
 #ifndef GLIM_FRAME_SERIES_H
 #define GLIM_FRAME_SERIES_H
 
-#include "glim/glim.h"
-
+#include "render/render_left.h"
 #include "session/session.h"
+#include "session/video_pipe.h"
 
 struct frame_series {
     struct session *session;
@@ -28,8 +28,9 @@ struct frame_series {
     int key_count;
     int first, last, present; /* numbers of frames */
     uint64_t begin_ns, frame_begin_ns;
-    char *default_path; /* without -o or ffmpeg; NULL: not needed */
-    char *names[4];     /* of the files of the present frame */
+    struct video_pipe video; /* if it is open */
+    char *default_path;      /* without -o or ffmpeg; NULL: not needed */
+    char *names[4];          /* of the files of the present frame */
 };
 
 /* Returns true if the options ask for several frames. */
@@ -51,12 +52,10 @@ bool frame_series_next(struct frame_series *f, struct error *err);
 int frame_series_count(const struct frame_series *f);
 int frame_series_done(const struct frame_series *f);
 
-/* Returns the progress of all frames from that of the present one: the time
- * left takes the frames to come for as long as the mean of those that are
- * done. */
-struct glim_progress frame_series_progress(const struct frame_series *f,
-                                           const struct glim_progress *frame,
-                                           uint64_t now_ns);
+/* Returns what is left of all frames, from what is left of the present one:
+ * the frames to come take the mean time of those that are done. */
+struct render_left frame_series_left(const struct frame_series *f,
+                                     struct render_left frame, uint64_t now_ns);
 
 /* Ends the video, if there is one. */
 bool frame_series_close(struct frame_series *f, struct error *err);

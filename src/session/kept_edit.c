@@ -92,7 +92,7 @@ static bool take_materials(struct kept *k, const struct session *s,
     }
     k->parts[KEPT_MATERIALS] = list;
     k->sizes[KEPT_MATERIALS] = strlen(list);
-    ok = mtl_rewrite(&s->scene, path, head, strlen(head), changes, count,
+    ok = mtl_rewrite(&s->engine.scene, path, head, strlen(head), changes, count,
                      &k->parts[KEPT_MTL], &k->sizes[KEPT_MTL], err);
     free(names);
     free(maps);
@@ -215,7 +215,7 @@ static void find_assigned(const struct session *s, const struct view *view,
         assigned[i] = NO_INDEX;
     for (size_t i = 0; i < view->assigns.count; i++) {
         const struct assign *a = &view->assigns.items[i];
-        uint32_t object = scene_find_object(&s->scene, a->object);
+        uint32_t object = scene_find_object(&s->engine.scene, a->object);
         uint32_t material = edit_find_material(&s->edit, a->material);
 
         if (object != NO_INDEX && material != NO_INDEX)

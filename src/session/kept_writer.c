@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "picture/film_file.h"
 #include "session/kept_folder.h"
-#include "session/session_film.h"
+#include "engine/engine_film.h"
 
 bool kept_writer_init(struct kept_writer *w, struct error *err)
 {
@@ -27,8 +27,8 @@ static bool copy_film(struct kept_writer *w, struct copy *c)
     size_t size;
 
     if (!film_copy(&c->film, render_film(w->render), &w->error) ||
-        !session_film_hash(&w->world, w->options, &w->header.identity,
-                           &w->error))
+        !engine_film_hash(&w->world, w->kernels_path, &w->header.identity,
+                          &w->error))
         return false;
     /* after the copy, whose samples may depend on them */
     shares = render_shares(w->render);
@@ -95,25 +95,27 @@ static void work(void *context)
     kept_prune(w->path, KEPT_DAYS_MAX, KEPT_BYTES_MAX);
 }
 
-bool kept_writer_begin(struct kept_writer *w, const struct session *s,
-                       struct kept *k, const char *path, bool has_film,
-                       struct error *err)
+bool kept_writer_begin(struct kept_writer *w, struct session *s, struct kept *k,
+                       const char *path, bool has_film, struct error *err)
 {
-    const struct film *film = render_film(s->render);
+    struct engine *e = &s->engine;
+    struct view view = edit_view(&s->edit);
+    const struct film *film = render_film(e->render);
     uint64_t pixels = (uint64_t)film->width * (uint64_t)film->height;
 
     w->kept = *k;
     *k = (struct kept){.scene = NULL}; /* the writer owns it now */
     w->path = path;
-    w->render = s->render;
-    w->options = s->options;
+    w->render = e->render;
+    w->kernels_path = s->options->kernels_path;
     w->is_film_left_out =
         has_film && pixels * FILM_PIXEL_BYTES > KEPT_COPY_BYTES_MAX;
     w->has_film = has_film && !w->is_film_left_out;
     w->header =
-        session_film_header(s, render_progress(s->render).spp_limit, &w->range);
+        engine_film_header(e, &view, 0, render_progress(e->render).spp_limit,
+                           &w->range);
     if ((!w->has_film ||
-         session_film_describe(s, &w->header.identity, &w->world, err)) &&
+         engine_film_describe(e, &view, &w->header.identity, &w->world, err)) &&
         copy_thread_begin(&w->copying, work, w, path, err))
         return true;
     kept_free(&w->kept);

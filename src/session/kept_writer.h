@@ -29,7 +29,7 @@ struct kept_writer {
     const char *path;
     bool has_film;
     struct render *render;
-    const struct options *options;
+    const char *kernels_path;
     struct world world;
     struct film_header header;
     struct film_range range;
@@ -44,9 +44,8 @@ bool kept_writer_init(struct kept_writer *w, struct error *err);
 /* Starts to write a session, with the film of the render if has_film. Frees
  * `k`, at the end or after a failure. `path` is the caller's until the end.
  * Nothing is being written. */
-bool kept_writer_begin(struct kept_writer *w, const struct session *s,
-                       struct kept *k, const char *path, bool has_film,
-                       struct error *err);
+bool kept_writer_begin(struct kept_writer *w, struct session *s, struct kept *k,
+                       const char *path, bool has_film, struct error *err);
 
 /* Blocks until the file is written. Returns false, with the error, if it, or
  * its film, is not. *is_film_left_out says that the film is too large. */

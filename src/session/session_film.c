@@ -3,16 +3,13 @@
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/thread.h"
-#include "scene/world_hash.h"
-#include "render/film_describe.h"
-#include "opencl/cl_source.h"
+#include "engine/engine_film.h"
 
 /* ---- shares ---- */
 
@@ -64,70 +61,20 @@ static bool check_share(const struct options *o, struct error *err)
                 o->share_index, o->share_count, o->spp);
 }
 
-/* ---- header ---- */
-
-bool session_film_describe(const struct session *s, struct film_identity *id,
-                           struct world *world, struct error *err)
-{
-    struct view view = edit_view(&s->edit);
-
-    *id = film_describe_identity(&view, s->crop, s->options->seed,
-                                 session_features(s),
-                                 options_adaptive(s->options));
-    return world_lend(&s->world, &s->scene, &view, s->options->seed, world,
-                      err);
-}
-
-bool session_film_hash(const struct world *world, const struct options *o,
-                       struct film_identity *id, struct error *err)
-{
-    char *kernels = cl_source_text(o->kernels_path, err);
-
-    if (kernels == NULL)
-        return false;
-    world_hash(world, id->hashes);
-    id->hashes[FILM_KERNELS] = cl_source_hash(kernels);
-    free(kernels);
-    return true;
-}
-
-bool session_film_identify(const struct session *s, struct film_identity *id,
-                           struct error *err)
-{
-    struct world world;
-
-    return session_film_describe(s, id, &world, err) &&
-           session_film_hash(&world, s->options, id, err);
-}
-
-struct film_header session_film_header(const struct session *s, uint64_t total,
-                                       struct film_range *range)
-{
-    struct render_progress p = render_progress(s->render);
-    struct film_header h = film_describe_header(&p, s->options->scene_path,
-                                                s->first_sample, total, range);
-
-    h.tone = session_develop(s).tone;
-    return h;
-}
-
 /* ---- write ---- */
 
-static const uint16_t *shares_of(void *context)
-{
-    return render_shares(context);
-}
-
-static bool write_file(const struct session *s, const char *path,
+static bool write_file(const struct session_film *f, const char *path,
                        struct error *err)
 {
+    const struct session *s = f->session;
+    struct view view = edit_view(&s->edit);
     struct film_range range;
     struct film_header h =
-        session_film_header(s, options_limits(s->options).spp, &range);
+        engine_film_header(&s->engine, &view, f->first_sample,
+                           options_limits(s->options).spp, &range);
 
-    h.identity = s->film_identity;
-    return film_file_write(path, &h, render_film(s->render), shares_of,
-                           s->render, err);
+    h.identity = f->identity;
+    return engine_film_write(&s->engine, path, &h, err);
 }
 
 /* Waits for the next checkpoint. Returns false if the thread is to end. The
@@ -153,7 +100,7 @@ static void *watch(void *argument)
         bool ok;
 
         pthread_mutex_unlock(&f->lock);
-        ok = write_file(f->session, o->checkpoint_path, &err);
+        ok = write_file(f, o->checkpoint_path, &err);
         pthread_mutex_lock(&f->lock);
         if (!ok)
             f->error = err;
@@ -204,10 +151,10 @@ bool session_film_write(struct session_film *f, struct error *err)
 {
     const struct options *o = f->session->options;
     struct error film_err;
-    bool has_checkpoint = o->checkpoint_path == NULL ||
-                          write_file(f->session, o->checkpoint_path, err);
+    bool has_checkpoint =
+        o->checkpoint_path == NULL || write_file(f, o->checkpoint_path, err);
 
-    if (o->film_path == NULL || write_file(f->session, o->film_path, &film_err))
+    if (o->film_path == NULL || write_file(f, o->film_path, &film_err))
         return has_checkpoint;
     if (has_checkpoint)
         *err = film_err;
@@ -227,39 +174,38 @@ static bool is_first_run(const struct options *o)
            !file_identify(o->resume_path).exists;
 }
 
-static bool check_range(const struct session *s, const struct film_file *from,
-                        struct error *err)
+static bool check_range(const struct session_film *f, struct error *err)
 {
-    const char *path = s->options->resume_path;
-    const struct film_header *h = &from->header;
+    const char *path = f->session->options->resume_path;
+    const struct film_header *h = &f->from.header;
 
     if (h->range_count != 1)
         return fail(err,
                     "%s: found %zu ranges of samples, expected one: merge it "
                     "with the films that are missing",
                     path, h->range_count);
-    return h->ranges[0].first == s->first_sample ||
+    return h->ranges[0].first == f->first_sample ||
            fail(err,
                 "%s: found samples from %" PRIu64 " on, expected them from "
                 "%" PRIu64 " on (--share)",
-                path, h->ranges[0].first, s->first_sample);
+                path, h->ranges[0].first, f->first_sample);
 }
 
-bool session_film_resume(struct session_film *f, struct error *err)
+bool session_film_resume(struct session_film *f, struct film_file **from,
+                         struct error *err)
 {
-    struct session *s = f->session;
-    const struct options *o = s->options;
+    const struct options *o = f->session->options;
 
-    s->from = NULL;
+    *from = NULL;
     film_file_free(&f->from);
     if (o->resume_path == NULL || is_first_run(o))
         return true;
     if (!film_file_read(&f->from, o->resume_path, err) ||
         !film_identity_check(&f->from.header.identity, o->resume_path,
-                             &s->film_identity, o->scene_path, err) ||
-        !check_range(s, &f->from, err))
+                             &f->identity, o->scene_path, err) ||
+        !check_range(f, err))
         return false;
-    s->from = &f->from;
+    *from = &f->from;
     return true;
 }
 
@@ -267,6 +213,7 @@ bool session_film_begin(struct session_film *f, struct session *s,
                         struct error *err)
 {
     const struct options *o = s->options;
+    struct view view;
 
     *f = (struct session_film){.session = s, .lock_fd = -1};
     pthread_mutex_init(&f->lock, NULL);
@@ -276,11 +223,12 @@ bool session_film_begin(struct session_film *f, struct session *s,
     if (o->checkpoint_path != NULL &&
         (f->lock_fd = file_lock(o->checkpoint_path, err)) < 0)
         return false;
-    s->first_sample = session_film_first(o);
+    f->first_sample = session_film_first(o);
     if (o->checkpoint_path == NULL && o->film_path == NULL &&
         o->resume_path == NULL)
         return true;
-    return session_film_identify(s, &s->film_identity, err);
+    view = edit_view(&s->edit);
+    return engine_film_identify(&s->engine, &view, &f->identity, err);
 }
 
 void session_film_end(struct session_film *f)

@@ -20,8 +20,10 @@
 
 struct session_film {
     struct session *session;
-    struct film_file from; /* of --resume */
-    int lock_fd;           /* keeps the name of --checkpoint locked, or -1 */
+    struct film_identity identity; /* of the picture */
+    uint64_t first_sample;         /* index */
+    struct film_file from;         /* of --resume */
+    int lock_fd; /* keeps the name of --checkpoint locked, or -1 */
     pthread_t thread;
     bool has_thread;
     pthread_mutex_t lock;
@@ -38,9 +40,10 @@ struct session_film {
 bool session_film_begin(struct session_film *f, struct session *s,
                         struct error *err);
 
-/* Reads the film of --resume, if any, for the next start of the render. It must
- * be of the picture that the session renders. */
-bool session_film_resume(struct session_film *f, struct error *err);
+/* Reads the film of --resume, to go on from, which must be of the picture that
+ * the session renders. *from is NULL if there is none. */
+bool session_film_resume(struct session_film *f, struct film_file **from,
+                         struct error *err);
 
 /* Starts the thread that writes the file of --checkpoint every interval.
  * Signals stay blocked in it. */
@@ -56,23 +59,6 @@ void session_film_stop(struct session_film *f);
 /* Writes the files of --checkpoint and --film as the film is now, each even if
  * the other one fails. The render is halted. */
 bool session_film_write(struct session_film *f, struct error *err);
-
-/* Finds what decides the samples of the session's picture. */
-bool session_film_identify(const struct session *s, struct film_identity *id,
-                           struct error *err);
-
-/* The same in two steps: all but the hashes, with the world that they are of;
- * and the hashes, which take a while, on any thread as long as the world stays
- * as it is. */
-bool session_film_describe(const struct session *s, struct film_identity *id,
-                           struct world *world, struct error *err);
-bool session_film_hash(const struct world *world, const struct options *o,
-                       struct film_identity *id, struct error *err);
-
-/* Returns the head of the film as it is now, without its identity; *range
- * becomes its one range. The film has at least these samples from here on. */
-struct film_header session_film_header(const struct session *s, uint64_t total,
-                                       struct film_range *range);
 
 /* Returns the index of the first sample of the options' share. */
 uint64_t session_film_first(const struct options *o);

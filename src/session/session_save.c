@@ -25,8 +25,8 @@ static uint32_t file_of(const struct session *s, uint32_t material)
 
     while (e->copied_from[material] != NO_INDEX)
         material = e->copied_from[material];
-    return s->scene.material_origins[material].file != NO_INDEX
-               ? s->scene.material_origins[material].file
+    return s->engine.scene.material_origins[material].file != NO_INDEX
+               ? s->engine.scene.material_origins[material].file
                : 0;
 }
 
@@ -73,14 +73,14 @@ static bool save_file(struct session *s, uint32_t file,
                       struct file_watch *watch, struct written *written,
                       struct error *err)
 {
-    const char *path = s->scene.mtl_paths[file];
+    const char *path = s->engine.scene.mtl_paths[file];
     struct mtl_change *changes =
         xcalloc(s->edit.material_count, sizeof *changes);
     uint32_t *materials = xcalloc(s->edit.material_count, sizeof *materials);
     size_t count = collect(s, file, changes, materials);
     struct file_change change;
-    bool ok =
-        count == 0 || mtl_save(&s->scene, path, changes, count, &change, err);
+    bool ok = count == 0 ||
+              mtl_save(&s->engine.scene, path, changes, count, &change, err);
 
     if (ok && count > 0) {
         file_watch_replaced(watch, path, &change);
@@ -104,14 +104,14 @@ static bool save_lighting(struct session *s, struct file_watch *watch,
     bool ok;
 
     view_init(&view);
-    ok = access(s->view_path, F_OK) == 0
-             ? view_read(&view, s->view_path, &report, err)
+    ok = access(s->engine.view_path, F_OK) == 0
+             ? view_read(&view, s->engine.view_path, &report, err)
              : (xcheck(view_copy(&view, &s->edit.saved.view)), true);
-    edit_to_view(&s->edit, &s->scene, &view);
-    ok = ok && view_write(&view, s->view_path, &change, err);
+    edit_to_view(&s->edit, &s->engine.scene, &view);
+    ok = ok && view_write(&view, s->engine.view_path, &change, err);
     if (ok) {
         edit_saved_lighting(&s->edit, &view);
-        file_watch_replaced(watch, s->view_path, &change);
+        file_watch_replaced(watch, s->engine.view_path, &change);
     }
     view_free(&view);
     warnings_free(&report);
@@ -124,7 +124,7 @@ void session_view_to_save(const struct session *s, struct view *view)
     xcheck(view_copy(view, &s->edit.now.view) &&
            assigns_copy(&view->assigns, &s->edit.saved.view.assigns));
     view->has_camera = true; /* also a camera that the program placed */
-    edit_to_view(&s->edit, &s->scene, view);
+    edit_to_view(&s->edit, &s->engine.scene, view);
 }
 
 bool session_save_view(struct session *s, struct file_change *change,
@@ -135,7 +135,7 @@ bool session_save_view(struct session *s, struct file_change *change,
 
     session_view_to_save(s, &view);
     view_copy_frame(&view, &s->edit.saved.view);
-    ok = view_write(&view, s->view_path, change, err);
+    ok = view_write(&view, s->engine.view_path, change, err);
     if (ok)
         edit_saved_view(&s->edit, &view);
     view_free(&view);
@@ -163,16 +163,18 @@ bool session_save_edit(struct session *s, struct file_watch *watch, char **what,
     struct written written = {0};
     bool ok = true;
 
-    if (edit_has_unsaved_materials(&s->edit) && s->scene.mtl_path_count == 0)
+    if (edit_has_unsaved_materials(&s->edit) &&
+        s->engine.scene.mtl_path_count == 0)
         return fail(err,
                     "%s: found no MTL file of this scene, expected one to "
                     "write the materials to",
-                    s->scene.path);
-    for (uint32_t i = 0; ok && i < s->scene.mtl_path_count; i++)
+                    s->engine.scene.path);
+    for (uint32_t i = 0; ok && i < s->engine.scene.mtl_path_count; i++)
         ok = save_file(s, i, watch, &written, err);
     ok = ok && (!has_lighting || save_lighting(s, watch, err));
     if (ok)
-        *what = say_written(&written, has_lighting ? s->view_path : NULL);
+        *what =
+            say_written(&written, has_lighting ? s->engine.view_path : NULL);
     free(written.files);
     return ok;
 }

@@ -12,6 +12,7 @@
 #include "base/json.h"
 #include "glim/version.h"
 #include "render/render_left.h"
+#include "render/render_metadata.h"
 
 static void write_number(FILE *to, const char *key, uint64_t value)
 {
@@ -43,7 +44,7 @@ static void write_speeds(FILE *to, const struct speeds *speeds)
 
 static void write_load(FILE *to, const struct session *s, uint64_t render_ns)
 {
-    const struct backend *b = render_backend(s->render);
+    const struct backend *b = render_backend(s->engine.render);
 
     fputs("  \"load\": [", to);
     for (int i = 0; i < s->load.count; i++)
@@ -86,7 +87,7 @@ static void write_progress(FILE *to, const struct session *s,
     write_real(to, "left_s", left.ns * 1e-9, has_left);
     write_speeds(to, &s->speeds);
     write_load(to, s, p->render_ns);
-    write_ranks(to, render_backend(s->render));
+    write_ranks(to, render_backend(s->engine.render));
 }
 
 /* Counts unused materials of files; material 0 is the default one. */
@@ -131,11 +132,11 @@ static void write_error(FILE *to, const struct film_error *e)
                              : "false");
 }
 
-static void write_object(FILE *to, const struct session *s)
+static void write_object(FILE *to, const struct session *s, bool is_denoised)
 {
-    struct render_progress p = render_progress(s->render);
-    const struct film *film = render_film(s->render);
-    const struct backend *backend = render_backend(s->render);
+    struct render_progress p = render_progress(s->engine.render);
+    const struct film *film = render_film(s->engine.render);
+    const struct backend *backend = render_backend(s->engine.render);
     uint64_t now_ns = clock_ns();
 
     fputs("{\n  \"version\": ", to);
@@ -153,7 +154,7 @@ static void write_object(FILE *to, const struct session *s)
     fputs(",\n", to);
     write_number(to, "threads", (uint64_t)backend->thread_count);
     write_number(to, "seed", s->options->seed);
-    write_scene(to, &s->scene, &s->world);
+    write_scene(to, &s->engine.scene, &s->engine.world);
     write_number(to, "tree_bytes", backend->tree_bytes);
     write_number(to, "width", (uint64_t)film->width);
     write_number(to, "height", (uint64_t)film->height);
@@ -162,7 +163,7 @@ static void write_object(FILE *to, const struct session *s)
             p.stopped_by == RENDER_LIMIT_NONE ? "true" : "false");
     write_limit(to, p.stopped_by);
     write_error(to, &p.film_error);
-    fprintf(to, "  \"denoised\": %s,\n", s->is_denoised ? "true" : "false");
+    fprintf(to, "  \"denoised\": %s,\n", is_denoised ? "true" : "false");
     write_number(to, "samples", p.samples);
     write_number(to, "rays", p.rays);
     write_number(to, "non_finite", p.non_finite);
@@ -186,8 +187,8 @@ bool stats_json_check(const char *path, struct error *err)
     return strcmp(path, "-") == 0 || file_check(path, err);
 }
 
-bool stats_json_write(const struct session *s, const char *path,
-                      struct error *err)
+bool stats_json_write(const struct session *s, bool is_denoised,
+                      const char *path, struct error *err)
 {
     char *text = NULL;
     size_t size_bytes = 0;
@@ -196,7 +197,7 @@ bool stats_json_write(const struct session *s, const char *path,
 
     if (!to)
         return fail(err, "%s: %s", path, strerror(errno));
-    write_object(to, s);
+    write_object(to, s, is_denoised);
     if (fclose(to) != 0) {
         ok = fail(err, "%s: %s", path, strerror(errno));
     } else if (strcmp(path, "-") == 0) {

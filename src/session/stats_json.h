@@ -17,7 +17,7 @@
 bool stats_json_check(const char *path, struct error *err);
 
 /* Writes the object to the file, or to standard output for "-". */
-bool stats_json_write(const struct session *s, const char *path,
-                      struct error *err);
+bool stats_json_write(const struct session *s, bool is_denoised,
+                      const char *path, struct error *err);
 
 #endif

@@ -34,13 +34,13 @@ static double aspect_of(const struct camera_control *camera)
 
 static const struct scene *scene_of(const struct camera_control *camera)
 {
-    return &camera->control->session->scene;
+    return &camera->control->session->engine.scene;
 }
 
 void camera_control_init(struct camera_control *camera,
                          struct render_control *control, struct screen *screen)
 {
-    const struct scene *scene = &control->session->scene;
+    const struct scene *scene = &control->session->engine.scene;
 
     *camera = (struct camera_control){.control = control,
                                       .screen = screen,
@@ -74,8 +74,8 @@ static struct surfaces surfaces_of(const struct camera_control *camera)
 {
     const struct session *s = camera->control->session;
 
-    return world_tree(&s->world) != NULL
-               ? (struct surfaces){&s->scene, &s->world}
+    return world_tree(&s->engine.world) != NULL
+               ? (struct surfaces){&s->engine.scene, &s->engine.world}
                : (struct surfaces){0};
 }
 

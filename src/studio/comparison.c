@@ -60,7 +60,7 @@ static void drop(struct comparison *c, int i)
 
 static struct film *film_of(const struct comparison *c)
 {
-    return render_film(c->control->session->render);
+    return render_film(c->control->session->engine.render);
 }
 
 /* Removes renders of another size, as a reload may leave them. */

@@ -29,7 +29,8 @@ void editor_panel_init(struct editor_panel *p, struct render_control *control,
 {
     *p = (struct editor_panel){.control = control, .screen = screen};
     selection_init(&p->selection, &control->session->edit,
-                   &control->session->scene, &control->session->world);
+                   &control->session->engine.scene,
+                   &control->session->engine.world);
 }
 
 void editor_panel_free(struct editor_panel *p)
@@ -63,12 +64,15 @@ bool editor_panel_step(struct editor_panel *p)
     struct error err;
     bool is_new = false;
 
-    if (!p->is_open || !p->shows_ball || material >= s->world.material_count)
+    if (!p->is_open || !p->shows_ball ||
+        material >= s->engine.world.material_count)
         return false;
-    w = world_arrays(&s->world, &s->scene);
+    w = world_arrays(&s->engine.world, &s->engine.scene);
     if (!open_ball(p, &err) ||
-        !material_ball_add(&p->ball, &w, s->world.versions[WORLD_TEXTURES],
-                           &s->world.materials[material], &is_new, &err)) {
+        !material_ball_add(&p->ball, &w,
+                           s->engine.world.versions[WORLD_TEXTURES],
+                           &s->engine.world.materials[material], &is_new,
+                           &err)) {
         render_control_say_error(p->control, err.text);
         p->shows_ball = false;
     }
@@ -104,15 +108,16 @@ void editor_panel_outline(struct editor_panel *p, const struct camera *camera,
     const struct session *s = p->control->session;
     struct outline_choice choice = {p->selection.page == PAGE_OBJECTS,
                                     p->selection.index[p->selection.page]};
-    struct bvh8_world w = {.world = world_arrays(&s->world, &s->scene),
-                           .tree = world_tree(&s->world)};
+    struct bvh8_world w = {.world =
+                               world_arrays(&s->engine.world, &s->engine.scene),
+                           .tree = world_tree(&s->engine.world)};
 
     if (!p->is_open || p->is_in_parameters || w.tree == NULL ||
         p->control->progress.spp_done == 0 || !selection_has_one(&p->selection))
         return;
     w.world.settings.camera = *camera;
-    outline_find(&p->outline, &w, &s->scene, s->world.versions[WORLD_TRIS],
-                 choice, frame);
+    outline_find(&p->outline, &w, &s->engine.scene,
+                 s->engine.world.versions[WORLD_TRIS], choice, frame);
     outline_draw(&p->outline, frame);
 }
 

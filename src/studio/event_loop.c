@@ -280,11 +280,13 @@ static void take_events(struct studio *studio, struct pollfd fds[FDS])
 
 static void wait_for_events(struct studio *studio)
 {
-    const struct cl_start *start = studio->control.session->backends.start;
+    const struct cl_start *start =
+        studio->control.session->engine.backends.start;
     struct pollfd fds[FDS] = {
         [FD_KEYS].fd = STDIN_FILENO,
         [FD_SIGNALS].fd = tty_signal_fd(),
-        [FD_RENDER].fd = render_event_fd(studio->control.session->render),
+        [FD_RENDER].fd =
+            render_event_fd(studio->control.session->engine.render),
         [FD_SAVER].fd = studio->control.saver.copying.event_fd,
         [FD_KEEPER].fd = studio->control.keeping.copying.event_fd,
         [FD_KEEPER_TIMER].fd = studio->keeper.timer_fd,
@@ -347,12 +349,12 @@ static void close_screen(struct studio *studio)
     session_keeper_end(&studio->keeper, is_lost);
     stop_release();
     /* before tty_close(): its end puts back the signal handlers of its start */
-    backends_abandon_device(&studio->control.session->backends);
+    backends_abandon_device(&studio->control.session->engine.backends);
     tty_close(studio->is_gone);
     for (int i = 0; i < studio->control.result_count && !studio->is_gone; i++)
         print_line(stdout, "%s", studio->control.results[i]);
     fflush(stdout);
-    render_halt(studio->control.session->render);
+    render_halt(studio->control.session->engine.render);
 }
 
 /* The render starts first: it works while the terminal is opened. */
@@ -388,7 +390,7 @@ bool event_loop_run(struct session *s, int *status, struct error *err)
         session_keeper_free(&studio.keeper);
         *status = studio.status;
         session_progress(s);
-        ok = !stats_path || stats_json_write(s, stats_path, err);
+        ok = !stats_path || stats_json_write(s, false, stats_path, err);
     }
     workspace_free(&studio.workspace);
     render_control_free(&studio.control);

@@ -46,7 +46,7 @@ static void draw_over(struct inspector *inspector, struct frame *frame)
 
 void inspector_preview(struct inspector *inspector, struct frame *frame)
 {
-    struct render *render = session_of(inspector)->render;
+    struct render *render = session_of(inspector)->engine.render;
 
     view_mode_preview(&inspector->view_mode, render_film(render),
                       render_draft(render),
@@ -68,7 +68,7 @@ void inspector_close_table(struct inspector *inspector)
 void inspector_open_table(struct inspector *inspector)
 {
     const struct session *s = session_of(inspector);
-    const struct world world = world_arrays(&s->world, &s->scene);
+    const struct world world = world_arrays(&s->engine.world, &s->engine.scene);
     const struct overlay_names names = {&world, s->edit.names};
     const char *lines[OVERLAY_TEXT_LINES];
     struct overlay_text legend;
@@ -83,8 +83,9 @@ void inspector_open_table(struct inspector *inspector)
                  inspector->x, inspector->y);
     } else if (draws_path(inspector)) {
         overlay_text_path(&legend,
-                          inspector->drawing == INSPECTOR_NUMBERS ? &s->scene
-                                                                  : NULL,
+                          inspector->drawing == INSPECTOR_NUMBERS
+                              ? &s->engine.scene
+                              : NULL,
                           &names, &inspector->trail, inspector->step);
         snprintf(title, sizeof title, " sample %llu of pixel %u %u - %s %s ",
                  (unsigned long long)inspector->sample, inspector->x,
@@ -132,8 +133,8 @@ static bool is_new_pick(const struct inspector *inspector)
  * point is out of view, it is the middle of the picture. */
 static void find_pixel(struct inspector *inspector)
 {
-    const struct scene *scene = &session_of(inspector)->scene;
-    struct rect r = session_of(inspector)->crop;
+    const struct scene *scene = &session_of(inspector)->engine.scene;
+    struct rect r = session_of(inspector)->engine.crop;
     struct projected at;
 
     inspector->x = (uint32_t)(r.x + r.width / 2);
@@ -258,7 +259,7 @@ void inspector_change(struct inspector *inspector, int by)
 static bool has_picture(struct inspector *inspector)
 {
     if (view_mode_sample(inspector->view_mode.kind) != SAMPLE_LIGHT ||
-        render_progress(session_of(inspector)->render).samples > 0)
+        render_progress(session_of(inspector)->engine.render).samples > 0)
         return true;
     render_control_say(inspector->control, "nothing to save yet");
     return false;
@@ -268,7 +269,7 @@ static bool has_picture(struct inspector *inspector)
 static bool paint_all(struct inspector *inspector, struct frame *frame,
                       struct error *err)
 {
-    struct film *film = render_film(session_of(inspector)->render);
+    struct film *film = render_film(session_of(inspector)->engine.render);
 
     if (!view_mode_picture(&inspector->view_mode, film, frame, err))
         return false;
@@ -278,7 +279,7 @@ static bool paint_all(struct inspector *inspector, struct frame *frame,
 
 static void save_shown_frame(struct inspector *inspector)
 {
-    struct rect r = session_of(inspector)->crop;
+    struct rect r = session_of(inspector)->engine.crop;
     struct frame frame = {0};
     struct error err;
 

@@ -226,7 +226,7 @@ static struct rgb quarter_of(const struct host_world *w,
 static void add_texture(const struct editor_panel *p, const struct sheet *s,
                         uint32_t texture)
 {
-    const struct host_world *w = &p->control->session->world;
+    const struct host_world *w = &p->control->session->engine.world;
     const struct term_caps *d = &s->screen->display;
     const struct texture *t = &w->textures[texture];
     struct cell cells[SWATCH_COLS];

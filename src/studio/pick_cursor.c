@@ -24,7 +24,8 @@ struct rect pick_cursor_shown_rect(const struct pick_cursor *cursor)
 const char *pick_cursor_object_name(const struct pick_cursor *cursor,
                                     uint32_t object)
 {
-    const char *name = cursor->control->session->scene.object_names[object];
+    const char *name =
+        cursor->control->session->engine.scene.object_names[object];
 
     return *name ? name : "no name";
 }
@@ -59,7 +60,7 @@ static struct surfaces surfaces_of(const struct pick_cursor *cursor)
 {
     const struct session *s = cursor->control->session;
 
-    return (struct surfaces){&s->scene, &s->world};
+    return (struct surfaces){&s->engine.scene, &s->engine.world};
 }
 
 static bool pick_cell(const struct pick_cursor *cursor, int col, int row,

@@ -17,7 +17,7 @@
 
 static const struct backend *backend_of(const struct render_control *control)
 {
-    return render_backend(control->session->render);
+    return render_backend(control->session->engine.render);
 }
 
 uint64_t progress_panel_next_ns(const struct progress_panel *panel,

@@ -129,26 +129,30 @@ static void wait_copied(struct render_control *control)
     copy_thread_wait_copied(&control->keeping.copying);
 }
 
-static void begin(struct render_control *control, bool is_step)
+/* Starts a picture, of one step if `steps` is 1, or from the samples of a film
+ * (NULL: none). */
+static void begin(struct render_control *control, uint64_t steps,
+                  struct film_file *from)
 {
-    struct render_limits limits = limits_of(control);
+    struct session_start start = {.limits = limits_of(control),
+                                  .steps = steps,
+                                  .from = from};
     struct error err;
 
     wait_copied(control);
-    if (!(is_step ? session_step(control->session, limits, &err)
-                  : session_restart(control->session, limits, &err)))
+    if (!session_start(control->session, &start, &err))
         render_control_say_error(control, err.text);
     if (control->session->notice[0] != '\0')
         render_control_say_error(control, control->session->notice);
     control->session->notice[0] = '\0';
-    control->is_halted = is_step;
+    control->is_halted = steps > 0;
     control->has_gone_on = false;
     control->saved_samples = 0;
     control->saving_samples = 0; /* both counted the old picture */
     if (control->session->files_version != control->watched_version)
         watch_files(control); /* another sky image */
     control->restarted_ns = clock_ns();
-    control->progress = render_progress(control->session->render);
+    control->progress = render_progress(control->session->engine.render);
     control->progress.first_picture_ns = 0; /* found by the next update */
 }
 
@@ -159,7 +163,7 @@ bool render_control_is_outdated(const struct render_control *control)
 
 static void restart(struct render_control *control)
 {
-    begin(control, false);
+    begin(control, 0, NULL);
 }
 
 bool render_control_init(struct render_control *control,
@@ -182,7 +186,7 @@ bool render_control_init(struct render_control *control,
     }
     file_watch_init(&control->watch);
     watch_files(control);
-    control->progress = render_progress(session->render);
+    control->progress = render_progress(session->engine.render);
     return true;
 }
 
@@ -199,12 +203,12 @@ bool render_control_awaits_picture(const struct render_control *control)
 static void replace_device(struct render_control *control)
 {
     struct session *s = control->session;
-    bool has_cpu = session_uses_device(s);
+    bool has_cpu = engine_uses_device(&s->engine);
     char *text = xformat("%s%s", control->progress.error.text,
                          has_cpu ? "; the CPU renders" : "");
 
     if (has_cpu) {
-        render_set_backend(s->render, s->backends.cpu);
+        render_set_backend(s->engine.render, s->engine.backends.cpu);
         restart(control);
     }
     render_control_say_error(control, text);
@@ -293,7 +297,7 @@ void render_control_restart_if_outdated(struct render_control *control)
 bool render_control_has_unsaved(const struct render_control *control)
 {
     return !control->is_live && control->is_started &&
-           render_progress(control->session->render).samples >
+           render_progress(control->session->engine.render).samples >
                control->saved_samples;
 }
 
@@ -333,18 +337,18 @@ void render_control_set_live(struct render_control *control, bool is_live)
         restart(control);
         return;
     }
-    render_halt(control->session->render);
+    render_halt(control->session->engine.render);
     render_control_say(control,
                        "normal mode: %s starts the render, %s goes back",
                        render_control_key(control, ACTION_START).text,
                        render_control_key(control, ACTION_MODE).text);
 }
 
-static void start_normal(struct render_control *control, bool is_step)
+static void start_normal(struct render_control *control, uint64_t steps)
 {
     control->is_started = true;
     render_control_clear_message(control);
-    begin(control, is_step);
+    begin(control, steps, NULL);
 }
 
 static void say_done(struct render_control *control)
@@ -357,11 +361,11 @@ static void say_done(struct render_control *control)
 
 void render_control_start_or_halt(struct render_control *control)
 {
-    struct render *render = control->session->render;
+    struct render *render = control->session->engine.render;
 
     control->has_changed = true;
     if (!control->is_live && !control->is_started) {
-        start_normal(control, false);
+        start_normal(control, 0);
     } else if (control->progress.state == RENDER_RUNNING) {
         render_halt(render);
         control->is_halted = true;
@@ -376,11 +380,11 @@ void render_control_start_or_halt(struct render_control *control)
 
 void render_control_step(struct render_control *control)
 {
-    struct render *render = control->session->render;
+    struct render *render = control->session->engine.render;
 
     control->has_changed = true;
     if (!control->is_live && !control->is_started) {
-        start_normal(control, true);
+        start_normal(control, 1);
         return;
     }
     control->is_halted = render_step(render);
@@ -405,9 +409,7 @@ void render_control_go_on(struct render_control *control, bool is_live,
     control->has_changed = true;
     control->is_live = is_live;
     control->is_started = !is_live;
-    control->session->from = from;
-    restart(control);
-    control->session->from = NULL;
+    begin(control, 0, from);
     control->has_gone_on = from != NULL;
 }
 
@@ -415,9 +417,9 @@ void render_control_go_on(struct render_control *control, bool is_live,
 
 static void use_backend(struct render_control *control, struct backend *backend)
 {
-    struct backends *m = &control->session->backends;
+    struct backends *m = &control->session->engine.backends;
 
-    render_set_backend(control->session->render, backend);
+    render_set_backend(control->session->engine.render, backend);
     restart(control);
     if (backend == m->device)
         render_control_say(control, "%s renders; self-test: %s",
@@ -428,9 +430,11 @@ static void use_backend(struct render_control *control, struct backend *backend)
 
 void render_control_begin_device(struct render_control *control)
 {
+    struct engine *e = &control->session->engine;
+    struct cl_request request = engine_request(e, FEATURES_ALL);
     struct error err;
 
-    if (!backends_begin_device(&control->session->backends, FEATURES_ALL, &err))
+    if (!backends_begin_device(&e->backends, &request, &err))
         render_control_say_error(control, err.text);
     else
         control->awaits_device =
@@ -439,11 +443,11 @@ void render_control_begin_device(struct render_control *control)
 
 void render_control_switch_backend(struct render_control *control)
 {
-    struct backends *m = &control->session->backends;
+    struct backends *m = &control->session->engine.backends;
 
     if (!render_control_need_live(control, "the backend changes"))
         return;
-    if (session_uses_device(control->session)) {
+    if (engine_uses_device(&control->session->engine)) {
         use_backend(control, m->cpu);
     } else if (m->device != NULL) {
         use_backend(control, m->device);
@@ -471,7 +475,7 @@ static void add_log(struct render_control *control, const char *log)
 
 void render_control_end_device(struct render_control *control)
 {
-    struct backends *m = &control->session->backends;
+    struct backends *m = &control->session->engine.backends;
     struct error err;
     char *log;
 
@@ -531,7 +535,7 @@ void render_control_reload(struct render_control *control)
 /* Shows the number of warnings and the first one. */
 static void say_loaded(struct render_control *control)
 {
-    const struct warnings *r = &control->session->report;
+    const struct warnings *r = &control->session->engine.report;
     uint64_t count = 0;
 
     for (int i = 0; i < r->entry_count; i++)
@@ -540,7 +544,8 @@ static void say_loaded(struct render_control *control)
         render_control_say(control, "loaded, %" PRIu64 " warning%s: %s", count,
                            print_plural((uint64_t)count), r->entries[0].text);
     else
-        render_control_say(control, "loaded %s", control->session->scene.path);
+        render_control_say(control, "loaded %s",
+                           control->session->engine.scene.path);
 }
 
 bool render_control_end_reload(struct render_control *control)

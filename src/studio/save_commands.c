@@ -14,7 +14,8 @@
 /* Returns the scene's file name without folder and extension, for free(). */
 static char *scene_name(const struct render_control *control)
 {
-    char *stem = xchecked(path_stem_of_input(control->session->scene.path));
+    char *stem =
+        xchecked(path_stem_of_input(control->session->engine.scene.path));
     char *name = xstrdup(path_name(stem));
 
     free(stem);
@@ -31,8 +32,10 @@ static void say_saved(struct render_control *control, char *text)
 
 void save_picture(struct render_control *control, const char *ending)
 {
-    struct render_progress now = render_progress(control->session->render);
-    struct image_metadata metadata = session_metadata(control->session, false);
+    struct render_progress now =
+        render_progress(control->session->engine.render);
+    struct image_metadata metadata =
+        engine_metadata(&control->session->engine, false);
     struct error err;
     char *stem;
 
@@ -42,14 +45,15 @@ void save_picture(struct render_control *control, const char *ending)
     }
     stem = scene_name(control);
     if (save_thread_begin(&control->saver,
-                          render_film(control->session->render),
+                          render_film(control->session->engine.render),
                           session_develop(control->session), &metadata, stem,
                           ending, &err)) {
         control->saving_samples = now.samples;
         snprintf(control->saving_what, sizeof control->saving_what,
                  "%dx%d, %" PRIu64 " spp",
-                 render_film(control->session->render)->width,
-                 render_film(control->session->render)->height, now.spp_done);
+                 render_film(control->session->engine.render)->width,
+                 render_film(control->session->engine.render)->height,
+                 now.spp_done);
         render_control_say_long(control, "saving ...");
     } else {
         render_control_say_error(control, err.text);
@@ -135,11 +139,12 @@ void save_view(struct render_control *control)
         render_control_say_error(control, err.text);
         return;
     }
-    file_watch_wrote(&control->watch, s->view_path, &change.after);
-    say_saved(control, xformat("wrote the view to %s%s%s%s", s->view_path,
-                               change.is_kept ? ", the old one is " : "",
-                               change.is_kept ? path_name(s->view_path) : "",
-                               change.is_kept ? "~" : ""));
+    file_watch_wrote(&control->watch, s->engine.view_path, &change.after);
+    say_saved(control,
+              xformat("wrote the view to %s%s%s%s", s->engine.view_path,
+                      change.is_kept ? ", the old one is " : "",
+                      change.is_kept ? path_name(s->engine.view_path) : "",
+                      change.is_kept ? "~" : ""));
 }
 
 bool save_edit(struct render_control *control)

@@ -18,15 +18,15 @@ static int smaller(int a, int b)
 /* Returns true if the draft has the size that the next one will have. */
 static bool is_current(const struct session *s, const struct film *draft)
 {
-    return draft->width == smaller(s->draft_width, s->crop.width) &&
-           draft->height == smaller(s->draft_height, s->crop.height);
+    return draft->width == smaller(s->draft_width, s->engine.crop.width) &&
+           draft->height == smaller(s->draft_height, s->engine.crop.height);
 }
 
 void screen_draft_fit(struct render_control *control,
                       const struct screen *screen)
 {
     struct session *s = control->session;
-    const struct film *young = render_draft(s->render);
+    const struct film *young = render_draft(s->engine.render);
 
     screen_draft_expect(s, &screen->fit);
     if (s->is_filtered)

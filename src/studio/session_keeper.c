@@ -11,7 +11,7 @@
 #include "picture/film_file.h"
 #include "terminal/xmalloc.h"
 #include "session/kept_history.h"
-#include "session/session_film.h"
+#include "engine/engine_film.h"
 
 /* Least render time for which a picture is kept. */
 #define WORTH_NS UINT64_C(5000000000)
@@ -79,7 +79,7 @@ void session_keeper_init(struct session_keeper *k,
 static bool is_film_worth(const struct session_keeper *k)
 {
     const struct session *s = k->control->session;
-    struct render_progress p = render_progress(s->render);
+    struct render_progress p = render_progress(s->engine.render);
 
     return p.render_ns >= WORTH_NS && p.spp_done > 0 &&
            s->sample == SAMPLE_LIGHT && !s->edit.is_comparing &&
@@ -90,7 +90,8 @@ static bool is_film_worth(const struct session_keeper *k)
 static bool is_written(struct session_keeper *k, const struct kept *kept,
                        bool has_film)
 {
-    uint64_t samples = render_progress(k->control->session->render).samples;
+    uint64_t samples =
+        render_progress(k->control->session->engine.render).samples;
     uint64_t hash = HASH_BEGIN;
     bool is_same;
 
@@ -219,11 +220,12 @@ static bool take_film(struct session_keeper *k, const struct kept *kept,
                       struct error *err)
 {
     struct session *s = k->control->session;
+    struct view view = edit_view(&s->edit);
     struct film_identity identity;
     struct film_file film = {0};
     bool ok = film_file_parse(&film, k->path, kept->parts[KEPT_FILM],
                               kept->sizes[KEPT_FILM], err) &&
-              session_film_identify(s, &identity, err) &&
+              engine_film_identify(&s->engine, &view, &identity, err) &&
               film_identity_check(&film.header.identity, k->path, &identity,
                                   s->options->scene_path, err);
 

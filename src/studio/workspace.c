@@ -65,7 +65,7 @@ static uint64_t later(uint64_t a, uint64_t b)
 
 static const struct film *film_of(const struct workspace *workspace)
 {
-    return render_film(workspace->control->session->render);
+    return render_film(workspace->control->session->engine.render);
 }
 
 void workspace_refresh(struct workspace *workspace)
@@ -79,7 +79,8 @@ void workspace_refresh(struct workspace *workspace)
 void workspace_expect(struct session *s)
 {
     struct cells_rect fit =
-        screen_expect(&s->options->display, s->crop.width, s->crop.height);
+        screen_expect(&s->options->display, s->engine.crop.width,
+                      s->engine.crop.height);
 
     screen_draft_expect(s, &fit);
 }
@@ -300,7 +301,8 @@ static void update_status(struct workspace *workspace, uint64_t now_ns)
 {
     const struct render_control *control = workspace->control;
     const struct film *film = film_of(workspace);
-    const struct backend *backend = render_backend(control->session->render);
+    const struct backend *backend =
+        render_backend(control->session->engine.render);
     struct keymap_name load = render_control_key(control, ACTION_RELOAD);
     struct keymap_name help = render_control_key(control, ACTION_HELP);
     struct keymap_name quit = render_control_key(control, ACTION_QUIT);
@@ -412,8 +414,8 @@ static void compare(struct workspace *workspace)
 {
     struct session *session = workspace->control->session;
 
-    film_preview(render_film(session->render), NULL, session_develop(session),
-                 &workspace->frame);
+    film_preview(render_film(session->engine.render), NULL,
+                 session_develop(session), &workspace->frame);
     comparison_paint(&workspace->comparison, &workspace->frame);
 }
 

@@ -39,7 +39,7 @@ static _Noreturn void stop(const struct error *err)
 /* Processor time of all workers, which other programs hardly disturb. */
 static uint64_t cpu_ns(const struct session *s)
 {
-    const struct backend *b = render_backend(s->render);
+    const struct backend *b = render_backend(s->engine.render);
     uint64_t sum_ns = 0;
 
     for (int i = 0; i < b->thread_count; i++)
@@ -59,7 +59,7 @@ static double rate(struct session *s, uint32_t more_features, struct rect crop,
 
     if (!render_crop(s, crop, spp, 0, more_features, &err))
         stop(&err);
-    *p = render_progress(s->render);
+    *p = render_progress(s->engine.render);
     return (double)p->samples * 1e3 / (double)(cpu_ns(s) - begin_ns);
 }
 

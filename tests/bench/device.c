@@ -25,13 +25,13 @@ static double rate(struct session *s, struct backend *backend)
     struct render_progress p;
     struct error err;
 
-    render_set_backend(s->render, backend);
+    render_set_backend(s->engine.render, backend);
     if (!session_restart(s, (struct render_limits){.spp = SPP}, &err)) {
         fprintf(stderr, "device: %s\n", err.text);
         exit(1);
     }
-    render_wait(s->render, -1);
-    p = render_progress(s->render);
+    render_wait(s->engine.render, -1);
+    p = render_progress(s->engine.render);
     return (double)p.samples * 1e3 / (double)(p.render_ns - p.build_ns);
 }
 
@@ -65,9 +65,9 @@ static void bench(const char *path, int threads)
         fprintf(stderr, "device: %s\n", err.text);
         exit(1);
     }
-    backends[CPU] = s.backends.cpu;
+    backends[CPU] = s.engine.backends.cpu;
     backends[FULL] = open_device(FEATURES_ALL);
-    backends[SPECIAL] = open_device(world_features(&s.world));
+    backends[SPECIAL] = open_device(world_features(&s.engine.world));
     for (int i = 0; i < CONTESTANTS; i++)
         rate(&s, backends[i]); /* loads code and data */
     for (int i = 0; i < ROUNDS; i++)
@@ -77,7 +77,7 @@ static void bench(const char *path, int threads)
     double full = median(rates[FULL], ROUNDS);
     printf("%-28s %7.3f %7.3f %7.2f %9.2f\n", path, cpu, full, full / cpu,
            median(rates[SPECIAL], ROUNDS) / full);
-    render_set_backend(s.render, backends[CPU]);
+    render_set_backend(s.engine.render, backends[CPU]);
     backends[FULL]->destroy(backends[FULL]);
     backends[SPECIAL]->destroy(backends[SPECIAL]);
     session_close(&s);

@@ -35,12 +35,12 @@ static double time_frame(struct session *s, struct screen_filter *filter,
         double begin = used_ms(), time;
 
         if (filter == NULL)
-            film_preview(render_film(s->render), render_draft(s->render),
+            film_preview(render_film(s->engine.render), render_draft(s->engine.render),
                          develop_linear(0), frame);
         else
-            screen_filter_show(filter, render_film(s->render),
-                               render_draft(s->render),
-                               render_surfaces(s->render), develop_linear(0),
+            screen_filter_show(filter, render_film(s->engine.render),
+                               render_draft(s->engine.render),
+                               render_surfaces(s->engine.render), develop_linear(0),
                                form, frame);
         time = used_ms() - begin;
         least = time < least ? time : least;
@@ -71,16 +71,16 @@ static bool time_size(struct session *s, int width, int height,
     screen_filter_draft_size(width, height, &s->draft_width, &s->draft_height);
     if (!session_restart(s, (struct render_limits){0}, err))
         return false;
-    while (render_progress(s->render).samples == 0)
-        render_wait(s->render, 1);
-    render_halt(s->render);
-    film_clear(render_film(s->render));
+    while (render_progress(s->engine.render).samples == 0)
+        render_wait(s->engine.render, 1);
+    render_halt(s->engine.render);
+    film_clear(render_film(s->engine.render));
     time_frames(s, "draft", &frame);
     if (!session_restart(s, (struct render_limits){0}, err))
         return false;
-    while (render_progress(s->render).spp_done < 2)
-        render_wait(s->render, 1);
-    render_halt(s->render);
+    while (render_progress(s->engine.render).spp_done < 2)
+        render_wait(s->engine.render, 1);
+    render_halt(s->engine.render);
     time_frames(s, "film of 2 samples", &frame);
     frame_free(&frame);
     return true;

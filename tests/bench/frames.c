@@ -69,7 +69,7 @@ static uint64_t picture_ns(struct session *s, uint64_t spp)
         fprintf(stderr, "frames: %s\n", err.text);
         exit(1);
     }
-    render_wait(s->render, -1);
+    render_wait(s->engine.render, -1);
     return clock_ns() - begin_ns;
 }
 
@@ -110,7 +110,7 @@ static void small_picture(const char *path, int bounces, uint64_t spp,
 
     open_scene(&s, path, SMALL_WIDTH, SMALL_HEIGHT, bounces, seed);
     picture_ns(&s, spp);
-    film_linear(render_film(s.render), rgb);
+    film_linear(render_film(s.engine.render), rgb);
     session_close(&s);
 }
 

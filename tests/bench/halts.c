@@ -38,13 +38,13 @@ static void print_row(const char *what, uint64_t *times_ns, int count)
 /* Chooses the available OpenCL device. */
 static bool use_device(struct session *s, struct error *err)
 {
-    struct cl_request request = {.features = world_features(&s->world)};
+    struct cl_request request = {.features = world_features(&s->engine.world)};
     char *log;
 
-    s->backends.device = backend_cl_create(&request, &log, err);
-    if (s->backends.device == NULL)
+    s->engine.backends.device = backend_cl_create(&request, &log, err);
+    if (s->engine.backends.device == NULL)
         return false;
-    render_set_backend(s->render, s->backends.device);
+    render_set_backend(s->engine.render, s->engine.backends.device);
     return true;
 }
 
@@ -66,7 +66,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "halts: %s\n", argc < 2 ? "no scene" : err.text);
         return 1;
     }
-    while (render_progress(s.render).first_picture_ns == 0)
+    while (render_progress(s.engine.render).first_picture_ns == 0)
         usleep(1000); /* the tree is built */
     s.draft_width = 120;
     s.draft_height = 80;
@@ -76,14 +76,14 @@ int main(int argc, char **argv)
         random = random * 6364136223846793005u + 1442695040888963407u;
         usleep(1000 + (useconds_t)(random >> 33) % 20000);
         begin = clock_ns();
-        render_halt(s.render);
+        render_halt(s.engine.render);
         halts[i] = clock_ns() - begin;
         begin = clock_ns();
         if (!session_restart(&s, (struct render_limits){0}, &err)) {
             fprintf(stderr, "halts: %s\n", err.text);
             return 1;
         }
-        while (render_progress(s.render).first_picture_ns == 0)
+        while (render_progress(s.engine.render).first_picture_ns == 0)
             usleep(50);
         restarts[i] = clock_ns() - begin;
     }

@@ -41,8 +41,8 @@ static bool draw(struct session *s, struct frame *frame, struct cells *cells,
         1e-4;
     if (!session_restart(s, (struct render_limits){0}, err))
         return false;
-    render_wait(s->render, -1);
-    film_preview(render_film(s->render), render_draft(s->render),
+    render_wait(s->engine.render, -1);
+    film_preview(render_film(s->engine.render), render_draft(s->engine.render),
                  develop_linear(0), frame);
     cells_from_frame(cells, frame, PALETTE_24BIT, GLYPHS_UPPER);
     return true;

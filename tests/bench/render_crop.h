@@ -17,17 +17,17 @@ static inline bool render_crop(struct session *s, struct rect crop,
                                uint64_t spp, uint32_t seed,
                                uint32_t more_features, struct error *err)
 {
-    struct render_job job = {.host = &s->world,
+    struct render_job job = {.host = &s->engine.world,
                              .crop = crop,
                              .limits.spp = spp};
 
-    if (!world_lend(&s->world, &s->scene, &s->edit.now.view, seed, &job.world,
+    if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view, seed, &job.world,
                     err))
         return false;
     job.world.settings.features |= more_features;
-    if (!render_start(s->render, &job, err))
+    if (!render_start(s->engine.render, &job, err))
         return false;
-    return render_wait(s->render, -1);
+    return render_wait(s->engine.render, -1);
 }
 
 #endif

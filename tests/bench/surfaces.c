@@ -105,7 +105,7 @@ int main(int argc, char **argv)
     if (!session_open(&s, &o, clock_ns(), &err))
         stop(&err);
     render(&s, strtoull(argv[2], NULL, 10));
-    film = render_film(s.render);
+    film = render_film(s.engine.render);
     write_film(film, argv[3], "raw");
     write_filtered(film, argv[3]);
     write_features(film, argv[3]);

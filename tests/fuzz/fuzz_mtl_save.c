@@ -48,13 +48,14 @@ static void check_maps(const struct session *a, const struct material *m,
         require((p == NO_INDEX) == (q == NO_INDEX), "a map");
         if (p == NO_INDEX)
             continue;
-        require(strcmp(a->scene.texture_paths[p], b->scene.texture_paths[q]) ==
-                    0,
-                a->scene.texture_paths[p]);
-        require(memcmp(&a->scene.textures[p].scale, &b->scene.textures[q].scale,
+        require(strcmp(a->engine.scene.texture_paths[p],
+                       b->engine.scene.texture_paths[q]) == 0,
+                a->engine.scene.texture_paths[p]);
+        require(memcmp(&a->engine.scene.textures[p].scale,
+                       &b->engine.scene.textures[q].scale,
                        sizeof(struct texture) -
                            offsetof(struct texture, scale)) == 0,
-                a->scene.texture_paths[p]);
+                a->engine.scene.texture_paths[p]);
     }
 }
 
@@ -76,7 +77,7 @@ static void edit(struct session *s, const uint8_t *bytes)
     struct edit *e = &s->edit;
     uint32_t material = bytes[0] % e->material_count;
     struct selection target = {.edit = e,
-                               .scene = &s->scene,
+                               .scene = &s->engine.scene,
                                .page = PAGE_MATERIALS,
                                .index = {material}};
     struct parameter list[PARAMETERS_MAX];
@@ -114,7 +115,7 @@ static void check_saved(const struct session *s, const struct options *options)
     load(&back, options);
     for (uint32_t i = 0; i < s->edit.material_count; i++) {
         const char *name = s->edit.names[i];
-        uint32_t other = mtl_find(&back.scene, name);
+        uint32_t other = mtl_find(&back.engine.scene, name);
         struct material m, n;
 
         if (!s->edit.now.is_there[i])
@@ -125,7 +126,7 @@ static void check_saved(const struct session *s, const struct options *options)
         n = material_of(&back, other);
         check_material(s, &m, &back, &n, name);
     }
-    require(there == back.scene.material_count, "as many materials");
+    require(there == back.engine.scene.material_count, "as many materials");
     session_close(&back);
 }
 

@@ -13,8 +13,8 @@ static void render(struct session *s)
 
     require(session_restart(s, (struct render_limits){.spp = 1}, &err),
             err.text);
-    render_wait(s->render, -1);
-    p = render_progress(s->render);
+    render_wait(s->engine.render, -1);
+    p = render_progress(s->engine.render);
     require(p.state == RENDER_DONE, p.error.text);
     require(p.non_finite == 0, "finite samples");
 }
@@ -35,7 +35,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         render(&s);
     else
         fuzz_check_message(err.text);
-    fuzz_check_report(&s.report);
+    fuzz_check_report(&s.engine.report);
     session_close(&s);
     free(path);
     return 0;

@@ -291,16 +291,16 @@ static inline void extremes_close(struct extremes *x)
 static inline bool extremes_render(struct extremes *x, struct session *s,
                                    int which, uint32_t number, float *first)
 {
-    struct render_job job = {.host = &s->world,
-                             .crop = s->crop,
+    struct render_job job = {.host = &s->engine.world,
+                             .crop = s->engine.crop,
                              .limits.spp = EXTREMES_SPP};
     struct render *render = x->renders[which];
     float rgb[EXTREMES_NUMBERS];
     struct render_progress p;
     struct error err;
 
-    if (!world_lend(&s->world, &s->scene, &s->edit.now.view, number, &job.world,
-                    &err))
+    if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view,
+                    number, &job.world, &err))
         return true; /* the camera is out of the world's range */
     if (!render_start(render, &job, &err) || !render_wait(render, 60000)) {
         printf("scene %u: does not end\n", number);
@@ -364,13 +364,13 @@ static inline bool extremes_conclude(struct film *film, uint32_t number)
 static inline bool extremes_filter(struct extremes *x, struct session *s,
                                    uint32_t number)
 {
-    struct render_job job = {.host = &s->world,
-                             .crop = s->crop,
+    struct render_job job = {.host = &s->engine.world,
+                             .crop = s->engine.crop,
                              .limits.spp = EXTREMES_SPP};
     struct error err;
 
-    if (!world_lend(&s->world, &s->scene, &s->edit.now.view, number, &job.world,
-                    &err))
+    if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view,
+                    number, &job.world, &err))
         return true; /* the camera is out of the world's range */
     job.world.settings.features |= FEATURE_FILTER;
     if (!render_start(x->renders[0], &job, &err) ||

@@ -63,7 +63,7 @@ static void begin(struct session *s, uint64_t spp, uint32_t seed,
                   bool is_adaptive)
 {
     struct render_job job = {
-        .host = &s->world,
+        .host = &s->engine.world,
         .crop = {(s->options->width_px - WIDTH) / 2,
                  (s->options->height_px - HEIGHT) / 2, WIDTH, HEIGHT},
         .limits.spp = spp,
@@ -71,20 +71,20 @@ static void begin(struct session *s, uint64_t spp, uint32_t seed,
     };
     struct error err;
 
-    if (!world_lend(&s->world, &s->scene, &s->edit.now.view, seed, &job.world,
+    if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view, seed, &job.world,
                     &err))
         stop(&err);
     job.world.settings.features |= FEATURE_FILTER;
-    if (!render_start(s->render, &job, &err))
+    if (!render_start(s->engine.render, &job, &err))
         stop(&err);
-    render_wait(s->render, -1);
+    render_wait(s->engine.render, -1);
 }
 
 /* Goes on to a number of samples. */
 static void go_on(struct session *s, uint64_t spp)
 {
-    render_resume(s->render, (struct render_limits){.spp = spp});
-    render_wait(s->render, -1);
+    render_resume(s->engine.render, (struct render_limits){.spp = spp});
+    render_wait(s->engine.render, -1);
 }
 
 static void filter(struct session *s, float *rgb)
@@ -92,7 +92,7 @@ static void filter(struct session *s, float *rgb)
     struct film to;
     struct error err;
 
-    if (!film_filter_copy(render_film(s->render), usable_threads(), &to, &err))
+    if (!film_filter_copy(render_film(s->engine.render), usable_threads(), &to, &err))
         stop(&err);
     film_linear(&to, rgb);
     film_free(&to);
@@ -124,9 +124,9 @@ static double find_truth(struct session *s, float *truth)
     double sum = 0;
 
     begin(s, REFERENCE_SPP, 101, false);
-    film_linear(render_film(s->render), truth);
+    film_linear(render_film(s->engine.render), truth);
     begin(s, REFERENCE_SPP, 102, false);
-    film_linear(render_film(s->render), other);
+    film_linear(render_film(s->engine.render), other);
     for (int i = 0; i < NUMBERS; i++) {
         double half = ((double)truth[i] - other[i]) / 2;
 
@@ -144,7 +144,7 @@ static double check_picture(struct session *s, const float *truth, double own,
     static float raw[NUMBERS], clean[NUMBERS];
     double before, after, change;
 
-    film_linear(render_film(s->render), raw);
+    film_linear(render_film(s->engine.render), raw);
     filter(s, clean);
     before = rel_mse(raw, truth) - own;
     after = rel_mse(clean, truth) - own;
@@ -246,7 +246,7 @@ static void check_furnace(void)
 
             go_on(&s, counts[i]);
             filter(&s, clean);
-            error = standard_error(render_film(s.render));
+            error = standard_error(render_film(s.engine.render));
             row(fabs(mean_of(clean) - 1) <= FURNACE_ERRORS * error, "filter",
                 "furnace, %d spp%s: mean %.6f, standard error %.2g",
                 (int)counts[i], adaptive ? " adaptive" : "", mean_of(clean),

@@ -114,8 +114,8 @@ static inline void region_render(const char *scene,
                          &err))
         print_error("%s\n", err.text);
     assert_string_equal(err.text, "");
-    render_wait(s.render, -1);
-    film_linear(render_film(s.render), rgb);
+    render_wait(s.engine.render, -1);
+    film_linear(render_film(s.engine.render), rgb);
     session_close(&s);
     for (int y = 0; y < side_px; y++)
         for (int x = 0; x < side_px; x++)

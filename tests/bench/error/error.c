@@ -185,7 +185,7 @@ static bool start(struct render *r, const struct render_job *job,
 static bool take_picture(struct measurement *m, bool is_filtered,
                          double *seconds, struct error *err)
 {
-    struct film *film = render_film(m->session.render), filtered;
+    struct film *film = render_film(m->session.engine.render), filtered;
     uint64_t begin_ns = clock_cpu_ns();
 
     *seconds = 0;
@@ -208,22 +208,22 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
 {
     struct session *s = &m->session;
     struct render_job job = {.world = *world,
-                             .host = &s->world,
+                             .host = &s->engine.world,
                              .crop = {0, 0, s->edit.now.view.width_px,
                                       s->edit.now.view.height_px},
                              .limits.spp = 1,
                              .is_adaptive = extra == ADAPTIVE};
     double seconds = 0, filter_seconds, error = 0;
 
-    if (!start(s->render, &job, err)) /* builds the tree, loads the code */
+    if (!start(s->engine.render, &job, err)) /* builds the tree, loads the code */
         return false;
     for (int i = 0; i < POINTS; i++) {
         uint64_t begin_ns = clock_cpu_ns();
 
         if (i > 0) {
-            render_resume(s->render, (struct render_limits){.spp = 1ull << i});
-            render_wait(s->render, -1);
-        } else if (!start(s->render, &job, err)) {
+            render_resume(s->engine.render, (struct render_limits){.spp = 1ull << i});
+            render_wait(s->engine.render, -1);
+        } else if (!start(s->engine.render, &job, err)) {
             return false;
         }
         seconds += seconds_between(begin_ns, clock_cpu_ns());
@@ -247,7 +247,7 @@ static bool measure_round(struct measurement *m, int technique, int round,
     struct curve *c = &m->curves[technique];
     struct world world;
 
-    if (!world_lend(&s->world, &s->scene, &s->edit.now.view, (uint32_t)round,
+    if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view, (uint32_t)round,
                     &world, err))
         return false;
     c->is_measured = matters(t, &world.settings);
@@ -260,7 +260,7 @@ static bool measure_round(struct measurement *m, int technique, int round,
     if (t->extra == UNGUIDED)
         path_guide_lend(&(struct path_guide){.cells = NULL}, &world);
     world.settings.direct = t->direct;
-    render_set_backend(s->render, m->bench->backends[technique]);
+    render_set_backend(s->engine.render, m->bench->backends[technique]);
     return measure_world(m, c, round, &world, t->extra, err);
 }
 
@@ -373,7 +373,7 @@ static bool find_reference(struct measurement *m, const struct subject *subject,
 
 static bool build_whole_sky(struct measurement *m, struct error *err)
 {
-    const struct host_world *host = &m->session.world;
+    const struct host_world *host = &m->session.engine.world;
 
     return host->sky_texels == NULL ||
            sky_table_build(&m->whole_sky, host->sky_texels, host->sky_width,
@@ -397,7 +397,7 @@ static bool measure_scene(const struct bench *bench,
 
     m->bench = bench;
     ok = session_open(&m->session, &o, clock_ns(), err) &&
-         world_guide(&m->session.world, &m->session.scene,
+         world_guide(&m->session.engine.world, &m->session.engine.scene,
                      &m->session.edit.now.view, err) &&
          find_reference(m, subject, err) && build_whole_sky(m, err);
     if (ok) {

@@ -123,19 +123,19 @@ static bool is_fresh(const char *path, const char *scene_path)
 static bool render_half(struct session *s, enum direct direct, int half,
                         const char *path, struct error *err)
 {
-    struct render_job job = {.host = &s->world,
+    struct render_job job = {.host = &s->engine.world,
                              .crop = {0, 0, s->edit.now.view.width_px,
                                       s->edit.now.view.height_px},
                              .limits.spp = HALF_SPP};
 
-    if (!world_lend(&s->world, &s->scene, &s->edit.now.view,
+    if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view,
                     SEED_OF_HALVES + (uint32_t)half, &job.world, err))
         return false;
     job.world.settings.direct = direct;
-    if (!render_start(s->render, &job, err))
+    if (!render_start(s->engine.render, &job, err))
         return false;
-    render_wait(s->render, -1);
-    return image_write(render_film(s->render), develop_linear(0), NULL, path,
+    render_wait(s->engine.render, -1);
+    return image_write(render_film(s->engine.render), develop_linear(0), NULL, path,
                        err);
 }
 

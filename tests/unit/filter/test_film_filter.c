@@ -373,18 +373,18 @@ static void few_samples_are_not_filtered(void **state)
 static void render(struct session *s, uint64_t spp, uint32_t seed,
                    bool is_for_filter)
 {
-    struct render_job job = {.host = &s->world,
+    struct render_job job = {.host = &s->engine.world,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .limits.spp = spp};
     struct error err;
 
-    check_or_say(world_lend(&s->world, &s->scene, &s->edit.now.view, seed,
-                            &job.world, &err),
+    check_or_say(world_lend(&s->engine.world, &s->engine.scene,
+                            &s->edit.now.view, seed, &job.world, &err),
                  err.text);
     if (is_for_filter)
         job.world.settings.features |= FEATURE_FILTER;
-    check_or_say(render_start(s->render, &job, &err), err.text);
-    assert_true(render_wait(s->render, 300000));
+    check_or_say(render_start(s->engine.render, &job, &err), err.text);
+    assert_true(render_wait(s->engine.render, 300000));
 }
 
 static double rel_mse(const float *a, const float *truth)
@@ -429,11 +429,11 @@ static void scenes_lose_their_noise(void **state)
 
         check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
         render(&s, check_is_thorough() ? 400 : 200, 1, false);
-        film_linear(render_film(s.render), truth);
+        film_linear(render_film(s.engine.render), truth);
         render(&s, 8, 2, true);
-        film_linear(render_film(s.render), raw);
-        clean = filtered(render_film(s.render), NULL);
-        same = filtered(render_film(s.render), pool);
+        film_linear(render_film(s.engine.render), raw);
+        clean = filtered(render_film(s.engine.render), NULL);
+        same = filtered(render_film(s.engine.render), pool);
         assert_memory_equal(clean, same, 3 * WIDTH * HEIGHT * sizeof *clean);
         print_message("%s: relMSE %.3g, filtered %.3g\n", scenes[i],
                       rel_mse(raw, truth), rel_mse(clean, truth));

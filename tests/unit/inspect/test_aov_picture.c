@@ -33,7 +33,7 @@ static void render(const char *path, enum aov_kind kind, struct rect crop)
     view_mode_init(&show, &s);
     check_or_say(view_mode_need_tree(&show, &err), err.text);
     assert_true(view_mode_world(&show, &world));
-    struct aov_picture a = {kind, &s.scene, &world, crop};
+    struct aov_picture a = {kind, &s.engine.scene, &world, crop};
     aov_picture_render(&a, view_mode_pool(&show), numbers);
     view_mode_free(&show);
     session_close(&s);

@@ -96,8 +96,8 @@ static void recorded_paths_are_the_render_s(void **state)
         int bright = 0;
 
         check_or_say(session_open(&s, &options, clock_ns(), &err) &&
-                         world_lend(&s.world, &s.scene, &s.edit.now.view, 3, &w,
-                                    &err) &&
+                         world_lend(&s.engine.world, &s.engine.scene,
+                                    &s.edit.now.view, 3, &w, &err) &&
                          bvh_build(&bvh, &w, NULL, &err),
                      err.text);
         w.nodes = bvh.nodes;

@@ -48,9 +48,9 @@ static void draw_draft(struct session *s, struct view_mode *show,
     s->draft_width = WIDTH;
     s->draft_height = HEIGHT;
     check_or_say(session_restart(s, (struct render_limits){0}, &err), err.text);
-    assert_true(render_wait(s->render, 60000));
-    film = render_film(s->render);
-    draft = render_draft(s->render);
+    assert_true(render_wait(s->engine.render, 60000));
+    film = render_film(s->engine.render);
+    draft = render_draft(s->engine.render);
     assert_non_null(draft);
     view_mode_preview(show, film, draft, NULL, frame);
 }
@@ -129,7 +129,7 @@ static void render(struct session *s, uint64_t spp)
 
     check_or_say(session_restart(s, (struct render_limits){.spp = spp}, &err),
                  err.text);
-    assert_true(render_wait(s->render, 60000));
+    assert_true(render_wait(s->engine.render, 60000));
 }
 
 /* Errors are those of film_error.h, in the colours of --error-map. With one
@@ -153,16 +153,17 @@ static void errors_are_those_of_the_film(void **state)
     assert_true(frame_init(&f, WIDTH, HEIGHT, &err));
     assert_true(view_mode_set(&show, SHOW_ERROR, &err));
     render(&s, 1);
-    view_mode_preview(&light, render_film(s.render), NULL, NULL, &expected);
-    view_mode_preview(&show, render_film(s.render), NULL, NULL, &f);
+    view_mode_preview(&light, render_film(s.engine.render), NULL, NULL,
+                      &expected);
+    view_mode_preview(&show, render_film(s.engine.render), NULL, NULL, &f);
     assert_memory_equal(f.rgb, expected.rgb, 3 * WIDTH * HEIGHT);
     assert_string_equal(show.legend,
                         "ERROR  unknown until each pixel has two samples");
     for (int i = 0; i < 2; i++) {
         options.seed = (uint32_t)i;
         render(&s, 8);
-        view_mode_preview(&show, render_film(s.render), NULL, NULL, &f);
-        assert_true(film_error_map(render_film(s.render),
+        view_mode_preview(&show, render_film(s.engine.render), NULL, NULL, &f);
+        assert_true(film_error_map(render_film(s.engine.render),
                                    session_develop(&s).exposure, NULL, map));
         for (int k = 0; k < WIDTH * HEIGHT; k++)
             frame_dot(&expected, k % WIDTH, k / WIDTH, error_map_color(map[k]));

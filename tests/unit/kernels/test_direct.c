@@ -58,22 +58,22 @@ static void fill_sky_table(struct host_world *host)
 
 static void render_seed(struct session *s, int mode, uint32_t seed, float *rgb)
 {
-    struct render_job job = {.host = &s->world,
+    struct render_job job = {.host = &s->engine.world,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .limits.spp = SPP};
     struct error err;
 
-    check_or_say(world_lend(&s->world, &s->scene, &s->edit.now.view, seed,
-                            &job.world, &err),
+    check_or_say(world_lend(&s->engine.world, &s->engine.scene,
+                            &s->edit.now.view, seed, &job.world, &err),
                  err.text);
     if (mode == UNGUIDED)
         path_guide_lend(&(struct path_guide){.cells = NULL}, &job.world);
     else
         job.world.settings.direct = (uint32_t)mode;
-    check_or_say(render_start(s->render, &job, &err), err.text);
-    assert_true(render_wait(s->render, 300000));
-    assert_int_equal(render_progress(s->render).non_finite, 0);
-    film_linear(render_film(s->render), rgb);
+    check_or_say(render_start(s->engine.render, &job, &err), err.text);
+    assert_true(render_wait(s->engine.render, 300000));
+    assert_int_equal(render_progress(s->engine.render).non_finite, 0);
+    film_linear(render_film(s->engine.render), rgb);
 }
 
 static void measure(struct session *s, int mode, struct outcome *o)
@@ -129,7 +129,7 @@ static void all_techniques_have_the_same_mean(void **state)
         measure(&s, DIRECT_MIS, &outcomes[DIRECT_MIS]);
         measure(&s, DIRECT_BSDF, &outcomes[DIRECT_BSDF]);
         measure(&s, UNGUIDED, &outcomes[UNGUIDED]);
-        fill_sky_table(&s.world);
+        fill_sky_table(&s.engine.world);
         measure(&s, DIRECT_LIGHTS, &outcomes[DIRECT_LIGHTS]);
         for (int k = DIRECT_LIGHTS; k < MODES; k++)
             for (int c = 0; c < 3; c++) {

@@ -34,8 +34,8 @@ static int open_scene(void **state)
 
     (void)state;
     if (session_open(&session, &options, clock_ns(), &err) &&
-        world_lend(&session.world, &session.scene, &session.edit.now.view, 0,
-                   &box, &err))
+        world_lend(&session.engine.world, &session.engine.scene,
+                   &session.edit.now.view, 0, &box, &err))
         return 0;
     print_error("%s\n", err.text);
     return -1;
@@ -61,14 +61,14 @@ static void start(struct host_world *host, const struct world *world,
     struct error err;
 
     job.world.settings.seed = seed;
-    check_or_say(render_start(session.render, &job, &err), err.text);
+    check_or_say(render_start(session.engine.render, &job, &err), err.text);
 }
 
 /* Renders a draft for the filter. */
 static void start_draft_for_filter(uint32_t seed)
 {
     struct render_job job = {.world = box,
-                             .host = &session.world,
+                             .host = &session.engine.world,
                              .crop = {0, 0, SIDE, SIDE},
                              .limits.spp = 1,
                              .draft_width = SIDE,
@@ -77,17 +77,17 @@ static void start_draft_for_filter(uint32_t seed)
     struct error err;
 
     job.world.settings.seed = seed;
-    check_or_say(render_start(session.render, &job, &err), err.text);
-    assert_true(render_wait(session.render, 60000));
+    check_or_say(render_start(session.engine.render, &job, &err), err.text);
+    assert_true(render_wait(session.engine.render, 60000));
 }
 
 /* Renders to the end and returns the film's sums and counts. */
 static void finish(struct sum sums[3 * PIXELS], uint64_t counts[PIXELS])
 {
-    struct film *film = render_film(session.render);
+    struct film *film = render_film(session.engine.render);
 
-    assert_true(render_wait(session.render, 60000));
-    assert_int_equal(render_progress(session.render).state, RENDER_DONE);
+    assert_true(render_wait(session.engine.render, 60000));
+    assert_int_equal(render_progress(session.engine.render).state, RENDER_DONE);
     memcpy(sums, film->sums, 3 * PIXELS * sizeof *sums);
     memcpy(counts, film->counts, PIXELS * sizeof *counts);
 }
@@ -101,15 +101,15 @@ static void halt_in_the_draft(void)
 
     do {
         assert_true(tries++ < 10000);
-        start(&session.world, &box, 30, 31, 40, 1);
-        assert_non_null(render_draft(session.render));
+        start(&session.engine.world, &box, 30, 31, 40, 1);
+        assert_non_null(render_draft(session.engine.render));
         do
-            p = render_progress(session.render);
+            p = render_progress(session.engine.render);
         while (p.draft_samples == 0 && p.state == RENDER_RUNNING);
-        render_halt(session.render);
-        p = render_progress(session.render);
+        render_halt(session.engine.render);
+        p = render_progress(session.engine.render);
     } while (p.samples > 0 || p.draft_samples == DRAFT_SPP * 31 * 40);
-    render_resume(session.render, (struct render_limits){.spp = 30});
+    render_resume(session.engine.render, (struct render_limits){.spp = 30});
 }
 
 /* With and without a draft, and halted at any moment of either, a film has the
@@ -122,38 +122,39 @@ static void films_do_not_depend_on_drafts(void **state)
     struct timespec pause = {0, 0};
 
     (void)state;
-    start(&session.world, &box, 30, 0, 0, 1);
-    assert_null(render_draft(session.render));
+    start(&session.engine.world, &box, 30, 0, 0, 1);
+    assert_null(render_draft(session.engine.render));
     finish(sums[0], counts[0]);
-    p[0] = render_progress(session.render);
+    p[0] = render_progress(session.engine.render);
     halt_in_the_draft();
-    for (int halts = 0; !render_wait(session.render, 0); halts++) {
+    for (int halts = 0; !render_wait(session.engine.render, 0); halts++) {
         nanosleep(&pause, NULL);
         pause.tv_nsec = halts % 20 * 50000;
-        render_halt(session.render);
-        render_resume(session.render, (struct render_limits){.spp = 30});
+        render_halt(session.engine.render);
+        render_resume(session.engine.render, (struct render_limits){.spp = 30});
     }
     finish(sums[1], counts[1]);
-    p[1] = render_progress(session.render);
+    p[1] = render_progress(session.engine.render);
     assert_memory_equal(counts[0], counts[1], sizeof counts[0]);
     assert_memory_equal(sums[0], sums[1], sizeof sums[0]);
     assert_int_equal(p[1].samples, 30 * PIXELS);
     assert_int_equal(p[1].rays, p[0].rays);
     assert_int_equal(p[1].draft_samples, DRAFT_SPP * 31 * 40);
-    assert_null(render_draft(session.render)); /* the film has enough samples */
+    assert_null(
+        render_draft(session.engine.render)); /* the film has enough samples */
 }
 
 /* A draft has at most as many pixels as the film, and as its order supports. */
 static void drafts_are_small(void **state)
 {
     (void)state;
-    start(&session.world, &box, 1, SIDE + 1, 1 << 20, 1);
-    assert_int_equal(render_draft(session.render)->width, SIDE);
-    assert_int_equal(render_draft(session.render)->height, SIDE);
-    start(&session.world, &box, 1, 5, 0, 1);
-    assert_null(render_draft(session.render));
-    assert_true(render_wait(session.render, 60000));
-    assert_int_equal(render_progress(session.render).draft_samples, 0);
+    start(&session.engine.world, &box, 1, SIDE + 1, 1 << 20, 1);
+    assert_int_equal(render_draft(session.engine.render)->width, SIDE);
+    assert_int_equal(render_draft(session.engine.render)->height, SIDE);
+    start(&session.engine.world, &box, 1, 5, 0, 1);
+    assert_null(render_draft(session.engine.render));
+    assert_true(render_wait(session.engine.render, 60000));
+    assert_int_equal(render_progress(session.engine.render).draft_samples, 0);
 }
 
 /* A backend that records its calls of begin. */
@@ -259,9 +260,9 @@ static void render_two(struct host_world *host, const struct world *world,
                        float film[3 * PIXELS])
 {
     start(host, world, DRAFT_SPP, SIDE, SIDE, seed);
-    assert_true(render_wait(session.render, 60000));
-    film_linear(render_draft(session.render), draft);
-    film_linear(render_film(session.render), film);
+    assert_true(render_wait(session.engine.render, 60000));
+    film_linear(render_draft(session.engine.render), draft);
+    film_linear(render_film(session.engine.render), film);
 }
 
 /* Returns the mean of a channel over a quarter of a picture. */
@@ -288,7 +289,7 @@ static void drafts_have_the_films_mean(void **state)
 
     (void)state;
     for (int seed = 0; seed < n; seed++) {
-        render_two(&session.world, &box, (uint32_t)seed, draft, film);
+        render_two(&session.engine.world, &box, (uint32_t)seed, draft, film);
         for (int i = 0; i < 12; i++) {
             double d = quarter_mean(draft, i % 4, i / 4) -
                        quarter_mean(film, i % 4, i / 4);
@@ -368,8 +369,8 @@ static void blurred_drafts_have_less_error(void **state)
     (void)state;
     make_floor(&m);
     start(&m.host, &m.world, 500, 0, 0, 12345);
-    assert_true(render_wait(session.render, 60000));
-    film_linear(render_film(session.render), truth);
+    assert_true(render_wait(session.engine.render, 60000));
+    film_linear(render_film(session.engine.render), truth);
     for (uint32_t seed = 0; seed < 20; seed++) {
         render_two(&m.host, &m.world, seed, draft, film);
         add_errors(&of_draft, draft, truth);
@@ -395,7 +396,7 @@ static void halves_of_drafts_are_independent(void **state)
         struct film *f;
 
         start_draft_for_filter((uint32_t)k);
-        f = render_surfaces(session.render);
+        f = render_surfaces(session.engine.render);
         assert_non_null(f);
         for (int i = 0; i < PIXELS; i++) {
             double odd = (double)sum_float(f->odd_sums[3 * i]);

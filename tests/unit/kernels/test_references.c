@@ -124,9 +124,9 @@ static void compare(const char *scene, const struct truth *truth, int width,
                              &err))
             print_error("%s\n", err.text);
         assert_string_equal(err.text, "");
-        render_wait(s.render, -1);
-        assert_int_equal(render_progress(s.render).non_finite, 0);
-        film_linear(render_film(s.render), rgb);
+        render_wait(s.engine.render, -1);
+        assert_int_equal(render_progress(s.engine.render).non_finite, 0);
+        film_linear(render_film(s.engine.render), rgb);
         region_means(rgb, width, height, false, means);
         for (int i = 0; i < REGIONS; i++) {
             sums[i] += means[i];

@@ -54,15 +54,15 @@ static void render_means(const char *scene, const char *view, double *means,
                         .max_bounces = -1,
                         .batch = true};
     struct session s;
-    struct render_job job = {.host = &s.world, .limits.spp = SPP};
+    struct render_job job = {.host = &s.engine.world, .limits.spp = SPP};
     struct error err;
     float *rgb;
     int count;
 
     check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
-    for (int i = 0; i < s.report.entry_count; i++)
-        print_error("%s\n", s.report.entries[i].text);
-    assert_int_equal(s.report.entry_count, 0);
+    for (int i = 0; i < s.engine.report.entry_count; i++)
+        print_error("%s\n", s.engine.report.entries[i].text);
+    assert_int_equal(s.engine.report.entry_count, 0);
     job.crop.width = s.edit.now.view.width_px;
     job.crop.height = s.edit.now.view.height_px;
     count = s.edit.now.view.width_px * s.edit.now.view.height_px;
@@ -71,13 +71,13 @@ static void render_means(const char *scene, const char *view, double *means,
     memset(means, 0, (size_t)count * sizeof *means);
     memset(errors, 0, (size_t)count * sizeof *errors);
     for (uint32_t seed = 1; seed <= SEEDS; seed++) {
-        check_or_say(world_lend(&s.world, &s.scene, &s.edit.now.view, seed,
-                                &job.world, &err),
+        check_or_say(world_lend(&s.engine.world, &s.engine.scene,
+                                &s.edit.now.view, seed, &job.world, &err),
                      err.text);
-        check_or_say(render_start(s.render, &job, &err), err.text);
-        assert_true(render_wait(s.render, 300000));
-        assert_int_equal(render_progress(s.render).non_finite, 0);
-        film_linear(render_film(s.render), rgb);
+        check_or_say(render_start(s.engine.render, &job, &err), err.text);
+        assert_true(render_wait(s.engine.render, 300000));
+        assert_int_equal(render_progress(s.engine.render).non_finite, 0);
+        film_linear(render_film(s.engine.render), rgb);
         for (int i = 0; i < count; i++) {
             double x = (double)rgb[3 * i];
 

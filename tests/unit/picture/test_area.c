@@ -147,9 +147,9 @@ static void screens_are_the_average_of_files(void **state)
         check_or_say(session_restart(&s, (struct render_limits){.spp = 2},
                                      &err),
                      err.text);
-        assert_true(render_wait(s.render, 60000));
+        assert_true(render_wait(s.engine.render, 60000));
         for (uint32_t tone = 0; tone < TONES; tone++)
-            check_terminals(render_film(s.render),
+            check_terminals(render_film(s.engine.render),
                             (struct develop){0.5f, tone});
         session_close(&s);
     }

@@ -51,18 +51,18 @@ static void chosen_builds_have_the_needed_features(void **state)
 
 static void render(struct session *s, uint32_t more_features, float *rgb)
 {
-    struct render_job job = {.host = &s->world,
+    struct render_job job = {.host = &s->engine.world,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .limits.spp = SPP};
     struct error err;
 
-    check_or_say(world_lend(&s->world, &s->scene, &s->edit.now.view, 1,
-                            &job.world, &err),
+    check_or_say(world_lend(&s->engine.world, &s->engine.scene,
+                            &s->edit.now.view, 1, &job.world, &err),
                  err.text);
     job.world.settings.features |= more_features;
-    check_or_say(render_start(s->render, &job, &err), err.text);
-    assert_true(render_wait(s->render, 60000));
-    film_linear(render_film(s->render), rgb);
+    check_or_say(render_start(s->engine.render, &job, &err), err.text);
+    assert_true(render_wait(s->engine.render, 60000));
+    film_linear(render_film(s->engine.render), rgb);
 }
 
 /* Renders the scene with the build of all features and with each other possible
@@ -82,7 +82,7 @@ static int compare_builds(const char *scene, const struct cpu_kernel *whole)
     int count = 0;
 
     check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
-    features = world_features(&s.world);
+    features = world_features(&s.engine.world);
     render(&s, FEATURES_ALL & ~(uint32_t)FEATURE_COVERAGE, want);
     for (int i = 0; (p = cpu_kernel_build(i)) != NULL; i++) {
         if (p == whole || strcmp(p->name, whole->name) != 0 ||

@@ -40,25 +40,27 @@ static void the_time_left_is_that_of_all_frames(void **state)
                              .present = 6,
                              .begin_ns = 100 * second_ns,
                              .frame_begin_ns = 120 * second_ns};
-    struct glim_progress p = {.part_done = 0.5, .seconds_left = 3}, all;
+    struct render_left left = {RENDER_LIMIT_SPP, 3e9, 0.5}, all;
 
     (void)state;
     assert_int_equal(frame_series_count(&f), 4);
     assert_int_equal(frame_series_done(&f), 2);
-    all = frame_series_progress(&f, &p, 124 * second_ns);
-    check_close(all.part_done, 2.5 / 4, 1e-12);
-    check_close(all.seconds_left, 3 + 10, 1e-9);
-    p.seconds_left = -1; /* not known yet */
-    all = frame_series_progress(&f, &p, 124 * second_ns);
-    check_close(all.seconds_left, 6 + 10, 1e-9);
+    all = frame_series_left(&f, left, 124 * second_ns);
+    check_close(all.part, 2.5 / 4, 1e-12);
+    check_close(all.ns, (3 + 10) * 1e9, 1);
+    left.limit = RENDER_LIMIT_NONE; /* not known yet */
+    left.ns = 0;
+    all = frame_series_left(&f, left, 124 * second_ns);
+    check_close(all.ns, (6 + 10) * 1e9, 1);
     /* the first frame is all that is known of the others */
     f.present = 4;
     f.frame_begin_ns = f.begin_ns;
-    all = frame_series_progress(&f, &p, 101 * second_ns);
-    assert_true(all.seconds_left < 0);
-    p.seconds_left = 4;
-    all = frame_series_progress(&f, &p, 101 * second_ns);
-    check_close(all.seconds_left, 4 + 3 * 5, 1e-9);
+    all = frame_series_left(&f, left, 101 * second_ns);
+    assert_int_equal(all.limit, RENDER_LIMIT_NONE);
+    left.limit = RENDER_LIMIT_TIME;
+    left.ns = 4e9;
+    all = frame_series_left(&f, left, 101 * second_ns);
+    check_close(all.ns, (4 + 3 * 5) * 1e9, 1);
 }
 
 int main(void)

@@ -41,9 +41,9 @@ static void render(struct session *s, float *pixels)
 
     check_or_say(session_restart(s, (struct render_limits){.spp = 2}, &err),
                  err.text);
-    assert_true(render_wait(s->render, 10000));
-    assert_int_equal(render_progress(s->render).state, RENDER_DONE);
-    film_linear(render_film(s->render), pixels);
+    assert_true(render_wait(s->engine.render, 10000));
+    assert_int_equal(render_progress(s->engine.render).state, RENDER_DONE);
+    film_linear(render_film(s->engine.render), pixels);
 }
 
 /* Writes a file, lets the open session take it, and compares with a new
@@ -57,12 +57,13 @@ static void check_reload(struct session *s, const char *name, const char *text,
     uint64_t shape;
 
     render(s, before);
-    shape = s->world.versions[WORLD_SHAPE];
+    shape = s->engine.world.versions[WORLD_SHAPE];
     put(name, text);
     check_or_say(session_load(&fresh, &options, clock_ns(), &err), err.text);
     session_take_loaded(s, &fresh);
     session_close(&fresh);
-    assert_int_equal(s->world.versions[WORLD_SHAPE] == shape, has_same_shape);
+    assert_int_equal(s->engine.world.versions[WORLD_SHAPE] == shape,
+                     has_same_shape);
     render(s, taken);
     session_close(s);
     check_or_say(session_open(s, &options, clock_ns(), &err), err.text);
@@ -108,7 +109,7 @@ static void trees_are_built_only_for_pictures(void **state)
     put("s.mtl", "newmtl m\nKe 1 2 3\n");
     put("s.view", "eye 0 0 5\nat 0 0 0\nres 24 16\nbackground 0 0 0\n");
     check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
-    assert_null(world_tree(&s.world));
+    assert_null(world_tree(&s.engine.world));
     check_reload(&s, "s.mtl", "newmtl m\nKe 3 2 1\n", true);
 }
 
@@ -245,7 +246,7 @@ static void broken_files_leave_the_scene(void **state)
     end_reload(&w);
     assert_true(w.message.is_error);
     assert_non_null(strstr(w.message.text, "s.mtl:2: "));
-    check_close(s.world.materials[1].color.x, .7f, 0);
+    check_close(s.engine.world.materials[1].color.x, .7f, 0);
     look_now(&w);
     assert_false(w.has_changed_files); /* the message appears once */
     put("s.mtl", "newmtl m\nKd .25 0 0\n");
@@ -255,7 +256,7 @@ static void broken_files_leave_the_scene(void **state)
     end_reload(&w);
     assert_false(w.message.is_error);
     assert_string_equal(w.message.text, "loaded s.obj");
-    check_close(s.world.materials[1].color.x, .25, 0);
+    check_close(s.engine.world.materials[1].color.x, .25, 0);
     assert_int_equal(w.progress.state, RENDER_RUNNING);
     close_work(&w, &s);
 }
@@ -284,7 +285,7 @@ static void watched_files_are_loaded_at_once(void **state)
     open_work(&w, &s);
     put("s.mtl", "newmtl m\nKd .25 0 0\n");
     end_reload(&w);
-    check_close(s.world.materials[1].color.x, .25, 0);
+    check_close(s.engine.world.materials[1].color.x, .25, 0);
     /* A render of normal mode that would be lost prevents it. */
     render_control_set_live(&w, false);
     render_control_start_or_halt(&w);
@@ -296,7 +297,7 @@ static void watched_files_are_loaded_at_once(void **state)
     assert_false(w.reload.is_busy);
     render_control_set_live(&w, true);
     end_reload(&w);
-    check_close(s.world.materials[1].color.x, .5, 0);
+    check_close(s.engine.world.materials[1].color.x, .5, 0);
     close_work(&w, &s);
     options.watch = false;
 }

@@ -66,7 +66,7 @@ static void view_files_are_found(void **state)
     open_session(&s, &o);
     assert_true(s.edit.now.view.pose.fovy_deg == 11.0);
     /* The file camera.txt belongs to another program. */
-    assert_string_equal(s.view_path, "s.view");
+    assert_string_equal(s.engine.view_path, "s.view");
     session_close(&s);
 
     put("s.view", CAMERA "fovy 22\n");
@@ -79,7 +79,7 @@ static void view_files_are_found(void **state)
     o.view_path = "o.view";
     open_session(&s, &o);
     assert_true(s.edit.now.view.pose.fovy_deg == 33.0);
-    assert_string_equal(s.view_path, "o.view");
+    assert_string_equal(s.engine.view_path, "o.view");
     session_close(&s);
 }
 
@@ -335,8 +335,8 @@ static void statistics_are_json(void **state)
     o.height_px = 4;
     open_session(&s, &o);
     assert_true(session_restart(&s, (struct render_limits){.spp = 2}, &err));
-    assert_true(render_wait(s.render, 60000));
-    assert_true(stats_json_write(&s, "out.json", &err));
+    assert_true(render_wait(s.engine.render, 60000));
+    assert_true(stats_json_write(&s, false, "out.json", &err));
     session_close(&s);
 
     assert_true(file_read("out.json", &text, &size_bytes, &err));

@@ -71,7 +71,7 @@ static struct film_identity identity_of(const struct options *o)
 
     check_or_say(session_open(&s, o, clock_ns(), &err), err.text);
     check_or_say(session_film_begin(&f, &s, &err), err.text);
-    id = s.film_identity;
+    id = f.identity;
     session_film_end(&f);
     session_close(&s);
     return id;
@@ -210,12 +210,12 @@ static void renders_do_not_wait_for_the_disk(void **state)
     check_or_say(session_film_watch(&f, &err), err.text);
     while (!atomic_load(&is_writing))
         rest();
-    before = render_progress(s.render);
+    before = render_progress(s.engine.render);
     do {
         rest();
-        p = render_progress(s.render);
+        p = render_progress(s.engine.render);
     } while (p.spp_done < before.spp_done + 1000);
-    render_halt(s.render);
+    render_halt(s.engine.render);
     assert_int_equal(access("c.film", F_OK), -1);
     atomic_store(&is_released, true);
     session_film_stop(&f);

@@ -13,7 +13,7 @@
 #include "formats/view_file.h"
 #include "terminal/xmalloc.h"
 #include "session/kept_edit.h"
-#include "session/session_film.h"
+#include "engine/engine_film.h"
 #include "session/session_save.h"
 #include "tests/unit/files.h"
 #include "tests/unit/kinds.h"
@@ -60,7 +60,7 @@ static void restart(struct session *s)
 
     check_or_say(session_restart(s, (struct render_limits){.spp = 1}, &err),
                  err.text);
-    render_wait(s->render, -1);
+    render_wait(s->engine.render, -1);
 }
 
 static char *saved(struct session *s)
@@ -81,12 +81,12 @@ static void save(struct session *s)
 /* Compares the arrays that samples read. */
 static void check_same_world(const struct session *s, const struct session *t)
 {
-    const struct host_world *a = &s->world, *b = &t->world;
-    const struct tri *a_tris = world_tris(a, &s->scene);
-    const struct tri *b_tris = world_tris(b, &t->scene);
+    const struct host_world *a = &s->engine.world, *b = &t->engine.world;
+    const struct tri *a_tris = world_tris(a, &s->engine.scene);
+    const struct tri *b_tris = world_tris(b, &t->engine.scene);
 
-    assert_int_equal(s->scene.tri_count, t->scene.tri_count);
-    for (uint32_t i = 0; i < s->scene.tri_count; i++) {
+    assert_int_equal(s->engine.scene.tri_count, t->engine.scene.tri_count);
+    for (uint32_t i = 0; i < s->engine.scene.tri_count; i++) {
         uint32_t m = a_tris[i].material, n = b_tris[i].material;
 
         assert_string_equal(s->edit.names[m], t->edit.names[n]);
@@ -100,7 +100,8 @@ static void check_same_world(const struct session *s, const struct session *t)
         assert_memory_equal(a->lights.lights, b->lights.lights,
                             a->lights.light_count * sizeof *a->lights.lights);
         assert_memory_equal(a->lights.tri_lights, b->lights.tri_lights,
-                            s->scene.tri_count * sizeof *a->lights.tri_lights);
+                            s->engine.scene.tri_count *
+                                sizeof *a->lights.tri_lights);
     }
     if (a->lights.node_count > 0)
         assert_memory_equal(a->lights.nodes, b->lights.nodes,
@@ -191,11 +192,12 @@ static void edit_the_rest(struct edit *e)
 
 static void check_same_picture(struct session *s, struct session *t)
 {
+    struct view view_s = edit_view(&s->edit), view_t = edit_view(&t->edit);
     struct film_identity a, b;
     struct error err;
 
-    check_or_say(session_film_identify(s, &a, &err), err.text);
-    check_or_say(session_film_identify(t, &b, &err), err.text);
+    check_or_say(engine_film_identify(&s->engine, &view_s, &a, &err), err.text);
+    check_or_say(engine_film_identify(&t->engine, &view_t, &b, &err), err.text);
     check_or_say(film_identity_check(&a, "a", &b, "b", &err), err.text);
 }
 
@@ -278,7 +280,7 @@ static void kept_edits_of_lost_materials_are_counted(void **state)
     check_or_say(kept_edit_restore(&kept, &s, "/tmp/k", &missing, &err),
                  err.text);
     assert_int_equal(missing, 1);
-    source = s.edit.now.sources[mtl_find(&s.scene, "wall")];
+    source = s.edit.now.sources[mtl_find(&s.engine.scene, "wall")];
     assert_true(source.kd.rgb[0] == .25);
     session_close(&s);
     kept_free(&kept);
@@ -354,7 +356,7 @@ static void copies_of_copies_keep_implied_factors(void **state)
             save(&s);
         second = edit_duplicate(&s.edit, copy);
         restart(&s); /* no object has the second copy */
-        check_close((double)s.world.materials[second].color.x, 1, 0);
+        check_close((double)s.engine.world.materials[second].color.x, 1, 0);
         edit_assign(&s.edit, 3, second);
         source = s.edit.now.sources[second];
         step_kind(&source, 2);
@@ -363,8 +365,8 @@ static void copies_of_copies_keep_implied_factors(void **state)
         source.kd_roughness = (struct mtl_number){.5, 1};
         edit_material(&s.edit, copy, &source);
         restart(&s);
-        check_close((double)s.world.materials[copy].color.x, 1, 0);
-        check_close((double)s.world.materials[second].color.x, 1, 0);
+        check_close((double)s.engine.world.materials[copy].color.x, 1, 0);
+        check_close((double)s.engine.world.materials[second].color.x, 1, 0);
         save(&s);
         open_session(&again);
         check_same_world(&s, &again);
@@ -378,7 +380,7 @@ static void copies_of_copies_keep_implied_factors(void **state)
  * 1 << enum world_part, or-ed. */
 static unsigned new_parts(const struct session *s, struct host_world *before)
 {
-    const struct host_world *now = &s->world;
+    const struct host_world *now = &s->engine.world;
     unsigned parts = 0;
 
     for (int i = 0; i < WORLD_PARTS; i++)
@@ -484,7 +486,7 @@ static void message_names_the_saved_files(void **state)
         char *what;
 
         for (size_t k = 0; i < 2 && k <= i; k++) {
-            uint32_t material = mtl_find(&s.scene, names[k]);
+            uint32_t material = mtl_find(&s.engine.scene, names[k]);
             struct mtl_source source = s.edit.now.sources[material];
 
             /* One of them is the colour of a lamp, the other that of glass. */
@@ -520,7 +522,7 @@ static void kinds_leave_nothing_in_files(void **state)
     put_scene();
     open_session(&s);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        uint32_t wall = mtl_find(&s.scene, "wall");
+        uint32_t wall = mtl_find(&s.engine.scene, "wall");
         struct mtl_source source = s.edit.now.sources[wall];
         size_t size_bytes;
         char *text;
@@ -551,12 +553,14 @@ static void assignments_without_names_are_kept(void **state)
     put("s.view", "eye 0 0 5\nat 0 0 0\nassign nobody lamp\n"
                   "assign plain \"no such\"\nassign lamp wall # dim\n");
     open_session(&s);
-    assert_int_equal(s.report.entry_count, 2);
-    check_has(s.report.entries[0].text, "found no object 'nobody' to assign");
-    check_has(s.report.entries[1].text, "found no material 'no such'");
-    tris = world_tris(&s.world, &s.scene);
+    assert_int_equal(s.engine.report.entry_count, 2);
+    check_has(s.engine.report.entries[0].text,
+              "found no object 'nobody' to assign");
+    check_has(s.engine.report.entries[1].text, "found no material 'no such'");
+    tris = world_tris(&s.engine.world, &s.engine.scene);
     assert_int_equal(tris[1].material, tris[2].material);
-    assert_string_equal(s.scene.material_names[tris[1].material], "wall");
+    assert_string_equal(s.engine.scene.material_names[tris[1].material],
+                        "wall");
     restart(&s);
     light = s.edit.now.view.lighting;
     light.exposure = 2;
@@ -617,31 +621,31 @@ static void textures_are_read_when_used(void **state)
     put("a.mtl", text);
     open_session(&s);
     restart(&s);
-    before = s.world.materials[2];
-    textures = s.world.textures;
-    assert_int_equal(s.scene.texture_count, 1);
+    before = s.engine.world.materials[2];
+    textures = s.engine.world.textures;
+    assert_int_equal(s.engine.scene.texture_count, 1);
     assert_int_equal(textures[0].width, 0);
     source = s.edit.now.sources[2];
     source.illum.value = 2;
     edit_material(&s.edit, 2, &source);
     restart(&s);
-    assert_ptr_not_equal(s.world.textures, textures);
-    assert_true(s.world.textures[0].width > 0);
-    assert_int_equal(s.world.materials[2].kind, MATERIAL_PLASTIC);
-    assert_int_equal(s.world.materials[2].specular_texture, 0);
+    assert_ptr_not_equal(s.engine.world.textures, textures);
+    assert_true(s.engine.world.textures[0].width > 0);
+    assert_int_equal(s.engine.world.materials[2].kind, MATERIAL_PLASTIC);
+    assert_int_equal(s.engine.world.materials[2].specular_texture, 0);
     save(&s);
     open_session(&again);
     check_same_world(&s, &again);
     session_close(&again);
     /* Without the texture the colour is used; the next step copies no
      * textures. */
-    textures = s.world.textures;
+    textures = s.engine.world.textures;
     source.maps_off = 1u << MTL_MAP_KS;
     edit_end_step(&s.edit);
     edit_material(&s.edit, 2, &source);
     restart(&s);
-    assert_ptr_equal(s.world.textures, textures);
-    assert_int_equal(s.world.materials[2].kind, MATERIAL_DIFFUSE);
+    assert_ptr_equal(s.engine.world.textures, textures);
+    assert_int_equal(s.engine.world.materials[2].kind, MATERIAL_DIFFUSE);
     save(&s);
     open_session(&again);
     check_same_world(&s, &again);
@@ -649,7 +653,7 @@ static void textures_are_read_when_used(void **state)
     while (edit_undo(&s.edit))
         continue;
     restart(&s);
-    assert_memory_equal(&s.world.materials[2], &before, sizeof before);
+    assert_memory_equal(&s.engine.world.materials[2], &before, sizeof before);
     session_close(&s);
     free(text);
 }

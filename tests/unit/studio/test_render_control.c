@@ -70,7 +70,7 @@ static int close_work(void **state)
 /* Polls until the render has ended, for at most ten seconds. */
 static void run_to_end(struct render_control *w)
 {
-    assert_true(render_wait(w->session->render, 10000));
+    assert_true(render_wait(w->session->engine.render, 10000));
     render_control_update(w);
 }
 
@@ -141,7 +141,7 @@ static void moving_shows_pictures(void **state)
 static void drafts_are_live(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
-    struct render *render = w->session->render;
+    struct render *render = w->session->engine.render;
 
     w->session->draft_width = 20;
     w->session->draft_height = 12;
@@ -262,19 +262,19 @@ static void steps_after_a_halt_make_the_same_picture(void **state)
     f->options.spp = 40;
     render_whole(w);
     assert_int_equal(w->progress.spp_done, 40);
-    film_linear(render_film(w->session->render), whole);
+    film_linear(render_film(w->session->engine.render), whole);
     render_control_restart(w);
     for (int i = 0; i < 10000 && w->progress.state != RENDER_DONE; i++) {
         render_control_step(w);          /* halts the render */
         render_control_start_or_halt(w); /* halts the step */
         if (w->progress.state == RENDER_IDLE)
             render_control_start_or_halt(w);
-        render_wait(w->session->render, 1); /* part of a pass */
+        render_wait(w->session->engine.render, 1); /* part of a pass */
         render_control_update(w);
     }
     run_to_end(w);
     assert_int_equal(w->progress.samples, 40 * 32 * 16);
-    film_linear(render_film(w->session->render), stepped);
+    film_linear(render_film(w->session->engine.render), stepped);
     assert_memory_equal(whole, stepped, sizeof whole);
 }
 
@@ -331,7 +331,7 @@ static void message_describes_the_saved_picture(void **state)
     render_whole(w);
     save_picture(w, "png");
     copy_thread_wait_copied(&w->saver.copying);
-    w->session->crop.width = 20;
+    w->session->engine.crop.width = 20;
     render_control_set_live(w, true);
     assert_true(save_finish(w));
     assert_string_equal(w->results[0], "saved s.png 32x16, 3 spp");
@@ -344,7 +344,7 @@ static void new_pictures_are_unsaved(void **state)
 
     render_control_set_live(w, false);
     render_control_start_or_halt(w);
-    assert_true(render_wait(w->session->render, 10000));
+    assert_true(render_wait(w->session->engine.render, 10000));
     assert_true(render_control_has_unsaved(w));
 }
 
@@ -401,8 +401,8 @@ static void failures_are_messages(void **state)
     struct render_control *w = &((struct fixture *)*state)->control;
     static char path[] = "no-such-folder-of-glim/s.view";
 
-    free(w->session->view_path);
-    w->session->view_path = strdup(path);
+    free(w->session->engine.view_path);
+    w->session->engine.view_path = strdup(path);
     save_view(w);
     assert_true(w->message.is_error);
     assert_non_null(strstr(w->message.text, "no-such-folder-of-glim"));

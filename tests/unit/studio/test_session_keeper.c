@@ -43,7 +43,7 @@ static void begin(struct work *w)
 
 static void end(struct work *w, bool is_lost)
 {
-    render_halt(w->session.render);
+    render_halt(w->session.engine.render);
     session_keeper_end(&w->keeper, is_lost);
     session_keeper_free(&w->keeper);
     render_control_free(&w->control);
@@ -78,7 +78,7 @@ uint64_t __wrap_clock_ns(void)
 static void render_a_while(struct work *w)
 {
     do {
-        render_wait(w->session.render, 100);
+        render_wait(w->session.engine.render, 100);
         render_control_update(&w->control);
     } while (w->control.progress.spp_done == 0);
     clock_ahead_ns += UINT64_C(5100000000);
@@ -143,8 +143,8 @@ static void films_go_on(void **state)
     begin(&w);
     render_a_while(&w);
     set_exposure(&w, 2);
-    render_halt(w.session.render);
-    samples = render_progress(w.session.render).samples;
+    render_halt(w.session.engine.render);
+    samples = render_progress(w.session.engine.render).samples;
     end(&w, true);
     for (int i = 0; i < 2; i++) {
         begin(&w);
@@ -154,7 +154,8 @@ static void films_go_on(void **state)
         session_keeper_go_on(&w.keeper);
         assert_true(w.control.is_live);
         assert_true(w.control.has_gone_on);
-        assert_true(render_progress(w.session.render).samples >= samples);
+        assert_true(render_progress(w.session.engine.render).samples >=
+                    samples);
         check_close(exposure(&w), 2, 0);
         end(&w, true); /* the film is kept again at once */
     }

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "engine/engine.h"
+
+#include <stdlib.h>
+
+#include "filter/film_filter.h"
+#include "render/render_metadata.h"
+
+#include "kernels/features.h"
+
+/* ---- load ---- */
+
+/* Overrides values of the view file by those of the options. */
+static bool apply_options(const struct engine_options *o, struct view *view,
+                          struct error *err)
+{
+    if (o->width_px != 0 || o->height_px != 0)
+        view_set_size(view, o->width_px, o->height_px);
+    if (o->has_max_bounces)
+        view->max_bounces = o->max_bounces;
+    if (o->has_sun &&
+        !view_set_sun(view, o->sun_azimuth_deg, o->sun_elevation_deg, err))
+        return false;
+    return o->turbidity == 0 || view_set_turbidity(view, o->turbidity, err);
+}
+
+bool engine_set_crop(struct engine *e, const struct view *view,
+                     const struct rect *crop, const char *place,
+                     struct error *err)
+{
+    int x = crop->x, y = crop->y, width = crop->width, height = crop->height;
+
+    if (!view_has_part(view, x, y, width, height))
+        return fail(err,
+                    "%s: found %d,%d,%d,%d, expected a part of the picture, "
+                    "which has %dx%d pixels",
+                    place, x, y, width, height, view->width_px,
+                    view->height_px);
+    e->crop = *crop;
+    return true;
+}
+
+void engine_set_whole(struct engine *e, const struct view *view)
+{
+    e->crop = (struct rect){0, 0, view->width_px, view->height_px};
+}
+
+bool engine_load(struct engine *e, const struct engine_options *options,
+                 struct view *view, struct view *file, struct error *err)
+{
+    *e = (struct engine){.options = *options,
+                         .scene = {.program = options->device.program}};
+    if (!view_find(view, options->scene_path, options->view_path, &e->view_path,
+                   &e->report, err))
+        return false;
+    view_copy_frame(file, view);
+    if (!apply_options(options, view, err))
+        return false;
+    engine_set_whole(e, view);
+    return (!options->has_crop ||
+            engine_set_crop(e, view, &options->crop, "--crop", err)) &&
+           scene_open(&e->scene, &e->world, view, options->scene_path,
+                      &options->scene, &e->report, err);
+}
+
+void engine_take_loaded(struct engine *e, struct engine *fresh)
+{
+    bool has_same_shape = scene_has_same_shape(&e->scene, &fresh->scene);
+    struct engine old = *e;
+
+    render_halt(e->render);
+    e->scene = fresh->scene;
+    e->world = fresh->world;
+    e->crop = fresh->crop;
+    e->report = fresh->report;
+    fresh->scene = old.scene;
+    fresh->world = old.world;
+    fresh->crop = old.crop;
+    fresh->report = old.report;
+    if (has_same_shape)
+        world_take_shape(&e->world, &fresh->world);
+}
+
+/* ---- backends ---- */
+
+bool engine_begin(struct engine *e, struct error *err)
+{
+    const struct engine_options *o = &e->options;
+
+    if (e->render != NULL)
+        return true;
+    if (e->backends.device == NULL &&
+        !backends_open(&e->backends, o->kernel, o->scene.thread_count, err))
+        return false;
+    e->render = render_create(e->backends.device != NULL ? e->backends.device
+                                                         : e->backends.cpu,
+                              err);
+    return e->render != NULL;
+}
+
+static void drop_filtered(struct engine *e)
+{
+    film_free(&e->filtered);
+    e->filtered_samples = 0;
+}
+
+void engine_end(struct engine *e)
+{
+    if (e->render != NULL)
+        render_destroy(e->render);
+    e->render = NULL;
+    backends_drop_cpu(&e->backends);
+    drop_filtered(e);
+}
+
+uint32_t engine_features(const struct engine *e)
+{
+    return world_features(&e->world) |
+           (e->options.wants_filter ? (uint32_t)FEATURE_FILTER : 0);
+}
+
+struct cl_request engine_request(const struct engine *e, uint32_t features)
+{
+    struct cl_request request = e->options.device;
+
+    request.features = features;
+    return request;
+}
+
+bool engine_use_device(struct engine *e, const struct view *view, char **log,
+                       struct error *err)
+{
+    struct cl_request request;
+
+    *log = NULL;
+    /* first, since the guide adds a feature that the kernels must have */
+    if (!world_guide(&e->world, &e->scene, view, err))
+        return false;
+    request = engine_request(e, engine_features(e));
+    if (!backends_begin_device(&e->backends, &request, err) ||
+        !backends_end_device(&e->backends, log, err))
+        return false;
+    if (e->render != NULL)
+        render_set_backend(e->render, e->backends.device);
+    return true;
+}
+
+void engine_use_cpu(struct engine *e)
+{
+    render_set_backend(e->render, e->backends.cpu);
+}
+
+bool engine_uses_device(const struct engine *e)
+{
+    return render_backend(e->render) != e->backends.cpu;
+}
+
+/* ---- pictures ---- */
+
+bool engine_prepare(struct engine *e, const struct view *view,
+                    struct render_job *job, struct error *err)
+{
+    *job = (struct render_job){.host = &e->world,
+                               .crop = e->crop,
+                               .exposure = (float)view->lighting.exposure,
+                               .is_adaptive = e->options.is_adaptive};
+    if (!engine_begin(e, err) ||
+        !world_guide(&e->world, &e->scene, view, err) ||
+        !world_lend(&e->world, &e->scene, view, e->options.seed, &job->world,
+                    err))
+        return false;
+    job->world.settings.features = engine_features(e);
+    if (!engine_uses_device(e))
+        return true;
+    if (!e->options.drops_tree)
+        return world_ensure_tree(&e->world, &job->world, NULL, err);
+    world_drop_tree(&e->world);
+    return true;
+}
+
+bool engine_start(struct engine *e, const struct render_job *job,
+                  struct error *err)
+{
+    drop_filtered(e);
+    return render_start(e->render, job, err);
+}
+
+bool engine_can_filter(const struct engine *e)
+{
+    return film_filter_applies(render_film(e->render));
+}
+
+struct film *engine_filtered(struct engine *e, struct error *err)
+{
+    struct film *film = render_film(e->render);
+    uint64_t samples = atomic_load(&film->samples);
+
+    if (e->filtered_samples == samples)
+        return &e->filtered;
+    drop_filtered(e);
+    if (!film_filter_copy(film, e->options.scene.thread_count, &e->filtered,
+                          err))
+        return NULL;
+    e->filtered_samples = samples;
+    return &e->filtered;
+}
+
+struct image_metadata engine_metadata(const struct engine *e, bool is_filtered)
+{
+    struct render_progress p = render_progress(e->render);
+
+    return render_metadata(&p, e->scene.path, e->options.seed, is_filtered);
+}
+
+void engine_close(struct engine *e)
+{
+    engine_end(e); /* first, since the renderer reads the scene */
+    backends_close(&e->backends);
+    world_free(&e->world);
+    scene_free(&e->scene);
+    warnings_free(&e->report);
+    free(e->view_path);
+    *e = (struct engine){.render = NULL};
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+/*
+ * engine.h - an open scene with its world, its backends and the render of its
+ * picture: what libglim, batch mode and the interactive program have in common
+ *
+ * The view belongs to the user of the engine, who may change it between
+ * pictures: libglim has one, the interactive program an edit history.
+ *
+ * Units:     as view.h
+ * Ownership: engine_close() frees all; the texts of the options are the
+ * caller's Threads:   main only; engine_load() any Errors:    engine_load()
+ * names the file
+ */
+#ifndef GLIM_ENGINE_H
+#define GLIM_ENGINE_H
+
+#include "base/warnings.h"
+#include "picture/image_metadata.h"
+#include "scene/world.h"
+#include "render/render_loop.h"
+#include "load/scene_load.h"
+#include "engine/backends.h"
+
+/* What decides a picture besides the files. Zeroed, all is as these say. */
+struct engine_options {
+    const char *scene_path;
+    const char *view_path; /* NULL: beside the scene */
+    struct scene_options scene;
+    /* instead of those of the view: 0 or false where it keeps its own */
+    int width_px, height_px;
+    bool has_max_bounces;
+    int max_bounces; /* -1: no limit */
+    bool has_sun;
+    double sun_azimuth_deg, sun_elevation_deg;
+    double turbidity;
+    bool has_crop;
+    struct rect crop;
+    uint32_t seed;
+    bool is_adaptive;
+    bool wants_filter;               /* films have what the filter needs */
+    bool drops_tree;                 /* beside a device, which has its own */
+    const struct cpu_kernel *kernel; /* NULL: the best */
+    struct cl_request device;        /* features are those of the scene */
+};
+
+struct engine {
+    struct engine_options options;
+    struct scene scene;
+    struct host_world world;
+    char *view_path; /* path of the view file, which may not exist */
+    struct warnings report;
+    struct rect crop; /* part of the picture to render */
+    struct backends backends;
+    struct render *render;     /* NULL before engine_begin() */
+    struct film filtered;      /* of the film with this many samples */
+    uint64_t filtered_samples; /* 0: none */
+};
+
+/* Loads scene, view and sky and applies the options to *view, which is
+ * initialised. *file gets the size and the bounces that the view file has. A
+ * scene without a camera is framed, one without light gets a soft sky. The
+ * caller calls engine_close() also after an error, when the report may have
+ * warnings. */
+bool engine_load(struct engine *e, const struct engine_options *options,
+                 struct view *view, struct view *file, struct error *err);
+
+/* Creates the renderer, idle, unless there is one. */
+bool engine_begin(struct engine *e, struct error *err);
+
+/* Halts, and frees the renderer and the threads of the CPU. */
+void engine_end(struct engine *e);
+
+/* Halts and exchanges the loaded files with `fresh`, a later load of the same
+ * files. Trees that fit are kept. */
+void engine_take_loaded(struct engine *e, struct engine *fresh);
+
+/* Sets the rectangle to render, in a picture of the view's size; `place` is for
+ * messages. Or sets the whole picture. */
+bool engine_set_crop(struct engine *e, const struct view *view,
+                     const struct rect *crop, const char *place,
+                     struct error *err);
+void engine_set_whole(struct engine *e, const struct view *view);
+
+/* Returns the kernel features that pictures need. */
+uint32_t engine_features(const struct engine *e);
+
+/* Returns the request for a device with these features. */
+struct cl_request engine_request(const struct engine *e, uint32_t features);
+
+/* Waits for the device of the options, and lets it render. *log, for free(), is
+ * the output of drivers, or NULL. */
+bool engine_use_device(struct engine *e, const struct view *view, char **log,
+                       struct error *err);
+
+/* Lets the CPU render. */
+void engine_use_cpu(struct engine *e);
+
+/* Returns true if an OpenCL device renders. */
+bool engine_uses_device(const struct engine *e);
+
+/* Describes a picture of the view from sample 0 on, without limits. The
+ * materials are those that the world has. */
+bool engine_prepare(struct engine *e, const struct view *view,
+                    struct render_job *job, struct error *err);
+
+/* Starts a picture that was prepared. */
+bool engine_start(struct engine *e, const struct render_job *job,
+                  struct error *err);
+
+/* Returns true if the film can be filtered. */
+bool engine_can_filter(const struct engine *e);
+
+/* Returns the filtered film, of the samples so far, or NULL on errors. It stays
+ * the engine's, until the next call or start. */
+struct film *engine_filtered(struct engine *e, struct error *err);
+
+/* Returns the metadata of the picture as it is now, or of its filtered copy. */
+struct image_metadata engine_metadata(const struct engine *e, bool is_filtered);
+
+void engine_close(struct engine *e);
+
+#endif
