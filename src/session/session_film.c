@@ -209,19 +209,31 @@ bool session_film_resume(struct session_film *f, struct film_file **from,
     return true;
 }
 
+/* Keeps other programs from writing the films of the options. */
+static bool lock(struct session_film *f, struct error *err)
+{
+    const struct options *o = f->session->options;
+    const char *first = o->checkpoint_path, *second = o->film_path;
+
+    if (first != NULL && (f->lock_fds[0] = file_lock(first, err)) < 0)
+        return false;
+    if (second == NULL || (first != NULL && path_is_same(first, second)))
+        return true;
+    return (f->lock_fds[1] = file_lock(second, err)) >= 0;
+}
+
 bool session_film_begin(struct session_film *f, struct session *s,
                         struct error *err)
 {
     const struct options *o = s->options;
     struct view view;
 
-    *f = (struct session_film){.session = s, .lock_fd = -1};
+    *f = (struct session_film){.session = s, .lock_fds = {-1, -1}};
     pthread_mutex_init(&f->lock, NULL);
     thread_condition_init(&f->end);
     if (!check_share(o, err))
         return false;
-    if (o->checkpoint_path != NULL &&
-        (f->lock_fd = file_lock(o->checkpoint_path, err)) < 0)
+    if (!lock(f, err))
         return false;
     f->first_sample = session_film_first(o);
     if (o->checkpoint_path == NULL && o->film_path == NULL &&
@@ -237,8 +249,9 @@ void session_film_end(struct session_film *f)
         return;
     session_film_stop(f);
     film_file_free(&f->from);
-    if (f->lock_fd >= 0)
-        close(f->lock_fd);
+    for (int i = 0; i < 2; i++)
+        if (f->lock_fds[i] >= 0)
+            close(f->lock_fds[i]);
     pthread_cond_destroy(&f->end);
     pthread_mutex_destroy(&f->lock);
     *f = (struct session_film){.session = NULL};

@@ -23,7 +23,8 @@ struct session_film {
     struct film_identity identity; /* of the picture */
     uint64_t first_sample;         /* index */
     struct film_file from;         /* of --resume */
-    int lock_fd; /* keeps the name of --checkpoint locked, or -1 */
+    /* keep the names of --checkpoint and --film locked; or -1 */
+    int lock_fds[2];
     pthread_t thread;
     bool has_thread;
     pthread_mutex_t lock;
