@@ -40,7 +40,7 @@ static void end_render(struct glim *g)
 bool glim_set_threads(struct glim *g, int count, struct glim_error *err)
 {
     struct error why;
-    int found;
+    int found = 0;
 
     if (!handle_given(g, "handle", err))
         return false;

@@ -10,6 +10,7 @@
 #include "base/decimal.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/name_table.h"
 #include "scene/pose_fit.h"
 #include "scene/world_lamps.h"
 #include "formats/mtl.h"
@@ -417,6 +418,40 @@ static bool take_lamps(const struct scene *scene, struct view *view,
     return true;
 }
 
+/* Adds the files of the lamps' profiles to those of the scene, each once. */
+static bool add_profile_paths(struct scene *scene, const struct lamps *lamps,
+                              struct error *err)
+{
+    const struct profile *before = NULL;
+    struct name_table names = {.items = NULL};
+    char **paths;
+    bool ok = true;
+
+    for (size_t i = 0; ok && i < lamps->count; i++) {
+        const struct profile *p = lamps->items[i].profile;
+
+        if (p != NULL && p != before)
+            ok = name_table_add(&names, p->path) != NO_NAME;
+        before = p;
+    }
+    if (names.count == 0)
+        return ok || fail(err, "%s: out of memory", scene->path);
+    paths =
+        realloc(scene->data_paths,
+                ((size_t)scene->data_path_count + names.count) * sizeof *paths);
+    ok = ok && paths != NULL;
+    if (paths != NULL)
+        scene->data_paths = paths;
+    if (ok) {
+        memcpy(paths + scene->data_path_count, names.items,
+               names.count * sizeof *paths);
+        scene->data_path_count += names.count;
+        names.count = 0; /* the scene has its names now */
+    }
+    name_table_free(&names);
+    return ok || fail(err, "%s: out of memory", scene->path);
+}
+
 bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
                 const char *path, const struct scene_options *options,
                 struct warnings *report, struct error *err)
@@ -432,6 +467,7 @@ bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
         return false;
     has_view_lamps = view->lamps.count > 0;
     if (!take_lamps(scene, view, report, err) ||
+        !add_profile_paths(scene, &view->lamps, err) ||
         !world_init(host, scene, options->thread_count, report, err) ||
         !world_load_sky(host, view, report, err) ||
         !world_set_lamps(host, scene, view, err))
@@ -458,10 +494,6 @@ const char *scene_file(const struct scene *scene, const struct view *view,
     number -= scene->data_path_count;
     if (number < scene->texture_count)
         return scene->texture_paths[number];
-    number -= scene->texture_count;
-    for (size_t i = 0; i < view->lamps.count; i++)
-        if (view->lamps.items[i].profile != NULL && number-- == 0)
-            return view->lamps.items[i].profile->path;
     return NULL;
 }
 

@@ -80,25 +80,70 @@ static void aim_spot(struct point_light *l, const struct lamp *lamp)
     l->cone_offset = (float)(-outer * scale);
 }
 
-/* Adds a lamp's profile to the values that all lamps share, unless it is there.
- * Returns where it begins. */
-static uint32_t add_profile(struct made *m, const struct lamps *lamps,
-                            uint32_t number)
+/* A lamp with a profile. */
+struct profiled {
+    const struct profile *profile;
+    uint32_t lamp;
+};
+
+static int by_profile(const void *a, const void *b)
 {
-    const struct profile *p = lamps->items[number].profile;
-    uint32_t first = 0;
+    const struct profiled *p = a, *q = b;
 
-    for (uint32_t i = 0; i < number; i++) {
-        const struct profile *other = lamps->items[i].profile;
+    if (p->profile != q->profile)
+        return (uintptr_t)p->profile < (uintptr_t)q->profile ? -1 : 1;
+    return p->lamp < q->lamp ? -1 : p->lamp > q->lamp;
+}
 
-        if (other == p)
-            return m->starts[i];
+/* Finds for each lamp with a profile the first lamp that has the same one, in
+ * `starts`. Returns the number of values of all profiles. */
+static size_t find_first(struct made *m, const struct lamps *lamps,
+                         struct profiled *order)
+{
+    uint32_t count = 0, first = 0;
+    size_t values = 0;
+
+    for (uint32_t i = 0; i < lamps->count; i++)
+        if (lamps->items[i].profile != NULL)
+            order[count++] = (struct profiled){lamps->items[i].profile, i};
+    qsort(order, count, sizeof *order, by_profile);
+    for (uint32_t i = 0; i < count; i++) {
+        if (i == 0 || order[i].profile != order[i - 1].profile) {
+            first = order[i].lamp;
+            values += profile_value_count(order[i].profile);
+        }
+        m->starts[order[i].lamp] = first;
     }
-    first = m->profile_value_count;
-    memcpy(m->profiles + first, p->values,
-           profile_value_count(p) * sizeof *p->values);
-    m->profile_value_count += profile_value_count(p);
-    return first;
+    return values;
+}
+
+/* Puts the values of each profile where the first lamp needs them, and where
+ * they begin into `starts`. */
+static bool add_profiles(struct made *m, const struct lamps *lamps)
+{
+    struct profiled *order = alloc_array(lamps->count, sizeof *order);
+    size_t values = order != NULL ? find_first(m, lamps, order) : 0;
+
+    free(order);
+    m->profiles =
+        order != NULL ? alloc_array(values, sizeof *m->profiles) : NULL;
+    if (m->profiles == NULL)
+        return false;
+    for (uint32_t i = 0; i < lamps->count; i++) {
+        const struct profile *p = lamps->items[i].profile;
+
+        if (p == NULL)
+            continue;
+        if (m->starts[i] != i) {
+            m->starts[i] = m->starts[m->starts[i]];
+            continue;
+        }
+        memcpy(m->profiles + m->profile_value_count, p->values,
+               profile_value_count(p) * sizeof *p->values);
+        m->starts[i] = m->profile_value_count;
+        m->profile_value_count += profile_value_count(p);
+    }
+    return true;
 }
 
 static struct point_light make_point(const struct scene *scene,
@@ -168,24 +213,17 @@ static bool make_lamps(const struct scene *scene, const struct view *view,
 {
     const struct sun *sun = &view->lighting.sun;
     const struct lamps *lamps = &view->lamps;
-    size_t values = 0;
 
-    for (uint32_t i = 0; i < lamps->count; i++)
-        if (lamps->items[i].profile != NULL)
-            values += profile_value_count(lamps->items[i].profile);
-    m->profiles = alloc_array(values, sizeof *m->profiles);
     m->starts = alloc_array(lamps->count, sizeof *m->starts);
     m->points = alloc_array(view->lamps.count, sizeof *m->points);
     m->directions =
         alloc_array((size_t)view->lamps.count + 1, sizeof *m->directions);
-    if (m->points == NULL || m->directions == NULL || m->profiles == NULL ||
-        m->starts == NULL)
+    if (m->points == NULL || m->directions == NULL || m->starts == NULL ||
+        !add_profiles(m, lamps))
         return false;
     for (uint32_t i = 0; i < lamps->count; i++) {
         const struct lamp *lamp = &lamps->items[i];
 
-        if (lamp->profile != NULL)
-            m->starts[i] = add_profile(m, lamps, i);
         if (!shines(lamp))
             continue;
         if (lamp->kind == LAMP_DIRECTIONAL)

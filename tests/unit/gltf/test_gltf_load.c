@@ -380,7 +380,8 @@ static void buffers_are_files_of_the_scene(void **state)
     close_model(&o);
     put("i.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 50\n"
                  "0 90\n0\n9 9\n");
-    open_model(&o, "light point 0 0 0\nlight point 0 0 1 ies i.ies\n");
+    open_model(&o, "light point 0 0 0 ies i.ies\nlight point 1 0 0\n"
+                   "light point 0 0 1 ies i.ies\n");
     assert_string_equal(scene_file(&o.scene, &o.view, "v.view", count),
                         "i.ies");
     assert_null(scene_file(&o.scene, &o.view, "v.view", count + 1));
