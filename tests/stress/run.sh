@@ -109,7 +109,7 @@ stress_blender() {
         count_rows blender blender -b --factory-startup -P $script -- \
             "$build/glim" "$work/blender"
     [ -n "${PEER:-}" ] || return
-    count_rows "$PEER" "$PEER" $script -- "$build/glim" "$work/blender"
+    count_rows blender "$PEER" $script -- "$build/glim" "$work/blender"
 }
 
 stress_rays() {
