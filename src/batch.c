@@ -31,18 +31,15 @@ struct batch {
 
 /* ---- before the render ---- */
 
-static bool check_film(const struct session *s, const char *option,
-                       const char *path, struct error *err)
+/* Checks the file of an option, if it is given: that the scene is not read from
+ * it, and then with `check`. */
+static bool check_file(const struct session *s, const char *option,
+                       const char *path,
+                       bool (*check)(const char *path, struct error *err),
+                       struct error *err)
 {
-    return !path || (session_check_output(s, option, path, err) &&
-                     file_check(path, err));
-}
-
-static bool check_picture(const struct session *s, const char *option,
-                          const char *path, struct error *err)
-{
-    return !path || (session_check_output(s, option, path, err) &&
-                     image_write_check(path, err));
+    return !path ||
+           (session_check_output(s, option, path, err) && check(path, err));
 }
 
 /* Checks before the render, which may take minutes, that the output files can
@@ -52,18 +49,17 @@ static bool check_outputs(const struct batch *b, struct error *err)
     const struct session *s = b->session;
     const struct options *o = s->options;
 
-    if (o->stats_path &&
-        (!session_check_output(s, "--stats", o->stats_path, err) ||
-         !stats_json_check(o->stats_path, err)))
+    if (!check_file(s, "--stats", o->stats_path, stats_json_check, err))
         return false;
     if (o->output_path &&
         (!session_check_output(s, "-o", o->output_path, err) ||
          !batch_aov_check(s, o->output_path, err)))
         return false;
-    if (!check_picture(s, "--denoise", o->denoise_path, err) ||
-        !check_picture(s, "--error-map", o->error_map_path, err) ||
-        !check_film(s, "--film", o->film_path, err) ||
-        !check_film(s, "--checkpoint", o->checkpoint_path, err))
+    if (!check_file(s, "--denoise", o->denoise_path, image_write_check, err) ||
+        !check_file(s, "--error-map", o->error_map_path, image_write_check,
+                    err) ||
+        !check_file(s, "--film", o->film_path, file_check, err) ||
+        !check_file(s, "--checkpoint", o->checkpoint_path, file_check, err))
         return false;
     if (o->text_cols > 0)
         return !batch_text_path(o) || file_check(batch_text_path(o), err);
@@ -96,8 +92,7 @@ static char *write_numbered(struct session *s, struct film *film,
                             const struct frame *frame, struct error *err)
 {
     char *stem = xchecked(path_stem_of_input(s->options->scene_path));
-    const char *slash = strrchr(stem, '/');
-    const char *last = slash ? slash + 1 : stem;
+    const char *last = path_name(stem);
     struct image_metadata metadata = metadata_of(s, film);
     char *name = frame ? image_write_frame_numbered(frame, last, err)
                        : image_write_numbered(film, session_develop(s),

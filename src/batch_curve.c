@@ -26,7 +26,6 @@
 
 /* The measurement in progress. */
 struct measurement {
-    const struct options *o;
     struct options options; /* with the size of the reference */
     struct session session;
     bool is_complete; /* no limit or signal has come */
@@ -44,7 +43,7 @@ static bool check_output(const struct measurement *m, const char *option,
 {
     if (path == NULL)
         return true;
-    if (path_is_same(path, m->o->reference_path))
+    if (path_is_same(path, m->options.reference_path))
         return fail(err, "%s: found '%s', the reference, expected another file",
                     option, path);
     return session_check_output(&m->session, option, path, err) &&
@@ -53,7 +52,7 @@ static bool check_output(const struct measurement *m, const char *option,
 
 static bool check_outputs(const struct measurement *m, struct error *err)
 {
-    const char *png = m->o->output_path, *csv = m->o->csv_path;
+    const char *png = m->options.output_path, *csv = m->options.csv_path;
 
     if (png != NULL && csv != NULL && path_is_same(png, csv))
         return fail(err, "--csv: found '%s', the file of -o, expected another",
@@ -86,13 +85,13 @@ static bool open_scene(struct measurement *m, uint64_t start_ns,
 /* Warns if the render would share its noise with the reference. */
 static void check_seed(const struct measurement *m)
 {
-    double index = (double)m->o->seed - m->own.first_seed;
+    double index = (double)m->options.seed - m->own.first_seed;
 
     if (index >= 0 && index < m->own.seed_count)
         print_line(stderr,
                    "glim: warning: --seed %lu is one of the seeds of %s, so "
                    "the error seems too small",
-                   (unsigned long)m->o->seed, m->o->reference_path);
+                   (unsigned long)m->options.seed, m->options.reference_path);
 }
 
 /* Renders up to this many samples, from the first one or after those before.
@@ -101,7 +100,7 @@ static bool render(struct measurement *m, uint64_t spp, bool is_first,
                    struct error *err)
 {
     struct session *s = &m->session;
-    struct render_limits limits = {.spp = spp, .time_ns = m->o->time_ns};
+    struct render_limits limits = {.spp = spp, .time_ns = m->options.time_ns};
     uint64_t begin_ns = clock_cpu_ns();
     struct render_progress p;
 
@@ -121,10 +120,10 @@ static bool render(struct measurement *m, uint64_t spp, bool is_first,
  * the time to build the tree and to bring up threads. */
 static bool warm_up(struct measurement *m, struct error *err)
 {
-    m->session.engine.options.seed = m->o->seed + 1;
+    m->session.engine.options.seed = m->options.seed + 1;
     if (!render(m, 1, true, err))
         return false;
-    m->session.engine.options.seed = m->o->seed;
+    m->session.engine.options.seed = m->options.seed;
     m->cpu_ns = 0;
     return true;
 }
@@ -152,13 +151,13 @@ static bool add_point(struct measurement *m, struct error *err)
 
 static bool measure(struct measurement *m, struct error *err)
 {
-    uint64_t last = m->o->has_spp       ? m->o->spp
-                    : m->o->time_ns > 0 ? UINT64_MAX
-                                        : SPP_DEFAULT;
+    uint64_t last = m->options.has_spp       ? m->options.spp
+                    : m->options.time_ns > 0 ? UINT64_MAX
+                                             : SPP_DEFAULT;
 
     if (!warm_up(m, err))
         return false;
-    print_line(stdout, "%s: %dx%d pixels", m->o->reference_path,
+    print_line(stdout, "%s: %dx%d pixels", m->options.reference_path,
                m->reference.width, m->reference.height);
     if (m->own.is_known)
         print_line(stdout,
@@ -183,7 +182,7 @@ static bool draw(const struct measurement *m, struct error *err)
 {
     struct series series[2] = {
         curve_series(&m->curve, (struct curve_axes){.is_relative = true})};
-    struct chart chart = {.title = path_name(m->o->scene_path),
+    struct chart chart = {.title = path_name(m->options.scene_path),
                           .x_label = "seconds",
                           .y_label = "relative MSE",
                           .series = series,
@@ -196,19 +195,19 @@ static bool draw(const struct measurement *m, struct error *err)
                                                            : CHART_ROWS;
 
     if (series[0].count < 2)
-        return m->o->output_path == NULL ||
+        return m->options.output_path == NULL ||
                fail(err, "%s: found %d point%s to draw, expected at least 2",
-                    m->o->output_path, series[0].count,
+                    m->options.output_path, series[0].count,
                     print_plural((uint64_t)series[0].count));
     series[1] = series_half_slope(&series[0]);
     text_chart_write(stdout, &chart, cols, rows, tty_is_utf8(&ignored));
-    return m->o->output_path == NULL ||
-           chart_write(&chart, m->o->output_path, err);
+    return m->options.output_path == NULL ||
+           chart_write(&chart, m->options.output_path, err);
 }
 
 static bool write_csv(const struct measurement *m, struct error *err)
 {
-    const char *path = m->o->csv_path;
+    const char *path = m->options.csv_path;
     char *text;
     bool ok;
 
@@ -238,9 +237,9 @@ static bool run(struct measurement *m, uint64_t start_ns, struct error *err)
 {
     size_t count;
 
-    if (!batch_compare_read(&m->reference, m->o->reference_path, 0, err))
+    if (!batch_compare_read(&m->reference, m->options.reference_path, 0, err))
         return false;
-    m->own = reference_info_read(m->o->reference_path);
+    m->own = reference_info_read(m->options.reference_path);
     if (!open_scene(m, start_ns, err) || !check_outputs(m, err))
         return false;
     count = (size_t)m->reference.width * (size_t)m->reference.height;
@@ -257,7 +256,7 @@ static bool run(struct measurement *m, uint64_t start_ns, struct error *err)
 bool batch_curve_run(const struct options *o, uint64_t start_ns, int *status,
                      struct error *err)
 {
-    struct measurement m = {.o = o, .options = *o, .bar = batch_bar_begin()};
+    struct measurement m = {.options = *o, .bar = batch_bar_begin()};
     bool ok = run(&m, start_ns, err);
 
     *status = batch_stop_signal() != 0 ? 128 + batch_stop_signal() : 0;

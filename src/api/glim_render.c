@@ -57,6 +57,7 @@ bool glim_set_backend(struct glim *g, enum glim_backend backend,
 {
     struct cl_request *request;
     struct error why;
+    bool ok;
 
     if (!handle_given(g, "handle", err))
         return false;
@@ -74,8 +75,9 @@ bool glim_set_backend(struct glim *g, enum glim_backend backend,
     request = &g->engine.options.device;
     request->device = device;
     request->needs_gpu = backend == GLIM_BACKEND_GPU;
-    return engine_use_device(&g->engine, &g->view, &g->backend_log, &why) ||
-           handle_fail(err, &why);
+    ok = engine_use_device(&g->engine, &g->view, &g->backend_log, &why);
+    request->device = NULL; /* the caller's text */
+    return ok || handle_fail(err, &why);
 }
 
 const char *glim_backend_log(const struct glim *g)

@@ -20,13 +20,23 @@ static bool share_out(struct backend **b, struct error *err)
     return cluster != NULL;
 }
 
+void backends_drop_cpu(struct backends *b)
+{
+    if (b->cpu != NULL)
+        b->cpu->destroy(b->cpu);
+    b->cpu = NULL;
+}
+
 bool backends_open(struct backends *b, const struct cpu_kernel *kernel,
                    int thread_count, struct error *err)
 {
     b->cpu =
         backend_cpu_create(thread_count,
                            kernel != NULL ? kernel : cpu_kernel_best(), err);
-    return b->cpu != NULL && share_out(&b->cpu, err);
+    if (b->cpu != NULL && share_out(&b->cpu, err))
+        return true;
+    backends_drop_cpu(b);
+    return false;
 }
 
 bool backends_begin_device(struct backends *b, const struct cl_request *request,
@@ -74,13 +84,6 @@ void backends_abandon_device(struct backends *b)
     if (b->start != NULL)
         cl_start_abandon(b->start);
     b->start = NULL;
-}
-
-void backends_drop_cpu(struct backends *b)
-{
-    if (b->cpu != NULL)
-        b->cpu->destroy(b->cpu);
-    b->cpu = NULL;
 }
 
 void backends_drop_device(struct backends *b)

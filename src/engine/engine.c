@@ -95,6 +95,8 @@ bool engine_begin(struct engine *e, struct error *err)
     e->render = render_create(e->backends.device != NULL ? e->backends.device
                                                          : e->backends.cpu,
                               err);
+    if (e->render == NULL)
+        backends_drop_cpu(&e->backends); /* the next call creates it again */
     return e->render != NULL;
 }
 

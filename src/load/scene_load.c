@@ -422,7 +422,6 @@ static bool take_lamps(const struct scene *scene, struct view *view,
 static bool add_profile_paths(struct scene *scene, const struct lamps *lamps,
                               struct error *err)
 {
-    const struct profile *before = NULL;
     struct name_table names = {.items = NULL};
     char **paths;
     bool ok = true;
@@ -430,9 +429,7 @@ static bool add_profile_paths(struct scene *scene, const struct lamps *lamps,
     for (size_t i = 0; ok && i < lamps->count; i++) {
         const struct profile *p = lamps->items[i].profile;
 
-        if (p != NULL && p != before)
-            ok = name_table_add(&names, p->path) != NO_NAME;
-        before = p;
+        ok = p == NULL || name_table_add(&names, p->path) != NO_NAME;
     }
     if (names.count == 0)
         return ok || fail(err, "%s: out of memory", scene->path);

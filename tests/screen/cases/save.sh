@@ -30,7 +30,7 @@ says_what_it_saves() # again if the machine stood still while it was said
     return 1
 }
 wait_until says_what_it_saves
-test -s flat-3.png
+[ -s flat-3.png ] || die "flat-3.png: found none or an empty one: $(ls -l)"
 keys Escape
 wait_until_gone "saved"
 keys i
@@ -46,7 +46,8 @@ expect "^saved flat-2.png"
 expect "^wrote the view to sub/flat.view"
 grep -q '^eye 0 0 5' sub/flat.view || die "$(cat sub/flat.view)"
 grep -q '^res 100 50' sub/flat.view || die "$(cat sub/flat.view)"
-[ -s flat.png ] && [ -s flat-2.png ] && [ -s flat-3.png ]
+[ -s flat.png ] && [ -s flat-2.png ] && [ -s flat-3.png ] ||
+    die "pictures: found not all three: $(ls -l)"
 [ "$(id -u)" != 0 ] || exit 0 # may write everywhere
 fresh
 mkdir readonly
