@@ -18,7 +18,7 @@ shows() # true if most rows have, or lack, red and green
     esac
 }
 start --cell-aspect 2 lamp.obj
-wait_for "LIVE .* spp"
+wait_for "LIVE .*[1-9][0-9]* spp"
 keys y
 wait_for "no render is kept: K keeps the present one"
 keys K
