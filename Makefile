@@ -160,7 +160,7 @@ $(L)/libglim.so.$(VERSION): $(LIB_OBJECTS) $(B)/flags
 $(L)/libglim.so: $(L)/libglim.so.$(VERSION)
 	$(Q)ln -sf $(<F) $(L)/$(SONAME) && ln -sf $(<F) $@
 
-$(L)/glim.pc: include/glim/version.h Makefile
+$(L)/glim.pc: include/glim/version.h Makefile $(B)/flags
 	@mkdir -p $(@D)
 	$(Q)printf '%s\n' 'prefix=$(PREFIX)' 'libdir=$(LIBDIR)' \
 		'includedir=$(INCLUDEDIR)' '' 'Name: glim' \

@@ -148,7 +148,8 @@ program_is_hardened()
     return $status
 }
 
-# Tests whose limits are of time, and which therefore run alone
+# Tests whose limits are of time, and which therefore run after all others; all
+# but the commands mostly wait
 timed=' base/test_stop base/test_child '
 timed_cases=' stop opencl '
 
@@ -172,17 +173,21 @@ in_pool part run_check man-lint mandoc -T lint -W warning man/glim.1 man/libglim
 in_pool part run_check scenes scenes_are_generated
 in_pool part run_check hardening program_is_hardened
 in_pool part run_script api tests/api/run.sh
-for program in tests/unit/*/test_*.c; do
+begun=' '
+# those of a device compile for a minute, and begin first
+for program in tests/unit/*/test_*_cl.c tests/unit/*/test_*.c; do
     name=${program#tests/unit/}
     name=${name%.c}
-    [[ $timed == *" $name "* ]] || in_pool part run_unit "$name" "$BUILD/unit/$name"
+    [[ $timed$begun == *" $name "* ]] || in_pool part run_unit "$name" "$BUILD/unit/$name"
+    begun+="$name "
 done
 wait
 # shellcheck disable=SC2086 # words
-part run_cases cli-timed cli $timed_cases
+part run_cases cli-timed cli $timed_cases &
 for name in $timed; do
-    part run_unit "$name" "$BUILD/unit/$name"
+    part run_unit "$name" "$BUILD/unit/$name" &
 done
+wait
 
 echo "slowest: $(sort -rn "$work/times" | head -5 | paste -sd ,)"
 awk '{ passed += $1; failed += $2 }

@@ -97,15 +97,16 @@ rows_with()
     } END { print n + 0 }'
 }
 
-# Waits until the command succeeds. The limit allows for a device's compiler on a
-# machine that has other work.
+# Waits until the command succeeds: most do at once, and a long wait looks seldom.
+# The limit, minutes, allows for a device's compiler on a machine that has other
+# work.
 wait_until()
 {
     tries=0
     until "$@"; do
         tries=$((tries + 1))
-        [ $tries -lt 3000 ] || die "waited for: $*"
-        sleep 0.03
+        [ $tries -lt 800 ] || die "waited for: $*"
+        [ $tries -lt 20 ] && sleep 0.03 || sleep 0.2
     done
 }
 

@@ -118,6 +118,8 @@ wait_for "│>    of colour  #ffffff"
 raw_keys '#ff0000'
 keys Enter
 shows '255;0;0'
+keys Escape Escape Enter
+wait_for "LIVE paused"
 wait_until is_kept
 kill -KILL "$(program_pid)"
 wait_for " exit 137"
