@@ -158,7 +158,7 @@ static void parser_stops_at_the_end(void **state)
 static void random_numbers_are_read_as_by_strtod(void **state)
 {
     (void)state;
-    for (int i = 0; i < 200000; i++) {
+    for (int i = 0; i < (check_is_thorough() ? 200000 : 40000); i++) {
         char text[64];
         uint64_t bits = next_random();
         double value;
@@ -271,7 +271,7 @@ static void formatted_doubles_are_read_back_exactly(void **state)
         decimal_format(text, cases[i].value);
         assert_string_equal(text, cases[i].text);
     }
-    for (int i = 0; i < 100000; i++) {
+    for (int i = 0; i < (check_is_thorough() ? 100000 : 40000); i++) {
         char text[DECIMAL_TEXT_BYTES];
         uint64_t bits = next_random();
         double value;
@@ -314,7 +314,7 @@ static void shortest_text_gives_the_same_number(void **state)
     assert_true(decimal_shortened(1e60) == 1e60);
     assert_true(decimal_shortened(0) == 0);
     assert_true(decimal_shortened(0.1 + 0.2) == 0.3);
-    for (int i = 0; i < 100000; i++) {
+    for (int i = 0; i < (check_is_thorough() ? 100000 : 40000); i++) {
         uint32_t bits = (uint32_t)(next_random() >> 32);
         char text[DECIMAL_TEXT_BYTES];
         float value;
