@@ -52,12 +52,12 @@ static bool check_output(const struct measurement *m, const char *option,
 
 static bool check_outputs(const struct measurement *m, struct error *err)
 {
-    const char *png = m->options.output_path, *csv = m->options.csv_path;
+    const char *script = m->options.output_path, *csv = m->options.csv_path;
 
-    if (png != NULL && csv != NULL && path_is_same(png, csv))
+    if (script != NULL && csv != NULL && path_is_same(script, csv))
         return fail(err, "--csv: found '%s', the file of -o, expected another",
                     csv);
-    return check_output(m, "-o", png, err) &&
+    return check_output(m, "-o", script, err) &&
            check_output(m, "--csv", csv, err);
 }
 
@@ -177,7 +177,7 @@ static bool measure(struct measurement *m, struct error *err)
     return true;
 }
 
-/* Draws the diagram in characters, and to the file of -o. */
+/* Draws the diagram in characters, and writes it to the file of -o. */
 static bool draw(const struct measurement *m, struct error *err)
 {
     struct series series[2] = {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * axis.h - a logarithmic or linear axis of a diagram
+ * axis.h - a logarithmic axis of a diagram
  *
  * Units:     dots of the diagram; those of the labels outside
  * Threads:   any
@@ -12,10 +12,8 @@
 
 #include "measure/series.h"
 
-/* Range in decimal logarithms, or of values from 0 on if the axis is linear,
- * and the dots of its ends. */
+/* Range in decimal logarithms, and the dots of its ends. */
 struct axis {
-    bool is_linear;
     double low, high;
     int from, to;
 };
@@ -24,7 +22,7 @@ struct axis {
 
 struct axis_tick {
     double value;
-    bool is_power; /* a power of ten; true if the axis is linear */
+    bool is_power; /* of ten */
     char label[AXIS_LABEL_BYTES];
 };
 
@@ -37,8 +35,7 @@ bool axes_fit(struct axis *x, struct axis *y, const struct series *series,
 double axis_place(const struct axis *axis, double value);
 
 /* Returns tick `number`, from 0: 1, 2 and 5 times each power of ten on the
- * axis, or the multiples of one of these if it is linear. Returns false after
- * the last. */
+ * axis. Returns false after the last. */
 bool axis_tick(const struct axis *axis, int number, struct axis_tick *tick);
 
 /* True if the point has two numbers above 0. Others are not drawn. */

@@ -1,28 +1,25 @@
 // SPDX-License-Identifier: MIT
 /*
- * chart.h - curves in a diagram, log-log or with a linear y, as a PNG file
+ * chart.h - curves in a log-log diagram, which gnuplot draws
  *
- * Units:     pixels inside; those of the axes' labels outside
+ * Units:     those of the axes' labels
  * Threads:   one
- * Errors:    no points, memory, unwritable file
+ * Errors:    memory, unwritable file
  */
 #ifndef GLIM_CHART_H
 #define GLIM_CHART_H
 
-#include <stdbool.h>
-
 #include "base/error.h"
 #include "measure/series.h"
 
-/* Points that are not above 0 are left out. Characters of the texts that
- * lettering.h does not have are blank. */
+/* Points that are not above 0 are left out. */
 struct chart {
     const char *title, *x_label, *y_label;
     const struct series *series;
     int series_count;
-    bool is_linear; /* y is linear, from 0 on */
 };
 
+/* Writes a script with the points. Of NAME.gp, gnuplot draws NAME.png. */
 bool chart_write(const struct chart *chart, const char *path,
                  struct error *err);
 

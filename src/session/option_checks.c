@@ -55,7 +55,7 @@ static bool check_batch(const struct options *o, struct error *err)
             err,
             "--ansi: found --glyph for pixels, expected one for characters");
     if (o->output_path && o->text_cols == 0 && !options_output_is_film(o) &&
-        !options_output_is_video(o) &&
+        !options_output_is_video(o) && o->command != COMMAND_CURVE &&
         image_write_format_of(o->output_path) == IMAGE_WRITE_UNKNOWN)
         return fail(
             err,

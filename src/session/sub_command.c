@@ -3,9 +3,9 @@
 
 #include <inttypes.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/print.h"
-#include "picture/image_write.h"
 #include "terminal/xmalloc.h"
 
 static const struct sub_command_rule rules[] = {
@@ -19,7 +19,7 @@ static const struct sub_command_rule rules[] = {
     [COMMAND_CURVE] =
         {" curve", "[options] reference.pfm scene.obj",
          "render with 1, 2, 4 .. samples up to -s (default: 256) and print the "
-         "error and the time of each; -o draws a diagram"},
+         "error and the time of each; -o writes a diagram for gnuplot"},
     [COMMAND_REFERENCE] =
         {" reference", "[options] out.pfm scene.obj",
          "render with several seeds and write the mean, and its error to "
@@ -159,28 +159,25 @@ bool sub_command_set_operand(struct options *o, const char *path,
                 path, *operands[0], *operands[1]);
 }
 
-/* Checks the name of the picture that is written. */
+/* Checks the name of the file that is written. */
 static bool check_output(const struct options *o, struct error *err)
 {
     static const struct {
-        const char *place, *expected;
-        bool takes_png, takes_pfm;
+        const char *place, *endings[2], *expected;
     } outputs[] = {
-        [COMMAND_COMPARE] = {"-o: ", ".png or .pfm", true, true},
-        [COMMAND_CURVE] = {"-o: ", ".png", true, false},
-        [COMMAND_REFERENCE] = {"", ".pfm", false, true},
+        [COMMAND_COMPARE] = {"-o: ", {".png", ".pfm"}, ".png or .pfm"},
+        [COMMAND_CURVE] = {"-o: ", {".gp"}, ".gp"},
+        [COMMAND_REFERENCE] = {"", {".pfm"}, ".pfm"},
     };
     const char *path = o->output_path;
-    enum image_write_format format;
+    const char *ending = path ? strrchr(path, '.') : NULL;
 
-    if (!path)
-        return true;
-    format = image_write_format_of(path);
-    if (strcmp(path, "-") != 0 &&
-        ((format == IMAGE_WRITE_PNG && outputs[o->command].takes_png) ||
-         (format == IMAGE_WRITE_PFM && outputs[o->command].takes_pfm)))
-        return true;
-    return fail(err, "%sfound '%s', expected a name that ends in %s",
+    for (int i = 0; i < 2 && ending; i++)
+        if (outputs[o->command].endings[i] &&
+            strcasecmp(ending, outputs[o->command].endings[i]) == 0)
+            return true;
+    return !path ||
+           fail(err, "%sfound '%s', expected a name that ends in %s",
                 outputs[o->command].place, path, outputs[o->command].expected);
 }
 

@@ -130,8 +130,10 @@ look()
             need_program cppcheck cppcheck
             need_program mandoc mandoc
             ;;
+        results) need_program gnuplot gnuplot-nox ;;
         *)
-            echo "deps.sh: what is '$part'? build, test, mpi, fuzz or lint" >&2
+            echo "deps.sh: what is '$part'? build, test, mpi, fuzz, lint or" \
+                results >&2
             exit 2
             ;;
         esac

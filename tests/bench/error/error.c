@@ -215,13 +215,15 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
                              .is_adaptive = extra == ADAPTIVE};
     double seconds = 0, filter_seconds, error = 0;
 
-    if (!start(s->engine.render, &job, err)) /* builds the tree, loads the code */
+    if (!start(s->engine.render, &job,
+               err)) /* builds the tree, loads the code */
         return false;
     for (int i = 0; i < POINTS; i++) {
         uint64_t begin_ns = clock_cpu_ns();
 
         if (i > 0) {
-            render_resume(s->engine.render, (struct render_limits){.spp = 1ull << i});
+            render_resume(s->engine.render,
+                          (struct render_limits){.spp = 1ull << i});
             render_wait(s->engine.render, -1);
         } else if (!start(s->engine.render, &job, err)) {
             return false;
@@ -247,8 +249,8 @@ static bool measure_round(struct measurement *m, int technique, int round,
     struct curve *c = &m->curves[technique];
     struct world world;
 
-    if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view, (uint32_t)round,
-                    &world, err))
+    if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view,
+                    (uint32_t)round, &world, err))
         return false;
     c->is_measured = matters(t, &world.settings);
     if (!c->is_measured)
@@ -342,7 +344,7 @@ static bool draw_curves(const struct measurement *m, const char *name,
                           .x_label = "seconds",
                           .y_label = "relative MSE",
                           .series = drawn};
-    char *path = xformat("%s/%s.png", m->bench->folder, name);
+    char *path = xformat("%s/%s.gp", m->bench->folder, name);
     bool ok;
 
     for (int i = 0; i < TECHNIQUES; i++)

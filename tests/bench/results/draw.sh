@@ -7,10 +7,9 @@
 #        draw.sh --check  tells whether the tables are those of the CSV files
 #
 # A table is between the lines "<!-- table NAME -->" and "<!-- end -->". The text
-# around it is written by people. BUILD is the folder of the program.
-set -eu
+# around it is written by people.
+set -eu -o pipefail
 cd "$(dirname "$0")/../../.."
-build=${BUILD:-build/release}
 results=docs/results
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -252,8 +251,36 @@ with_tables() {
     done <docs/results.md
 }
 
-plot() { # NAME TITLE X_LABEL Y_LABEL [linear]: curves from standard input
-    "$build/bench/plot" "$results/$1.png" "${@:2}"
+# Draws curves from standard input, lines of NAME,X,Y, in the order in which
+# their names first occur. A curve whose name begins with "-" is a thin line
+# without points. The axes are logarithmic, or only that of x with "linear".
+plot() { # NAME TITLE X_LABEL Y_LABEL [linear]
+    {
+        echo 'set terminal pngcairo noenhanced size 880,540'
+        echo 'set colorsequence podo'
+        echo "set format '%g'"
+        echo 'set grid'
+        echo 'set key outside Left reverse'
+        echo "set logscale ${5:+x}"
+        echo "${5:+set yrange [0:*]}"
+        echo "set output '$results/$1.png'"
+        echo "set title '$2'; set xlabel '$3'; set ylabel '$4'"
+        awk -F, '
+            !($1 in points) { name[count++] = $1 }
+            { points[$1] = points[$1] $2 " " $3 "\n" }
+            END {
+                for (i = 0; i < count; i++)
+                    printf "$curve%d << END\n%sEND\n", i, points[name[i]]
+                for (i = 0; i < count; i++) {
+                    style = "linespoints linewidth 2 pointtype " (i < 8 ? 7 : 6)
+                    if (sub(/^-/, "", name[i]))
+                        style = "lines dashtype 2 linecolor \"grey40\""
+                    printf "%s $curve%d with %s title \"%s\"",
+                        (i == 0 ? "plot" : ","), i, style, name[i]
+                }
+                print ""
+            }'
+    } | gnuplot
 }
 
 # Error against time or samples of all renderers.
@@ -287,4 +314,5 @@ if [ "${1:-}" = --check ]; then
     exit
 fi
 cat "$work/results.md" >docs/results.md
+tests/tools/deps.sh results
 plot_all

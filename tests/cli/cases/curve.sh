@@ -14,9 +14,18 @@ without_times()
          END { if (rows > 0) print rows, "rows of a diagram" }'
 }
 
-run curve -s 20 ref.pfm box.obj -o curve.png --csv curve.csv >text
+run curve -s 20 ref.pfm box.obj -o curve.gp --csv curve.csv >text
 without_times <text
-kind curve.png
+# its points are those of the table; gnuplot is asked where it is installed
+sed -n '/^.curve0/,/^END/p' curve.gp | sed '1d; $d; s/ /,/' >drawn
+sed 1d curve.csv | cut -d, -f2,5 >measured
+same drawn measured
+tail -n 2 curve.gp
+if command -v gnuplot >/dev/null; then
+    gnuplot curve.gp
+    kind curve.png | grep -v 'curve.png: PNG 880x540'
+fi
+rm -f drawn measured curve.png
 cut -d, -f1 curve.csv
 # the same render gives the same error
 glim -b -w 32 -h 32 -s 8 -o eight.pfm box.obj 2>/dev/null
@@ -25,7 +34,7 @@ awk '$1 == 8 { print $4 }' text >two
 same one two
 # one sample: no slope, no diagram
 run curve -s 1 ref.pfm box.obj | without_times
-run curve -s 1 -o none.png ref.pfm box.obj | without_times
+run curve -s 1 -o none.gp ref.pfm box.obj | without_times
 # the reference's own error, and its seeds
 echo '{"mse": 1e-5, "relmse": 2e-5, "first_seed": 9, "seeds": 1}' >ref.json
 run curve -s 2 ref.pfm box.obj | without_times | head -2
@@ -67,9 +76,9 @@ run curve -b ref.pfm box.obj
 run curve --show depth ref.pfm box.obj
 run curve -o curve.pfm ref.pfm box.obj
 run curve -o - ref.pfm box.obj
-run curve -o curve.jpg ref.pfm box.obj
+run curve -o curve.png ref.pfm box.obj
 run curve --csv - ref.pfm box.obj
-run curve -o x.png --csv x.png ref.pfm box.obj
+run curve -o x.gp --csv x.gp ref.pfm box.obj
 run curve --csv ref.pfm ref.pfm box.obj
 run curve --csv box.mtl ref.pfm box.obj
 run curve --csv none/curve.csv ref.pfm box.obj

@@ -26,19 +26,6 @@ static void logarithms_are_even(void **state)
                 axis_place(&x, 1e5) - axis_place(&x, 1e4), 1e-9);
 }
 
-static void a_linear_axis_begins_at_0(void **state)
-{
-    struct axis x = {.from = 0, .to = 1000};
-    struct axis y = {.is_linear = true, .from = 500, .to = 0};
-    struct series s = points();
-
-    (void)state;
-    assert_true(axes_fit(&x, &y, &s, 1));
-    check_close(axis_place(&y, 0), 500, 1e-9);
-    check_close(axis_place(&y, 100), 500 - 500 * 100 / 630.0, 1e-9);
-    assert_true(axis_place(&y, 600) > 0);
-}
-
 static void check_ticks(const struct axis *a, const char *const *labels,
                         int count)
 {
@@ -56,23 +43,16 @@ static void ticks_are_round(void **state)
     static const char *const powers[] = {"50000",  "100000", "200000",
                                          "500000", "1e6",    "2e6"};
     static const char *const small[] = {"5e-3", "0.01", "0.02"};
-    static const char *const linear[] = {"0",   "100", "200", "300",
-                                         "400", "500", "600"};
-    static const char *const few[] = {"0",    "0.02", "0.04",
-                                      "0.06", "0.08", "0.1"};
 
     (void)state;
     check_ticks(&(struct axis){.low = 4.6, .high = 6.4}, powers, 6);
     check_ticks(&(struct axis){.low = -2.4, .high = -1.6}, small, 3);
-    check_ticks(&(struct axis){.is_linear = true, .high = 630}, linear, 7);
-    check_ticks(&(struct axis){.is_linear = true, .high = .11}, few, 6);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(logarithms_are_even),
-        cmocka_unit_test(a_linear_axis_begins_at_0),
         cmocka_unit_test(ticks_are_round),
     };
 
