@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "picture/image_header.h"
 
+#include <inttypes.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,10 +9,8 @@
 
 #include "picture/image_bytes.h"
 #include "picture/image_exr_read.h"
-#include "picture/image_gif.h"
 #include "picture/image_hdr.h"
 #include "picture/image_pfm.h"
-#include "picture/image_pnm.h"
 #include "picture/image_psd.h"
 #include "picture/image_webp.h"
 #include "picture/stb.h"
@@ -292,6 +291,87 @@ static bool tga_header(struct image_file *f, struct error *err)
     return expect_bytes(f, b.size, at + pixel_bytes * pixels_of(f), err);
 }
 
+/* ---- GIF and PNM, as far as stb_image reads them ---- */
+
+/* Peak memory in bytes per pixel: two pictures of 4 channels, and one byte that
+ * tells which pixels were set, and 3 channels after conversion. */
+#define GIF_BYTES 12
+
+/* Most pixels of a byte: a code of 12 bits stands for up to 4096. */
+#define GIF_RATIO (4096 * 8 / 12)
+
+static bool is_gif(const struct image_file *f)
+{
+    return f->size_bytes >= 13 && (memcmp(f->data, "GIF87a", 6) == 0 ||
+                                   memcmp(f->data, "GIF89a", 6) == 0);
+}
+
+/* Reads the sides of the screen, and makes what the first picture leaves free
+ * transparent, as viewers do, by the number of the background colour. */
+static bool gif_header(struct image_file *f, struct error *err)
+{
+    struct bytes b = bytes_of(f);
+
+    if (!take_sides(f, little16(b, 6), little16(b, 8), err))
+        return false;
+    f->data[11] = 0;
+    f->decoder_bytes = DECODER_BYTES + GIF_BYTES * (size_t)pixels_of(f);
+    return expect_bytes(f, b.size, pixels_of(f) / GIF_RATIO, err);
+}
+
+/* True for the blanks of stb_image. */
+static bool is_blank(uint32_t c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+static bool is_pnm(const struct image_file *f)
+{
+    struct bytes b = bytes_of(f);
+
+    return byte_at(b, 0) == 'P' && byte_at(b, 1) >= '1' &&
+           byte_at(b, 1) <= '6' &&
+           (is_blank(byte_at(b, 2)) || byte_at(b, 2) == '#');
+}
+
+/* Reads a number of up to 9 digits after blanks and comments. Returns 0 if
+ * there is none. */
+static uint32_t pnm_number(struct bytes b, size_t *at)
+{
+    uint32_t n = 0;
+
+    while (is_blank(byte_at(b, *at)) || byte_at(b, *at) == '#')
+        if (byte_at(b, (*at)++) == '#')
+            while (*at < b.size && b.data[*at] != '\n' && b.data[*at] != '\r')
+                ++*at;
+    for (int i = 0; i < 9 && byte_at(b, *at) - '0' <= 9; i++)
+        n = 10 * n + byte_at(b, (*at)++) - '0';
+    return n;
+}
+
+/* Reads the header of grey (P5) or coloured bytes (P6). stb_image takes others
+ * for these. */
+static bool pnm_header(struct image_file *f, struct error *err)
+{
+    struct bytes b = bytes_of(f);
+    size_t at = 2;
+    uint32_t width = pnm_number(b, &at), height = pnm_number(b, &at);
+    uint32_t value_max = pnm_number(b, &at);
+    unsigned char kind = b.data[1];
+
+    if ((kind != '5' && kind != '6') || value_max != 255 ||
+        !is_blank(byte_at(b, at)))
+        return fail(err,
+                    "%s: found P%c with values up to %" PRIu32
+                    ", expected P5 or P6 with values up to 255",
+                    f->path, kind, value_max);
+    if (!take_sides(f, width, height, err))
+        return false;
+    f->decoder_bytes = DECODER_BYTES + DECODED_BYTES * (size_t)pixels_of(f);
+    return expect_bytes(f, b.size,
+                        at + 1 + pixels_of(f) * (kind == '6' ? 3 : 1), err);
+}
+
 /* ---- all kinds ---- */
 
 /* Readers, in the order in which they are tried: TGA, which has no signature,
@@ -307,8 +387,8 @@ static const struct reader {
     {"JPEG", is_jpeg, jpeg_header, IMAGE_JPEG, true},
     {"BMP", is_bmp, bmp_header, IMAGE_BMP, true},
     {image_webp_name, image_webp_is, image_webp_header, IMAGE_WEBP, true},
-    {"PNM", image_pnm_is, image_pnm_header, IMAGE_PNM, true},
-    {"GIF", image_gif_is, image_gif_header, IMAGE_GIF, true},
+    {"PNM", is_pnm, pnm_header, IMAGE_PNM, true},
+    {"GIF", is_gif, gif_header, IMAGE_GIF, true},
     {"PSD", image_psd_is, image_psd_header, IMAGE_PSD, true},
     {"Radiance HDR", image_hdr_is, image_hdr_header, IMAGE_HDR, false},
     {"PFM", image_pfm_is, image_pfm_header, IMAGE_PFM, false},
@@ -364,7 +444,7 @@ bool image_header(struct image_file *f, struct error *err)
     f->kind = r->kind;
     if (!r->header(f, err))
         return false;
-    /* our own decoders take the result's memory only */
+    /* others take the result's memory only */
     if (r->is_8bit && f->decoder_bytes == 0)
         f->decoder_bytes = 4 * (size_t)pixels_of(f);
     return true;

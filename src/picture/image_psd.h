@@ -3,6 +3,9 @@
  * image_psd.h - the picture of all layers in files of Adobe Photoshop: red,
  * green and blue of 8 or 16 bits, with alpha if there is a fourth channel
  *
+ * stb_image converts negative colours to bytes, which C leaves undefined, where
+ * alpha was not mixed with white, and takes packed values of 16 bits for bytes.
+ *
  * Source:    Adobe Photoshop File Formats Specification, November 2019
  * Units:     pixels, row 0 at the top; values are sRGB
  * Ownership: image_psd_decode() returns memory for free()

@@ -10,11 +10,9 @@
 #include "base/memory.h"
 #include "picture/color.h"
 #include "picture/image_exr_read.h"
-#include "picture/image_gif.h"
 #include "picture/image_hdr.h"
 #include "picture/image_header.h"
 #include "picture/image_pfm.h"
-#include "picture/image_pnm.h"
 #include "picture/image_psd.h"
 #include "picture/image_webp.h"
 #include "picture/stb.h"
@@ -38,13 +36,6 @@ static size_t pixels_of(const struct image_file *f)
 static bool is_float(const struct image_file *f)
 {
     return f->kind == IMAGE_HDR || f->kind == IMAGE_PFM || f->kind == IMAGE_EXR;
-}
-
-/* True for the kinds of 8 bits a channel that stb_image does not decode. */
-static bool is_own(const struct image_file *f)
-{
-    return f->kind == IMAGE_PNM || f->kind == IMAGE_GIF ||
-           f->kind == IMAGE_PSD || f->kind == IMAGE_WEBP;
 }
 
 /* ---- opening ---- */
@@ -177,16 +168,6 @@ static void *expect_pixels(const struct image_file *f, void *pixels, int width,
     return NULL;
 }
 
-static uint8_t *decode_own(const struct image_file *f, struct error *err)
-{
-    switch (f->kind) {
-    case IMAGE_GIF: return image_gif_decode(f, err);
-    case IMAGE_WEBP: return image_webp_decode(f, err);
-    case IMAGE_PSD: return image_psd_decode(f, err);
-    default: return image_pnm_decode(f, err);
-    }
-}
-
 static float *decode_float(const struct image_file *f, struct error *err)
 {
     switch (f->kind) {
@@ -196,7 +177,19 @@ static float *decode_float(const struct image_file *f, struct error *err)
     }
 }
 
-/* Returns linear floats of an image of our own decoders. */
+/* True for the kinds of 8 bits a channel that stb_image does not decode. */
+static bool is_own(const struct image_file *f)
+{
+    return f->kind == IMAGE_PSD || f->kind == IMAGE_WEBP;
+}
+
+static uint8_t *decode_own(const struct image_file *f, struct error *err)
+{
+    return f->kind == IMAGE_WEBP ? image_webp_decode(f, err)
+                                 : image_psd_decode(f, err);
+}
+
+/* Returns linear floats of an image that stb_image does not decode. */
 static float *decode_own_linear(const struct image_file *f, struct error *err)
 {
     uint8_t *rgba = decode_own(f, err);

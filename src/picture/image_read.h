@@ -56,10 +56,10 @@ struct image_file {
     enum image_kind kind;
     int width, height;
 
-    /* PFM and PNM */
+    /* PFM and PSD */
     size_t pixels_at; /* offset in the data */
     int channels;
-    uint32_t value_max; /* of PNM */
+    uint32_t value_max; /* of PSD */
     bool is_big_endian;
 
     size_t decoder_bytes; /* peak memory of stb_image, pixels included */

@@ -346,7 +346,7 @@ static void copies_of_copies_keep_implied_factors(void **state)
         uint32_t copy, second;
 
         put_scene();
-        put("white.ppm", "P3\n1 1\n255\n255 255 255\n");
+        put("white.ppm", "P6\n1 1\n255\n\377\377\377");
         put("a.mtl", "newmtl lamp\nmap_Ke white.ppm\nnewmtl wall\n"
                      "map_Kd white.ppm\n");
         open_session(&s);

@@ -843,7 +843,7 @@ static void check_rendered(const char *statements, double color, double light,
 static void panels_show_what_is_rendered(void **state)
 {
     (void)state;
-    put("white.ppm", "P3\n1 1\n255\n255 255 255\n");
+    put("white.ppm", "P6\n1 1\n255\n\377\377\377");
     check_rendered("map_Kd white.ppm\nmap_Ke white.ppm", 1, 1, "0.99");
     check_rendered("Kd 0 0 0\nmap_Kd white.ppm\nKe 0 0 0\nmap_Ke white.ppm", 1,
                    1, "0.99");
