@@ -48,10 +48,12 @@ ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno \
 ALL_LDFLAGS = -pthread -pie -Wl,-z,relro,-z,now $(LDFLAGS) \
 	$(if $(SAN),-fsanitize=$(SAN))
 
-# WebP images are read if libwebp is there; meshes of KHR_draco_mesh_compression
+# WebP and OpenEXR images are read if their libraries are there; meshes of KHR_draco_mesh_compression
 # if libdraco is there, and a compiler for the one file in C++.
 HASH := \#
 WEBP := $(shell echo '$(HASH)include <webp/decode.h>' | $(CC) -E -x c - \
+	>/dev/null 2>&1 && echo 1)
+EXR := $(shell echo '$(HASH)include <OpenEXR/openexr.h>' | $(CC) -E -x c - \
 	>/dev/null 2>&1 && echo 1)
 ifeq ($(origin CXX),default)
 CXX := $(shell echo '$(CC)' | sed 's/gcc/g++/; s/clang/clang++/; s/\(^\|\/\)cc$$/\1c++/')
@@ -61,7 +63,8 @@ DRACO := $(shell printf '%s\n' '$(HASH)include <draco/compression/decode.h>' | \
 # The check of vptr needs the sanitizer's C++ runtime, which a C program lacks.
 ALL_CXXFLAGS = -std=c++17 $(filter-out -std=c11 -Wstrict-prototypes \
 	-Wmissing-prototypes,$(ALL_CFLAGS)) $(if $(SAN),-fno-sanitize=vptr)
-LIB_LIBS = -ljansson -lmeshoptimizer $(if $(WEBP),-lwebp) -lz -lm -ldl
+LIB_LIBS = -ljansson -lmeshoptimizer $(if $(WEBP),-lwebp) \
+	$(if $(EXR),-lOpenEXRCore) -lz -lm -ldl
 LIBS = -lncursesw -ltinfo $(if $(DRACO),-ldraco -lstdc++) $(LIB_LIBS)
 FLAGS = $(if $(DRACO),$(CXX) $(strip $(ALL_CXXFLAGS)) : )$(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
@@ -78,6 +81,7 @@ MPI_SOURCES := $(addprefix src/cluster/,cluster.c cluster_backend.c \
 KERNEL_SOURCES := src/render/cpu_kernel.c src/render/cpu_dispatch.c
 SOURCES := $(filter-out $(MPI_SOURCES) $(KERNEL_SOURCES) \
 	src/picture/$(if $(WEBP),image_webp_none.c,image_webp.c) \
+	src/picture/$(if $(EXR),image_exr_read_none.c,image_exr_read.c) \
 	$(if $(DRACO),src/import/draco_decode_none.c),$(wildcard src/*.c src/*/*.c))
 OBJECTS := $(SOURCES:src/%.c=$(B)/%.o) $(if $(DRACO),$(B)/import/draco_decode.o) \
 	$(KERNEL_OBJECTS)

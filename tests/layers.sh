@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.." || exit 1
 
 # C files without a header of their own name: the program's entry, the bodies of
 # stb's headers, and what backend.h and glim.h declare.
-HEADERLESS='main stb backend_cpu cluster_none image_webp_none draco_decode_none cluster_backend cluster_worker glim_scene glim_render glim_picture glim_film'
+HEADERLESS='main stb backend_cpu cluster_none image_exr_read_none image_webp_none draco_decode_none cluster_backend cluster_worker glim_scene glim_render glim_picture glim_film'
 
 # Files that may use the C library's output, because they write files. Output
 # for people goes through print.c.

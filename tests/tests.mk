@@ -48,8 +48,6 @@ $(foreach i,$(ISAS),$(eval $(B)/unit/bvh/test_bvh8_$(i).o: \
 # test_tty inspects the event loop each time before it waits.
 $(L)/unit/terminal/test_tty: private ALL_LDFLAGS += \
 	-Wl,--wrap=workspace_next_ns,--wrap=tty_read
-# It reads files with OpenEXR's library.
-$(L)/unit/picture/test_image_exr: private LIBS += -lOpenEXRCore
 # It packs meshes with libdraco.
 ifneq ($(DRACO),)
 $(B)/unit/gltf/test_gltf_draco.o: private ALL_CFLAGS += -DHAS_DRACO

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 /*
- * image_exr_read.h - reads OpenEXR files of one part of scan lines
+ * image_exr_read.h - reads OpenEXR files through the library OpenEXRCore
  *
- * The channels R, G and B, or Y, are read, of halves, floats or integers;
- * others are skipped. Lines are not compressed, or by RLE, ZIPS or ZIP.
+ * The channels R, G and B, or Y, of the first part are read, of lines or tiles
+ * (the largest level) with any compression; others are skipped. Programs built
+ * without the library have image_exr_read_none.c, to which no file is one.
  *
  * Units:     pixels, row 0 at the top; linear floats
  * Ownership: image_exr_decode() returns memory for free()
  * Threads:   any
- * Errors:    a malformed or truncated file, other kinds of OpenEXR
+ * Errors:    a malformed or truncated file, deep pixels, other channels
  */
 #ifndef GLIM_IMAGE_EXR_READ_H
 #define GLIM_IMAGE_EXR_READ_H
@@ -16,6 +17,9 @@
 #include <stdbool.h>
 
 #include "picture/image_read.h"
+
+/* The name of the kind in messages; empty without the library. */
+extern const char image_exr_name[];
 
 bool image_exr_is(const struct image_file *file);
 

@@ -392,7 +392,7 @@ static const struct reader {
     {"PSD", image_psd_is, image_psd_header, IMAGE_PSD, true},
     {"Radiance HDR", image_hdr_is, image_hdr_header, IMAGE_HDR, false},
     {"PFM", image_pfm_is, image_pfm_header, IMAGE_PFM, false},
-    {"OpenEXR", image_exr_is, image_exr_header, IMAGE_EXR, false},
+    {image_exr_name, image_exr_is, image_exr_header, IMAGE_EXR, false},
     {"TGA", is_tga, tga_header, IMAGE_TGA, true},
 };
 

@@ -101,12 +101,12 @@ look()
             need_header jansson.h libjansson-dev
             need_header meshoptimizer.h libmeshoptimizer-dev
             need_header webp/decode.h libwebp-dev
+            need_header OpenEXR/openexr.h libopenexr-dev
             need_header assimp/cimport.h libassimp-dev
             need_cxx_header draco/compression/decode.h libdraco-dev
             ;;
         test)
             need_header cmocka.h libcmocka-dev
-            need_header OpenEXR/openexr.h libopenexr-dev
             need_library libOpenCL.so.1 ocl-icd-libopencl1
             need_driver pocl.icd pocl-opencl-icd
             need_program tmux tmux
