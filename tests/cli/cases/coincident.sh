@@ -18,7 +18,7 @@ gltf() # nodes n file distance
             printf ",%d", i
         printf "]}],\"nodes\":[{\"mesh\":0}"
         for (i = 1; i < count; i++)
-            printf ",{\"mesh\":0,\"translation\":[%d,0,0]}", step * i
+            printf ",{\"mesh\":0,\"translation\":[%g,0,0]}", step * i
         vertices = (n + 1) * (n + 1)
         printf "],\"meshes\":[{\"primitives\":[{\"attributes\":"
         printf "{\"POSITION\":0},\"indices\":1}]}],\"accessors\":["
@@ -49,7 +49,9 @@ printf "$(cat octal)" >mesh.bin
 gltf 100000 60 many
 gltf 1 60 one
 gltf 100000 60 row 3
+gltf 20000 60 pile .0001
 printf 'background 0 0 0\nlight point 0 0 9\n' >row.view
+echo 'background .5 .6 .7' >pile.view
 
 # Materials whose names begin alike
 awk 'BEGIN {
@@ -71,7 +73,7 @@ for pair in 'face.obj faces.obj' 'one.gltf many.gltf'; do
     set -- $pair
     same "$1.pfm" "$2.pfm"
 done
-for file in row.gltf materials.gltf; do
+for file in row.gltf pile.gltf materials.gltf; do
     glim -b -t 1 -w 4 -h 3 -s 1 -o "$file.pfm" "$file" 2>/dev/null
     echo "$file: exit $?"
 done
