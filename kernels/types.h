@@ -126,7 +126,8 @@ enum texture_channel {
     CHANNEL_RED,
     CHANNEL_GREEN,
     CHANNEL_BLUE,
-    CHANNEL_ALPHA
+    CHANNEL_ALPHA,
+    CHANNEL_GREY = 8 /* the mean, in the byte of alpha */
 };
 
 /* An image of width * height texels, which begin at texels[first] with the top

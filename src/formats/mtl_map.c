@@ -76,16 +76,15 @@ static void set_flags(struct texture *t, uint32_t u, uint32_t v,
         t->flags |= v;
 }
 
-/* Sets the channel. Returns false for one that glim does not know. l is
- * luminance, as is the default. */
+/* Sets the channel. Returns false for one that glim does not know. */
 static bool set_channel(struct texture *t, struct word word)
 {
-    static const char names[] = "lrgbm";
+    static const char names[] = "rgbm";
     const char *at = word.length == 1 ? strchr(names, *word.start) : NULL;
 
-    if (at == NULL)
+    if (at == NULL && !word_is(word, "l"))
         return false;
-    t->channel = (uint32_t)(at - names);
+    t->channel = at ? CHANNEL_RED + (uint32_t)(at - names) : CHANNEL_GREY;
     return true;
 }
 

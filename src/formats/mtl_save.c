@@ -217,7 +217,8 @@ static char *map_value(const struct writer *w, const struct mtl_source *s,
             print_pair(to, "-o", t->offset, 0);
         print_flags(to, t->flags);
         if (t->channel != CHANNEL_DEFAULT)
-            fprintf(to, "-imfchan %c ", "lrgbm"[t->channel]);
+            fprintf(to, "-imfchan %c ",
+                    t->channel == CHANNEL_GREY ? 'l' : " rgbm"[t->channel]);
         print_number(to, "-bm", s->map_scales[map], 1);
         fputs(name, to);
         if (fclose(to) != 0) {

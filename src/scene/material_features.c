@@ -27,7 +27,7 @@ static bool has_options(const struct texture *t)
 
     return (t->flags & ~(uint32_t)PLAIN_FLAGS) != 0 ||
            (clamp != 0 && clamp != TEXTURE_CLAMP) ||
-           (t->channel != CHANNEL_DEFAULT && t->channel != CHANNEL_ALPHA);
+           (t->channel >= CHANNEL_RED && t->channel <= CHANNEL_BLUE);
 }
 
 static bool needs_options(const struct material *m,

@@ -34,6 +34,8 @@ static enum fourth fourth_of(const struct scene *scene, uint32_t texture)
 {
     const struct texture *t = &scene->textures[texture];
 
+    if (t->channel == CHANNEL_GREY)
+        return FOURTH_GREY;
     if (t->is_data == 0 || t->channel != CHANNEL_DEFAULT)
         return FOURTH_ALPHA;
     return scene->texture_origins[texture].is_opacity ? FOURTH_OPACITY

@@ -494,6 +494,10 @@ static void one_image_counts_once(void **state)
     load(&l, "map_Kd leaf.tga\nmap_d -imfchan r leaf.tga");
     check_close(coverage(&l), 1, 0);
     unload(&l);
+    /* or in the mean of the colours */
+    load(&l, "map_Kd leaf.tga\nmap_d -imfchan l leaf.tga");
+    check_close(coverage(&l), 1 / 3., 1e-6);
+    unload(&l);
     /* the texels of all spellings are in memory once */
     load(&l, "Ks 1\nmap_Kd leaf.tga\nmap_Ks .//leaf.tga\nmap_Ke six.tga");
     assert_int_equal(l.world.settings.texel_count, 1);
