@@ -14,8 +14,10 @@
 
 #include "base/clock.h"
 #include "base/event_fd.h"
+#include "base/file.h"
 #include "base/print.h"
 #include "base/stop.h"
+#include "base/thread.h"
 #include "picture/image_write.h"
 #include "render/error_text.h"
 #include "render/render_left.h"
@@ -23,17 +25,10 @@
 /* The bar is drawn this often, which also bounds what a slow link gets. */
 #define DRAW_MS 100
 
-/* ---- scene, device and output file ---- */
+/* The line about a scene that is being read counts seconds, from one on. */
+#define NOTICE_NS 1000000000
 
-bool batch_open(struct session *s, const struct options *o, uint64_t start_ns,
-                struct error *err)
-{
-    /* warnings about a file matter only if it is rendered */
-    if (!session_open(s, o, start_ns, err))
-        return false;
-    warnings_print(&s->engine.report, stderr);
-    return true;
-}
+/* ---- device and output file ---- */
 
 bool batch_use_device(struct session *s, struct error *err)
 {
@@ -268,6 +263,83 @@ static void erase(struct batch_bar *bar)
     stop_allow_end();
     bar->shown_cols = 0;
 }
+
+/* ---- the scene ---- */
+
+/* A line on a terminal for who waits for a large scene. */
+struct notice {
+    const char *name;
+    struct batch_bar bar;
+    pthread_t thread;
+    pthread_mutex_t lock;
+    pthread_cond_t end;
+    bool is_ending;
+};
+
+/* Shows the line and its seconds until the end. */
+static void *notice_run(void *context)
+{
+    struct notice *n = context;
+    char text[96];
+
+    pthread_mutex_lock(&n->lock);
+    for (int s = 1; !n->is_ending; s++) {
+        struct timespec until = clock_time_after(NOTICE_NS);
+        int late = 0;
+
+        while (!n->is_ending && late == 0)
+            late = pthread_cond_timedwait(&n->end, &n->lock, &until);
+        if (n->is_ending)
+            break;
+        snprintf(text, sizeof text, "reading %.40s, %d s (Ctrl-C ends)",
+                 n->name, s);
+        bar_show(&n->bar, text);
+    }
+    pthread_mutex_unlock(&n->lock);
+    return NULL;
+}
+
+/* Starts the line, without which everything works as well. */
+static void notice_begin(struct notice *n, const char *path)
+{
+    *n = (struct notice){.name = strcmp(path, "-") == 0 ? "standard input"
+                                                        : path_name(path),
+                         .bar = batch_bar_begin()};
+    pthread_mutex_init(&n->lock, NULL);
+    thread_condition_init(&n->end);
+    n->bar.is_wanted =
+        n->bar.is_wanted && thread_start(&n->thread, notice_run, n) == 0;
+}
+
+static void notice_end(struct notice *n)
+{
+    pthread_mutex_lock(&n->lock);
+    n->is_ending = true;
+    pthread_cond_signal(&n->end);
+    pthread_mutex_unlock(&n->lock);
+    if (n->bar.is_wanted)
+        pthread_join(n->thread, NULL);
+    erase(&n->bar);
+    pthread_cond_destroy(&n->end);
+    pthread_mutex_destroy(&n->lock);
+}
+
+bool batch_open(struct session *s, const struct options *o, uint64_t start_ns,
+                struct error *err)
+{
+    struct notice notice;
+    bool ok;
+
+    notice_begin(&notice, o->scene_path);
+    ok = session_open(s, o, start_ns, err);
+    notice_end(&notice);
+    /* warnings about a file matter only if it is rendered */
+    if (ok)
+        warnings_print(&s->engine.report, stderr);
+    return ok;
+}
+
+/* ---- the end of a render ---- */
 
 /* Says that a checkpoint failed: once, since a full disk stays full. */
 static void say_failure(struct batch_bar *bar)

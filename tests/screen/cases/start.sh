@@ -24,3 +24,21 @@ start dark.obj
 wait_for "no light in the scene: lit by a soft sky"
 keys q
 expect_end 0
+# who waits for a scene is told so, and can end it
+mkfifo slow.obj
+read_slowly="glim -b -s 1 -w 2 -h 2 -o x.png - <slow.obj"
+fresh
+start_line "trap : INT; $read_slowly"
+sleep 100 >slow.obj &
+wait_for "^reading standard input, [1-9] s (Ctrl-C ends)"
+keys C-c
+wait_for "exit 130"
+kill $!
+fresh
+start_line "$read_slowly"
+{
+    cat flat.obj
+    wait_for "^reading standard input, [1-9] s (Ctrl-C ends)"
+} >slow.obj
+expect_end 0
+reject "reading"
