@@ -42,8 +42,11 @@ bool pose_fit_add(struct pose_fit *f, const double point[3])
     for (int i = 0; i < 4; i++) {
         double d = vec3d_dot(f->planes[i], point);
 
-        is_beyond |= d > f->most[i];
-        f->most[i] = d > f->most[i] ? d : f->most[i];
+        if (d <= f->most[i])
+            continue;
+        is_beyond = true;
+        f->most[i] = d;
+        memcpy(f->last[i], point, sizeof f->last[i]);
     }
     return is_beyond;
 }
@@ -59,17 +62,32 @@ void pose_fit_add_box(struct pose_fit *f, const double half[3])
     }
 }
 
+/* Returns where the eye is across, at the depth z, if the two points that are
+ * furthest to one side and to the other are as far from the middle of the
+ * picture. All others are between their planes then. */
+static double middle(const struct pose_fit *f, int side, const double across[3],
+                     double z)
+{
+    const double *a = f->last[side], *b = f->last[side + 1];
+    double depth_a = vec3d_dot(a, f->axes.forward) - z;
+    double depth_b = vec3d_dot(b, f->axes.forward) - z;
+
+    return (vec3d_dot(a, across) * depth_b + vec3d_dot(b, across) * depth_a) /
+           (depth_a + depth_b);
+}
+
 void pose_fit_place(const struct pose_fit *f, const double center[3],
                     double unit, double radius, struct pose *pose)
 {
-    double x = (f->most[0] - f->most[1]) / 2;
-    double y = (f->most[2] - f->most[3]) / 2;
+    double x, y;
     double z = fmin(-(f->most[0] + f->most[1]) / (2 * f->slope_x),
                     -(f->most[2] + f->most[3]) / (2 * f->slope_y));
 
     z = fmin(-radius, z);
     if (!(z < 0))
         z = -pose_reach(pose) / unit;
+    x = middle(f, 0, f->axes.right, z);
+    y = middle(f, 2, f->axes.up, z);
     for (int i = 0; i < 3; i++) {
         pose->at[i] =
             center[i] + unit * (x * f->axes.right[i] + y * f->axes.up[i]);

@@ -25,6 +25,7 @@ struct pose_fit {
     /* normals of the planes right, left, above and below, which go through the
      * eye, and how far the points are beyond planes through the centre */
     double planes[4][3], most[4];
+    double last[4][3]; /* the points that are furthest beyond */
 };
 
 void pose_fit_begin(struct pose_fit *fit, const struct pose *pose,

@@ -444,11 +444,41 @@ static void framed_cubes_fill_the_picture(void **state)
             }
         }
         for (int k = 0; k < 2; k++)
-            check_close(lo[k] + hi[k], 0, k == (across > high) ? 0.2 : 1e-5);
+            check_close(lo[k] + hi[k], 0, 1e-5);
         check_close(across > high ? hi[0] : hi[1], CAMERA_FILL, 1e-5);
         check_at_most(across > high ? hi[1] : hi[0], CAMERA_FILL + 1e-5);
         view_free(&view);
     }
+    unload(&l);
+}
+
+/* A floor is low in the picture, and as far from its middle above as below. */
+static void floors_are_in_the_middle(void **state)
+{
+    struct loaded l = load("v 1 0 1\nv 1 0 5\nv 9 0 5\nv 9 0 1\nf 1 2 3 4\n");
+    static const double x[] = {1, 9}, z[] = {1, 5};
+    double lo[2] = {9, 9}, hi[2] = {-9, -9};
+    struct world world;
+    struct view view;
+
+    (void)state;
+    view_init(&view);
+    scene_frame(&l.scene, &view);
+    assert_true(world_lend(&l.world, &l.scene, &view, 0, &world, &l.err));
+    for (int corner = 0; corner < 4; corner++) {
+        double p[3] = {x[corner & 1], 0, z[corner >> 1]}, xy[2], depth;
+
+        project(&l.scene, &world, p, &xy[0], &xy[1], &depth);
+        for (int k = 0; k < 2; k++) {
+            lo[k] = fmin(lo[k], xy[k]);
+            hi[k] = fmax(hi[k], xy[k]);
+        }
+    }
+    check_close(hi[0], CAMERA_FILL, 1e-5);
+    check_at_most(hi[1], CAMERA_FILL / 2);
+    for (int k = 0; k < 2; k++)
+        check_close(lo[k] + hi[k], 0, 1e-5);
+    view_free(&view);
     unload(&l);
 }
 
@@ -801,6 +831,7 @@ int main(void)
         cmocka_unit_test(framing_shows_everything),
         cmocka_unit_test(framed_cubes_fill_the_picture),
         cmocka_unit_test(a_wall_along_the_view_is_seen),
+        cmocka_unit_test(floors_are_in_the_middle),
         cmocka_unit_test(models_fill_the_picture),
         cmocka_unit_test(camera_is_in_scene_units),
         cmocka_unit_test(up_along_the_view_is_replaced),
