@@ -11,7 +11,8 @@ size=160x21
 device_is_there() # and takes its message away
 {
     wait_for "renders; self-test: the CPU's bits"
-    keys Escape
+    keys Escape # alone: with another key at once it would be Alt and that key
+    wait_until_gone "renders; self-test"
     wait_for "LIVE .* OpenCL pthread"
 }
 start -t 1 flat.obj
@@ -22,11 +23,13 @@ wait_for_rows 20 "48;2;188;124;0"
 keys w
 wait_for "nothing of the scene is in view"
 keys Escape
+wait_until_gone "nothing of the scene"
 wait_for "LIVE .* [1-9][0-9]* spp .* OpenCL pthread"
 wait_for_rows 20 "48;2;188;124;0"
 keys b
 wait_for "the CPU renders"
 keys Escape
+wait_until_gone "the CPU renders"
 wait_for "LIVE .* 1 thread "
 keys b
 device_is_there
