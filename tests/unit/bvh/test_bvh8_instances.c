@@ -20,7 +20,7 @@ static const char room[] =
     "f 9//1 11//3 10//2\nf 9//1 10//2 12//4\nf 9//1 12//4 11//3\n"
     "f 10//2 11//3 12//4\n"
     "o mesh2\nusemtl glow\n"
-    "v 0 0 0\nv .1 0 0\nv .1 .1 .01\nv 0 .1 0\nv .2 .1 .1\n"
+    "v 0 0 0\nv .4 0 0\nv .4 .4 .04\nv 0 .4 0\nv .8 .4 .4\n"
     "f 13 14 15 16\nf 14 17 15\n";
 
 /* Compares samples of both worlds with this kernel. */
@@ -35,7 +35,7 @@ static void compare_samples(const struct cpu_kernel *kernel,
     double light = 0;
 
     for (uint32_t i = 0; i < SAMPLES; i++) {
-        struct sample_id id = {i * 7919u % 320u, i * 104729u % 240u, i % 16};
+        struct sample_id id = {i % 320u, i / 320u * 3u % 240u, i % 16u};
         struct path_sample a = {.rays = 0}, b = {.rays = 0};
         struct first_surface surface;
 
