@@ -35,13 +35,14 @@ static double time_frame(struct session *s, struct screen_filter *filter,
         double begin = used_ms(), time;
 
         if (filter == NULL)
-            film_preview(render_film(s->engine.render), render_draft(s->engine.render),
-                         develop_linear(0), frame);
+            film_preview(render_film(s->engine.render),
+                         render_draft(s->engine.render), develop_linear(0),
+                         frame);
         else
             screen_filter_show(filter, render_film(s->engine.render),
                                render_draft(s->engine.render),
-                               render_surfaces(s->engine.render), develop_linear(0),
-                               form, frame);
+                               render_surfaces(s->engine.render),
+                               develop_linear(0), form, frame);
         time = used_ms() - begin;
         least = time < least ? time : least;
     }

@@ -21,8 +21,8 @@ static inline bool render_crop(struct session *s, struct rect crop,
                              .crop = crop,
                              .limits.spp = spp};
 
-    if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view, seed, &job.world,
-                    err))
+    if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view, seed,
+                    &job.world, err))
         return false;
     job.world.settings.features |= more_features;
     if (!render_start(s->engine.render, &job, err))

@@ -71,8 +71,8 @@ static void begin(struct session *s, uint64_t spp, uint32_t seed,
     };
     struct error err;
 
-    if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view, seed, &job.world,
-                    &err))
+    if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view, seed,
+                    &job.world, &err))
         stop(&err);
     job.world.settings.features |= FEATURE_FILTER;
     if (!render_start(s->engine.render, &job, &err))
@@ -92,7 +92,8 @@ static void filter(struct session *s, float *rgb)
     struct film to;
     struct error err;
 
-    if (!film_filter_copy(render_film(s->engine.render), usable_threads(), &to, &err))
+    if (!film_filter_copy(render_film(s->engine.render), usable_threads(), &to,
+                          &err))
         stop(&err);
     film_linear(&to, rgb);
     film_free(&to);

@@ -135,8 +135,8 @@ static bool render_half(struct session *s, enum direct direct, int half,
     if (!render_start(s->engine.render, &job, err))
         return false;
     render_wait(s->engine.render, -1);
-    return image_write(render_film(s->engine.render), develop_linear(0), NULL, path,
-                       err);
+    return image_write(render_film(s->engine.render), develop_linear(0), NULL,
+                       path, err);
 }
 
 /* Reads the half's picture from its file if that is new enough. */
