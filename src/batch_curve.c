@@ -13,7 +13,7 @@
 #include "picture/image_write.h"
 #include "terminal/tty.h"
 #include "measure/curve.h"
-#include "measure/text_chart.h"
+#include "measure/chart.h"
 #include "batch_compare.h"
 #include "batch_progress.h"
 
@@ -200,7 +200,7 @@ static bool draw(const struct measurement *m, struct error *err)
                     m->options.output_path, series[0].count,
                     print_plural((uint64_t)series[0].count));
     series[1] = series_half_slope(&series[0]);
-    text_chart_write(stdout, &chart, cols, rows, tty_is_utf8(&ignored));
+    chart_write_text(stdout, &chart, cols, rows, tty_is_utf8(&ignored));
     return m->options.output_path == NULL ||
            chart_write(&chart, m->options.output_path, err);
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_text_chart.c - diagrams of characters, compared with drawings by hand
+ * test_chart.c - diagrams of characters, compared with drawings by hand
  */
 #include <math.h>
 #include <stdlib.h>
 
 #include "tests/unit/check.h"
 
-#include "measure/text_chart.h"
+#include "measure/chart.h"
 
 static struct chart chart_of(const char *x_label, const char *y_label,
                              const struct series *s)
@@ -27,7 +27,7 @@ static char *drawn(const struct chart *chart, int cols, int rows,
     FILE *to = open_memstream(&text, &size_bytes);
 
     assert_non_null(to);
-    text_chart_write(to, chart, cols, rows, has_braille);
+    chart_write_text(to, chart, cols, rows, has_braille);
     assert_int_equal(fclose(to), 0);
     return text;
 }
@@ -77,6 +77,24 @@ static void no_point_is_no_diagram(void **state)
     free(text);
 }
 
+static void ticks_are_round(void **state)
+{
+    static const char *const labels[] = {"\n 50000 |", "\n100000 |",
+                                         "\n200000 |", "\n500000 |",
+                                         "\n   1e6 |", "\n   2e6 |"};
+    struct series s = {.count = 2, .x = {4.5e-3, 0.023}, .y = {4.5e4, 2.2e6}};
+    struct chart chart = chart_of("x", "y", &s);
+    char *text = drawn(&chart, 60, 30, false);
+
+    (void)state;
+    for (int i = 0; i < 6; i++)
+        check_has(text, labels[i]);
+    check_has(text, " 5e-3 ");
+    check_has(text, " 0.01 ");
+    check_has(text, " 0.02 ");
+    free(text);
+}
+
 /* One point, tiny and huge ranges and sizes end. */
 static void extremes_end(void **state)
 {
@@ -100,6 +118,7 @@ int main(void)
         cmocka_unit_test(a_line_is_drawn_in_ascii),
         cmocka_unit_test(braille_has_the_same_frame),
         cmocka_unit_test(no_point_is_no_diagram),
+        cmocka_unit_test(ticks_are_round),
         cmocka_unit_test(extremes_end),
     };
 
