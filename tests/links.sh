@@ -6,7 +6,7 @@ set -u
 cd "$(dirname "$0")/.." || exit 1
 status=0
 
-for text in *.md docs/*.md; do
+for text in *.md docs/*.md tests/*.md tests/bench/*.md; do
     for link in $(grep -oE '\]\([^)# ]+' "$text" | cut -c 3- | grep -v '://'); do
         [ -e "$(dirname "$text")/$link" ] || {
             echo "$text: found the link $link, expected a file"
