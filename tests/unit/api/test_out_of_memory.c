@@ -198,7 +198,7 @@ static void check_scene(const char *scene)
     count = call_count;
     assert_in_range(count, 10, RUNS_MAX);
     for (long n = 1; n <= count; n++) {
-        if (!check_is_due(8))
+        if (!check_is_due(12))
             continue;
         tried++;
         run(&now, scene, n);

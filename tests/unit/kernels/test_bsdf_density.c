@@ -159,7 +159,7 @@ static void check_density(const struct bsdf *m, float mu)
     struct chi_square chi = chi_begin();
     double total;
 
-    if (!check_is_due(6))
+    if (!check_is_due(9))
         return;
     total = expected_shares(&c, m, wo, shares);
     memset(counts, 0, sizeof counts);
