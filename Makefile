@@ -48,13 +48,14 @@ ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno \
 ALL_LDFLAGS = -pthread -pie -Wl,-z,relro,-z,now $(LDFLAGS) \
 	$(if $(SAN),-fsanitize=$(SAN))
 
-# WebP and OpenEXR images are read if their libraries are there; meshes of KHR_draco_mesh_compression
-# if libdraco is there, and a compiler for the one file in C++.
+# WebP and OpenEXR images are read if their libraries are there; meshes of
+# KHR_draco_mesh_compression if libdraco is there, and a compiler for the one file
+# in C++.
 HASH := \#
-WEBP := $(shell echo '$(HASH)include <webp/decode.h>' | $(CC) -E -x c - \
+has_header = $(shell echo '$(HASH)include <$(1)>' | $(CC) -E -x c - \
 	>/dev/null 2>&1 && echo 1)
-EXR := $(shell echo '$(HASH)include <OpenEXR/openexr.h>' | $(CC) -E -x c - \
-	>/dev/null 2>&1 && echo 1)
+WEBP := $(call has_header,webp/decode.h)
+EXR := $(call has_header,OpenEXR/openexr.h)
 ifeq ($(origin CXX),default)
 CXX := $(shell echo '$(CC)' | sed 's/gcc/g++/; s/clang/clang++/; s/\(^\|\/\)cc$$/\1c++/')
 endif

@@ -264,6 +264,42 @@ static void erase(struct batch_bar *bar)
     bar->shown_cols = 0;
 }
 
+/* Says that a checkpoint failed: once, since a full disk stays full. */
+static void say_failure(struct batch_bar *bar)
+{
+    struct error err;
+
+    if (bar->film == NULL || !session_film_failed(bar->film, &err) ||
+        bar->has_failed)
+        return;
+    bar->has_failed = true;
+    print_line(stderr,
+               "glim: warning: --checkpoint: %s; the last good file stays",
+               err.text);
+}
+
+struct render_progress batch_wait(struct session *s, struct batch_bar *bar)
+{
+    struct render *r = s->engine.render;
+    const struct options *o = s->options;
+    bool looks = bar->is_wanted || o->stats_path || o->checkpoint_path;
+    struct pollfd fds[2] = {{.fd = render_event_fd(r), .events = POLLIN},
+                            {.fd = stop_fd, .events = POLLIN}};
+    struct render_progress p = session_progress(s);
+
+    while (p.state == RENDER_RUNNING && stop_signal == 0) {
+        draw(bar, &p);
+        say_failure(bar);
+        poll(fds, 2, looks ? DRAW_MS : -1);
+        if (fds[0].revents & POLLIN)
+            event_fd_clear(fds[0].fd);
+        p = session_progress(s);
+    }
+    erase(bar);
+    render_halt(r);
+    return session_progress(s);
+}
+
 /* ---- the scene ---- */
 
 /* A line on a terminal for who waits for a large scene. */
@@ -283,7 +319,7 @@ static void *notice_run(void *context)
     char text[96];
 
     pthread_mutex_lock(&n->lock);
-    for (int s = 1; !n->is_ending; s++) {
+    for (int s = 1;; s++) {
         struct timespec until = clock_time_after(NOTICE_NS);
         int late = 0;
 
@@ -337,44 +373,6 @@ bool batch_open(struct session *s, const struct options *o, uint64_t start_ns,
     if (ok)
         warnings_print(&s->engine.report, stderr);
     return ok;
-}
-
-/* ---- the end of a render ---- */
-
-/* Says that a checkpoint failed: once, since a full disk stays full. */
-static void say_failure(struct batch_bar *bar)
-{
-    struct error err;
-
-    if (bar->film == NULL || !session_film_failed(bar->film, &err) ||
-        bar->has_failed)
-        return;
-    bar->has_failed = true;
-    print_line(stderr,
-               "glim: warning: --checkpoint: %s; the last good file stays",
-               err.text);
-}
-
-struct render_progress batch_wait(struct session *s, struct batch_bar *bar)
-{
-    struct render *r = s->engine.render;
-    const struct options *o = s->options;
-    bool looks = bar->is_wanted || o->stats_path || o->checkpoint_path;
-    struct pollfd fds[2] = {{.fd = render_event_fd(r), .events = POLLIN},
-                            {.fd = stop_fd, .events = POLLIN}};
-    struct render_progress p = session_progress(s);
-
-    while (p.state == RENDER_RUNNING && stop_signal == 0) {
-        draw(bar, &p);
-        say_failure(bar);
-        poll(fds, 2, looks ? DRAW_MS : -1);
-        if (fds[0].revents & POLLIN)
-            event_fd_clear(fds[0].fd);
-        p = session_progress(s);
-    }
-    erase(bar);
-    render_halt(r);
-    return session_progress(s);
 }
 
 /* ---- lines ---- */

@@ -404,7 +404,7 @@ static bool build(struct caustic_lobes *to, const struct bvh8_world *w,
                   struct photons *p)
 {
     struct guide_grid grid;
-    double box = guide_grid_init(&grid, &w->world);
+    double box = guide_grid_init(&grid, &w->world, NULL);
     uint32_t count = photons_need_rough(&w->world, PHOTONS_OF_LAMPS)
                          ? PHOTONS_ROUGH
                          : PHOTONS;

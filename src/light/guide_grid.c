@@ -61,18 +61,31 @@ static void join_corners(const struct vec3 corners[8], struct vec3 *lo,
     }
 }
 
-double guide_grid_init(struct guide_grid *g, const struct world *w)
+static struct box box_around(const struct vec3 corners[8])
+{
+    struct vec3 lo = corners[0], hi = corners[0];
+
+    join_corners(corners, &lo, &hi);
+    return box_of_corners(lo, hi);
+}
+
+double guide_grid_init(struct guide_grid *g, const struct world *w,
+                       double *overlap)
 {
     struct vec3 lo = tri_placed(w, 0).p[0], hi = lo, size;
     struct mesh_box mesh = {.mesh = NO_INDEX};
+    struct box box, instances = box_empty();
+    double instance_area = 0;
     uint64_t tris = 0;
-    struct box box;
 
     join_tris(w, 0, plain_tri_count(w), &lo, &hi);
     for (uint32_t i = 0; i < w->settings.instance_count; i++) {
         struct vec3 corners[8];
 
         instance_box_corners(w, i, &mesh, corners);
+        box = box_around(corners);
+        box_join(&instances, &box);
+        instance_area += (double)box_area(&box);
         if (is_inside(lo, hi, corners))
             continue;
         tris += w->instances[i].tri_count;
@@ -88,6 +101,10 @@ double guide_grid_init(struct guide_grid *g, const struct world *w)
     g->width = cubes_along(size.x, g);
     g->height = cubes_along(size.y, g);
     g->depth = cubes_along(size.z, g);
+    if (overlap != NULL)
+        *overlap = instance_area > 0
+                       ? instance_area / (double)box_area(&instances)
+                       : 0;
     box = box_of_corners(lo, hi);
     return 2.0 * (double)box_area(&box);
 }

@@ -24,8 +24,11 @@ struct guide_flux {
 };
 
 /* Lays the grid over all triangles, of which there is at least one. Returns the
- * surface area of the box around them. */
-double guide_grid_init(struct guide_grid *grid, const struct world *world);
+ * surface area of the box around them. *overlap, unless NULL, becomes the
+ * number of instances whose boxes a ray through the box around all instances
+ * meets on average: the sum of their areas by its area. */
+double guide_grid_init(struct guide_grid *grid, const struct world *world,
+                       double *overlap);
 
 static inline uint32_t guide_cell_count(const struct guide_grid *g)
 {

@@ -61,16 +61,17 @@ static bool find_parts(struct path_guide *g, const struct bvh8_world *w,
 {
     bool has_caustics = wants_caustics(g, &w->world);
     bool has_portals = wants_portals(g, sky);
-    double box;
+    double box, overlap;
 
     if (!has_caustics && !has_portals)
         return true;
-    box = guide_grid_init(&g->grid, &w->world);
+    box = guide_grid_init(&g->grid, &w->world, &overlap);
     g->lights = 2 * lights_power(lights) / box;
     return (!has_caustics ||
             (guide_flux_init(&g->caustics, &g->grid) &&
              caustics_find(w, lights, &g->grid, box, pool, &g->caustics))) &&
-           (!has_portals || sky_portals_find(w, &g->grid, pool, &g->portals));
+           (!has_portals ||
+            sky_portals_find(w, &g->grid, overlap, pool, &g->portals));
 }
 
 /* Searches for caustics of lamps, or frees the tables if there can be none. */

@@ -7,8 +7,6 @@
 #include "base/memory.h"
 #include "picture/color.h"
 #include "bvh/bvh8_traverse.h"
-#include "bvh/instance_trees.h"
-#include "bvh/sah_bins.h"
 #include "light/triangle_cdf.h"
 #include "kernels/guide.h"
 #include "kernels/light.h"
@@ -374,36 +372,11 @@ static bool portals_init(struct sky_portals *o, const struct bvh8_world *w,
            (!has_glass(&w->world) || guide_flux_init(&o->glazed, grid));
 }
 
-/* Returns the number of instances whose boxes a ray through the box around all
- * of them meets on average, the sum of their areas by its area. */
-static double overlap(const struct world *w)
-{
-    struct mesh_box mesh = {.mesh = NO_INDEX};
-    struct box all = box_empty();
-    double sum = 0;
-
-    for (uint32_t i = 0; i < w->settings.instance_count; i++) {
-        struct box box = box_empty();
-        struct vec3 corners[8];
-
-        instance_box_corners(w, i, &mesh, corners);
-        for (int k = 0; k < 8; k++) {
-            struct box corner = box_of_point(corners[k]);
-
-            box_join(&box, &corner);
-        }
-        box_join(&all, &box);
-        sum += (double)box_area(&box);
-    }
-    return sum > 0 ? sum / (double)box_area(&all) : 0;
-}
-
 static bool search_init(struct search *s, struct pool *pool)
 {
     const struct world *w = &s->w->world;
     uint32_t count = guide_cell_count(s->grid);
 
-    s->probe_count = (uint32_t)(PROBES / fmax(overlap(w) / OVERLAP_MAX, 1));
     s->probes = alloc_array(PROBES, sizeof *s->probes);
     s->points = alloc_array(PROBES, sizeof *s->points);
     s->portals = alloc_array((size_t)PROBES * OPEN_RAYS, sizeof *s->portals);
@@ -433,9 +406,14 @@ static void find(struct search *s, struct pool *pool)
 }
 
 bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
-                      struct pool *pool, struct sky_portals *portals)
+                      double overlap, struct pool *pool,
+                      struct sky_portals *portals)
 {
-    struct search s = {.w = w, .grid = grid, .found = portals};
+    struct search s = {.w = w,
+                       .probe_count =
+                           (uint32_t)(PROBES / fmax(overlap / OVERLAP_MAX, 1)),
+                       .grid = grid,
+                       .found = portals};
     bool ok = portals_init(portals, w, grid) && search_init(&s, pool);
 
     if (ok)

@@ -40,9 +40,11 @@ struct sky_portals {
     double escape; /* share of bounced light that meets no surface */
 };
 
-/* Searches, with a sky of radiance 1 in all directions. */
+/* Searches, with a sky of radiance 1 in all directions. grid and overlap are of
+ * guide_grid_init(). */
 bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
-                      struct pool *pool, struct sky_portals *portals);
+                      double overlap, struct pool *pool,
+                      struct sky_portals *portals);
 
 /* Returns the light of all bounces as a multiple of `bounced`. The colours of
  * the walls may have changed since the search. */

@@ -29,6 +29,8 @@ struct input {
     int chunk[2];         /* width and height of a chunk */
     uint64_t pixel_bytes; /* of all channels */
     int64_t chunk_count;
+    exr_decode_pipeline_t pipeline;
+    float *rgb; /* the decoded picture */
 };
 
 const char image_exr_name[] = "OpenEXR";
@@ -60,7 +62,7 @@ static int64_t read_bytes(exr_const_context_t context, void *user_data,
     return (int64_t)count;
 }
 
-/* Messages become those of fail_exr(). */
+/* The library's messages are not printed: is_done() has the reason. */
 static void ignore(exr_const_context_t context, exr_result_t code,
                    const char *text)
 {
@@ -204,12 +206,18 @@ bool image_exr_header(struct image_file *f, struct error *err)
 
 /* ---- pixels ---- */
 
-/* Decodes a chunk whose first pixel is at (x, y) of the picture. */
-static bool decode_chunk(const struct image_file *f, const struct input *in,
-                         exr_decode_pipeline_t *pipeline,
-                         const exr_chunk_info_t *chunk, int x, int y,
-                         float *rgb, struct error *err)
+static bool is_grey(const struct input *in)
 {
+    return in->channels[1] == in->channels[0];
+}
+
+/* Decodes a chunk whose first pixel is at (x, y) of the picture. */
+static bool decode_chunk(const struct image_file *f, struct input *in,
+                         const exr_chunk_info_t *chunk, int x, int y,
+                         struct error *err)
+{
+    exr_decode_pipeline_t *pipeline = &in->pipeline;
+    float *first = in->rgb + 3 * ((size_t)y * (size_t)f->width + (size_t)x);
     bool is_first = pipeline->channels == NULL;
     exr_result_t result =
         is_first ? exr_decoding_initialize(in->context, 0, chunk, pipeline)
@@ -222,13 +230,11 @@ static bool decode_chunk(const struct image_file *f, const struct input *in,
     for (int c = 0; c < 3; c++) {
         exr_coding_channel_info_t *to = &pipeline->channels[in->channels[c]];
 
-        to->decode_to_ptr =
-            (uint8_t *)(rgb + 3 * ((size_t)y * (size_t)f->width + (size_t)x) +
-                        (in->channels[1] == in->channels[0] ? 0 : c));
+        to->decode_to_ptr = (uint8_t *)(first + (is_grey(in) ? 0 : c));
         to->user_data_type = EXR_PIXEL_FLOAT;
-        to->user_bytes_per_element = sizeof *rgb;
-        to->user_pixel_stride = 3 * sizeof *rgb;
-        to->user_line_stride = 3 * (int)sizeof *rgb * f->width;
+        to->user_bytes_per_element = sizeof *first;
+        to->user_pixel_stride = 3 * sizeof *first;
+        to->user_line_stride = 3 * (int)sizeof *first * f->width;
     }
     if (is_first)
         result = exr_decoding_choose_default_routines(in->context, 0, pipeline);
@@ -236,8 +242,7 @@ static bool decode_chunk(const struct image_file *f, const struct input *in,
            is_done(f, exr_decoding_run(in->context, 0, pipeline), err);
 }
 
-static bool decode(const struct image_file *f, const struct input *in,
-                   exr_decode_pipeline_t *pipeline, float *rgb,
+static bool decode(const struct image_file *f, struct input *in,
                    struct error *err)
 {
     const int *size = in->chunk;
@@ -254,7 +259,7 @@ static bool decode(const struct image_file *f, const struct input *in,
                                                    &chunk);
 
             if (!is_done(f, result, err) ||
-                !decode_chunk(f, in, pipeline, &chunk, x, y, rgb, err))
+                !decode_chunk(f, in, &chunk, x, y, err))
                 return false;
         }
     return true;
@@ -272,24 +277,22 @@ static void spread_grey(const struct image_file *f, float *rgb)
 float *image_exr_decode(const struct image_file *f, struct error *err)
 {
     struct image_file file = *f;
-    exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
     struct input in;
-    float *rgb = NULL;
     bool ok = open_file(&file, &in, err);
 
     if (ok) {
-        rgb =
-            alloc_array((size_t)f->width * (size_t)f->height, 3 * sizeof *rgb);
-        ok = rgb != NULL ? decode(f, &in, &pipeline, rgb, err)
-                         : fail(err, "%s: out of memory for %dx%d pixels",
-                                f->path, f->width, f->height);
-        exr_decoding_destroy(in.context, &pipeline);
+        in.rgb = alloc_array((size_t)f->width * (size_t)f->height,
+                             3 * sizeof *in.rgb);
+        ok = in.rgb != NULL ? decode(f, &in, err)
+                            : fail(err, "%s: out of memory for %dx%d pixels",
+                                   f->path, f->width, f->height);
+        exr_decoding_destroy(in.context, &in.pipeline);
     }
     exr_finish(&in.context);
-    if (ok && in.channels[1] == in.channels[0])
-        spread_grey(f, rgb);
+    if (ok && is_grey(&in))
+        spread_grey(f, in.rgb);
     if (ok)
-        return rgb;
-    free(rgb);
+        return in.rgb;
+    free(in.rgb);
     return NULL;
 }

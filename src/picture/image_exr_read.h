@@ -4,7 +4,7 @@
  *
  * The channels R, G and B, or Y, of the first part are read, of lines or tiles
  * (the largest level) with any compression; others are skipped. Programs built
- * without the library have image_exr_read_none.c, to which no file is one.
+ * without the library have image_exr_read_none.c, for which no file is OpenEXR.
  *
  * Units:     pixels, row 0 at the top; linear floats
  * Ownership: image_exr_decode() returns memory for free()

@@ -306,6 +306,38 @@ static bool is_gif(const struct image_file *f)
                                    memcmp(f->data, "GIF89a", 6) == 0);
 }
 
+/* Returns the bytes of a palette by the flags of the screen or of a picture. */
+static size_t gif_palette(uint32_t flags)
+{
+    return flags & 0x80 ? 3u << ((flags & 7) + 1) : 0;
+}
+
+/* Moves *at behind blocks, each after its length, and the length 0. */
+static void skip_blocks(struct bytes b, size_t *at)
+{
+    while (byte_at(b, *at) != 0)
+        *at += 1 + (size_t)byte_at(b, *at);
+    ++*at;
+}
+
+/* Returns the end of the first picture, or of the file's bytes if there is
+ * none: beyond the file if that was cut. */
+static size_t gif_end(struct bytes b)
+{
+    enum { EXTENSION = 0x21, PICTURE = 0x2c };
+    size_t at = 13 + gif_palette(byte_at(b, 10));
+
+    while (byte_at(b, at) == EXTENSION) {
+        at += 2;
+        skip_blocks(b, &at);
+    }
+    if (byte_at(b, at) != PICTURE)
+        return at;
+    at += 11 + gif_palette(byte_at(b, at + 9));
+    skip_blocks(b, &at);
+    return at;
+}
+
 /* Reads the sides of the screen, and makes what the first picture leaves free
  * transparent, as viewers do, by the number of the background colour. */
 static bool gif_header(struct image_file *f, struct error *err)
@@ -316,7 +348,8 @@ static bool gif_header(struct image_file *f, struct error *err)
         return false;
     f->data[11] = 0;
     f->decoder_bytes = DECODER_BYTES + GIF_BYTES * (size_t)pixels_of(f);
-    return expect_bytes(f, b.size, pixels_of(f) / GIF_RATIO, err);
+    return expect_bytes(f, b.size, pixels_of(f) / GIF_RATIO, err) &&
+           expect_bytes(f, b.size, gif_end(b), err);
 }
 
 /* True for the blanks of stb_image. */
@@ -349,8 +382,8 @@ static uint32_t pnm_number(struct bytes b, size_t *at)
     return n;
 }
 
-/* Reads the header of grey (P5) or coloured bytes (P6). stb_image takes others
- * for these. */
+/* Reads the header of grey (P5) or coloured bytes (P6). stb_image would
+ * take values of another range for bytes. */
 static bool pnm_header(struct image_file *f, struct error *err)
 {
     struct bytes b = bytes_of(f);
@@ -444,7 +477,7 @@ bool image_header(struct image_file *f, struct error *err)
     f->kind = r->kind;
     if (!r->header(f, err))
         return false;
-    /* others take the result's memory only */
+    /* PSD and WebP take the result's memory only */
     if (r->is_8bit && f->decoder_bytes == 0)
         f->decoder_bytes = 4 * (size_t)pixels_of(f);
     return true;

@@ -69,11 +69,14 @@ static double middle(const struct pose_fit *f, int side, const double across[3],
                      double z)
 {
     const double *a = f->last[side], *b = f->last[side + 1];
-    double depth_a = vec3d_dot(a, f->axes.forward) - z;
-    double depth_b = vec3d_dot(b, f->axes.forward) - z;
+    double depth_a = fmax(vec3d_dot(a, f->axes.forward) - z, 0);
+    double depth_b = fmax(vec3d_dot(b, f->axes.forward) - z, 0);
+    double depth = depth_a + depth_b; /* 0: the eye is in both */
 
-    return (vec3d_dot(a, across) * depth_b + vec3d_dot(b, across) * depth_a) /
-           (depth_a + depth_b);
+    return depth > 0 ? (vec3d_dot(a, across) * depth_b +
+                        vec3d_dot(b, across) * depth_a) /
+                           depth
+                     : (f->most[side] - f->most[side + 1]) / 2;
 }
 
 void pose_fit_place(const struct pose_fit *f, const double center[3],

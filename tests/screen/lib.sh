@@ -3,7 +3,7 @@
 #
 # A case runs in an empty folder. `start` opens a tmux window in which the
 # program runs; the other functions press keys and inspect the screen. A wait
-# fails after half a minute. No case waits for a fixed time: after `wait_until
+# fails after some minutes. No case waits for a fixed time: after `wait_until
 # rests` nothing changes without input.
 
 mux()

@@ -11,7 +11,7 @@ size=160x21
 device_is_there() # and takes its message away
 {
     wait_for "renders; self-test: the CPU's bits"
-    keys Escape # alone: with another key at once it would be Alt and that key
+    keys Escape
     wait_until_gone "renders; self-test"
     wait_for "LIVE .* OpenCL pthread"
 }

@@ -33,6 +33,7 @@ keys Enter
 keys Escape Escape
 wait_until_gone "│"
 wait_until shows both
+wait_for "COMPARE  left: kept 1 of 1, .* right: now"
 # all of it is kept, or all is new
 for _ in 1 2 3 4 5 6 7 8 9 10 11; do keys Left; done
 wait_until shows green
@@ -52,7 +53,7 @@ keys Escape
 wait_for "LIVE .* spp"
 wait_until shows green
 keys y
-wait_for "COMPARE  left: kept 1 of 2, .* right: now"
+wait_for "COMPARE  left: kept 1 of 2"
 keys y y
 wait_for "LIVE .* spp"
 keys q n q

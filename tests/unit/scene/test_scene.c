@@ -402,6 +402,28 @@ static void framing_shows_everything(void **state)
     " " b " " a "\nv " a " " a " " b "\nv " b " " a " " b "\nv " b " " b " " b \
     "\nv " a " " b " " b "\nf 1 2 3 4\nf 5 6 7 8\nf 1 2 6 5\nf 4 3 7 8\n"
 
+/* Finds the least and greatest x and y of a box in the picture. */
+static void find_extent(const struct scene *scene, const struct world *world,
+                        const double low[3], const double high[3], double lo[2],
+                        double hi[2])
+{
+    for (int k = 0; k < 2; k++) {
+        lo[k] = INFINITY;
+        hi[k] = -INFINITY;
+    }
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3], xy[2], depth;
+
+        for (int k = 0; k < 3; k++)
+            p[k] = corner >> k & 1 ? high[k] : low[k];
+        project(scene, world, p, &xy[0], &xy[1], &depth);
+        for (int k = 0; k < 2; k++) {
+            lo[k] = fmin(lo[k], xy[k]);
+            hi[k] = fmax(hi[k], xy[k]);
+        }
+    }
+}
+
 /* A cube of half the side a = 1 fills CAMERA_FILL of the width or the height,
  * is in the middle, and the eye is at the distance that follows: with the slope
  * s of the sides, a / s + a (sin 20 + cos 20) where the width decides, and half
@@ -410,6 +432,7 @@ static void framed_cubes_fill_the_picture(void **state)
 {
     static const int sizes[][2] = {{100, 100}, {1024, 576}, {800, 200},
                                    {200, 800}, {1600, 90},  {90, 1600}};
+    static const double least[3] = {9, 9, 9}, most[3] = {11, 11, 11};
     const double up = sin(20 * M_PI / 180), level = cos(20 * M_PI / 180);
     struct loaded l = load(CUBE("9", "11"));
 
@@ -421,7 +444,7 @@ static void framed_cubes_fill_the_picture(void **state)
         double high = (level + s * up + fabs(up - s * level) + level - s * up +
                        up + s * level) /
                       (2 * s);
-        double lo[2] = {9, 9}, hi[2] = {-9, -9};
+        double lo[2], hi[2];
         struct world world;
         struct view view;
 
@@ -432,17 +455,7 @@ static void framed_cubes_fill_the_picture(void **state)
         scene_frame(&l.scene, &view);
         check_close(pose_reach(&view.pose), fmax(across, high), 1e-6);
         assert_true(world_lend(&l.world, &l.scene, &view, 0, &world, &l.err));
-        for (int corner = 0; corner < 8; corner++) {
-            double p[3], xy[2], z;
-
-            for (int k = 0; k < 3; k++)
-                p[k] = corner >> k & 1 ? 11 : 9;
-            project(&l.scene, &world, p, &xy[0], &xy[1], &z);
-            for (int k = 0; k < 2; k++) {
-                lo[k] = fmin(lo[k], xy[k]);
-                hi[k] = fmax(hi[k], xy[k]);
-            }
-        }
+        find_extent(&l.scene, &world, least, most, lo, hi);
         for (int k = 0; k < 2; k++)
             check_close(lo[k] + hi[k], 0, 1e-5);
         check_close(across > high ? hi[0] : hi[1], CAMERA_FILL, 1e-5);
@@ -456,8 +469,8 @@ static void framed_cubes_fill_the_picture(void **state)
 static void floors_are_in_the_middle(void **state)
 {
     struct loaded l = load("v 1 0 1\nv 1 0 5\nv 9 0 5\nv 9 0 1\nf 1 2 3 4\n");
-    static const double x[] = {1, 9}, z[] = {1, 5};
-    double lo[2] = {9, 9}, hi[2] = {-9, -9};
+    static const double low[3] = {1, 0, 1}, high[3] = {9, 0, 5};
+    double lo[2], hi[2];
     struct world world;
     struct view view;
 
@@ -465,21 +478,31 @@ static void floors_are_in_the_middle(void **state)
     view_init(&view);
     scene_frame(&l.scene, &view);
     assert_true(world_lend(&l.world, &l.scene, &view, 0, &world, &l.err));
-    for (int corner = 0; corner < 4; corner++) {
-        double p[3] = {x[corner & 1], 0, z[corner >> 1]}, xy[2], depth;
-
-        project(&l.scene, &world, p, &xy[0], &xy[1], &depth);
-        for (int k = 0; k < 2; k++) {
-            lo[k] = fmin(lo[k], xy[k]);
-            hi[k] = fmax(hi[k], xy[k]);
-        }
-    }
+    find_extent(&l.scene, &world, low, high, lo, hi);
     check_close(hi[0], CAMERA_FILL, 1e-5);
     check_at_most(hi[1], CAMERA_FILL / 2);
     for (int k = 0; k < 2; k++)
         check_close(lo[k] + hi[k], 0, 1e-5);
     view_free(&view);
     unload(&l);
+}
+
+/* The eye comes to the near end of a line along the view, and no nearer. */
+static void lines_along_the_view_have_a_place(void **state)
+{
+    struct pose pose = {.eye = {0, 0, 5}, .up = {0, 1, 0}, .fovy_deg = 40};
+    const double half[3] = {0, 0, 1}, center[3] = {2, 3, 4};
+    const double eye[3] = {2, 3, 5}, at[3] = {2, 3, 4};
+    struct pose_fit fit;
+
+    (void)state;
+    pose_fit_begin(&fit, &pose, 1.5);
+    pose_fit_add_box(&fit, half);
+    pose_fit_place(&fit, center, 1, 1, &pose);
+    for (int k = 0; k < 3; k++) {
+        check_close(pose.eye[k], eye[k], 1e-12);
+        check_close(pose.at[k], at[k], 1e-12);
+    }
 }
 
 #define OCTAHEDRON                                                    \
@@ -832,6 +855,7 @@ int main(void)
         cmocka_unit_test(framed_cubes_fill_the_picture),
         cmocka_unit_test(a_wall_along_the_view_is_seen),
         cmocka_unit_test(floors_are_in_the_middle),
+        cmocka_unit_test(lines_along_the_view_have_a_place),
         cmocka_unit_test(models_fill_the_picture),
         cmocka_unit_test(camera_is_in_scene_units),
         cmocka_unit_test(up_along_the_view_is_replaced),
