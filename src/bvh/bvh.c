@@ -44,7 +44,6 @@ struct subtree {
 struct builder {
     struct splitter splitter;
     struct bvh *bvh;
-    struct node *nodes;       /* two for each triangle, see nodes_of() */
     struct subtree *subtrees; /* depth-first */
     uint32_t subtree_count;
     size_t subtree_capacity;
@@ -77,12 +76,12 @@ static struct node node_of(const struct range *r)
 }
 
 /* Returns the memory for a subtree, which has fewer than two nodes per
- * triangle.
- */
+ * triangle. The nodes of the top fit before the first subtree, so that
+ * place_subtree() moves all of them forwards. */
 static struct node *nodes_of(const struct builder *b,
                              const struct subtree *subtree)
 {
-    return b->nodes + 2 * (size_t)subtree->range.first;
+    return b->bvh->nodes + b->subtree_count + 2 * (size_t)subtree->range.first;
 }
 
 /* Builds the tree of a range. Recursion is as deep as the tree, below
@@ -156,13 +155,13 @@ static bool build_top(struct builder *b, const struct range *r)
 
 /* ---- the whole ---- */
 
-static void place_subtree(void *context, uint32_t item, int worker)
+/* Moves the nodes of a subtree, or a node at the top, to their place in the
+ * tree, which is not behind the present one. */
+static void place_subtree(const struct builder *b,
+                          const struct subtree *subtree)
 {
-    const struct builder *b = context;
-    const struct subtree *subtree = &b->subtrees[item];
     struct node *to = b->bvh->nodes + subtree->first_node;
 
-    (void)worker;
     if (subtree->right != 0) {
         *to = node_of(&subtree->range);
         to->next = b->subtrees[subtree->right].first_node;
@@ -175,7 +174,7 @@ static void place_subtree(void *context, uint32_t item, int worker)
     }
 }
 
-static bool join_subtrees(struct builder *b)
+static void join_subtrees(const struct builder *b)
 {
     struct bvh *bvh = b->bvh;
 
@@ -193,11 +192,8 @@ static bool join_subtrees(struct builder *b)
         if (subtree->depth > bvh->depth)
             bvh->depth = subtree->depth;
     }
-    bvh->nodes = alloc_aligned(bvh->node_count, sizeof *bvh->nodes);
-    if (bvh->nodes == NULL)
-        return false;
-    pool_each(b->splitter.pool, b->subtree_count, place_subtree, b);
-    return true;
+    for (uint32_t i = 0; i < b->subtree_count; i++)
+        place_subtree(b, &b->subtrees[i]);
 }
 
 static bool begin(struct builder *b, const struct world *w,
@@ -208,13 +204,11 @@ static bool begin(struct builder *b, const struct world *w,
     if (!splitter_init(&b->splitter, w, leaves, pool))
         return false;
     b->bvh->tris = alloc_aligned(count, sizeof *b->bvh->tris);
-    b->nodes = alloc_aligned(2 * (size_t)count, sizeof *b->nodes);
-    return b->bvh->tris != NULL && b->nodes != NULL;
+    return b->bvh->tris != NULL;
 }
 
 static void end(struct builder *b)
 {
-    free(b->nodes);
     free(b->subtrees);
     splitter_free(&b->splitter);
 }
@@ -225,8 +219,13 @@ static bool build(struct builder *b)
 
     if (!build_top(b, &all))
         return false;
+    b->bvh->nodes = alloc_aligned(2 * (size_t)all.count + b->subtree_count,
+                                  sizeof *b->bvh->nodes);
+    if (b->bvh->nodes == NULL)
+        return false;
     pool_each(b->splitter.pool, b->subtree_count, build_subtree, b);
-    return join_subtrees(b);
+    join_subtrees(b);
+    return true;
 }
 
 static bool fail_for(struct bvh *bvh, const struct world *w, struct error *err)
