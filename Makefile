@@ -77,7 +77,7 @@ include kernels.mk
 
 # With MPI=1 the program has src/cluster/; otherwise cluster_none.c replaces it.
 MPI_SOURCES := $(addprefix src/cluster/,cluster.c cluster_backend.c \
-	cluster_pass.c cluster_worker.c wire.c)
+	cluster_worker.c wire.c)
 # kernels.mk compiles these, each several times.
 KERNEL_SOURCES := src/render/cpu_kernel.c src/render/cpu_dispatch.c
 SOURCES := $(filter-out $(MPI_SOURCES) $(KERNEL_SOURCES) \

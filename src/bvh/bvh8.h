@@ -5,7 +5,6 @@
  * It is made from the binary tree. The boxes of a node's children are arrays of
  * eight, so that one step tests all. Up to four triangles lie side by side in a
  * block (Wald, Benthin and Boulos 2008, "Getting rid of packets").
- * bvh8_collapse.h chooses which nodes of the binary tree become children.
  *
  *     one allocation, in units of 32 bytes
  *     +--------+--------+-----+---------+---------+-----+-------------+

@@ -3,7 +3,7 @@
  * path_guide.h - the path guide: tables of directions of light that is hard to
  * find
  *
- * Caustics (caustics.h), and the sky that is seen through portals
+ * Caustics (caustic_lobes.h), and the sky that is seen through portals
  * (sky_portals.h). kernels/guide.h samples the tables and weights the samples,
  * so that errors of the tables cost time but add no bias. The guide depends on
  * the scene and its sky, not on the camera.

@@ -8,8 +8,9 @@
 #include "filter/screen_filter.h"
 #include "studio/panel_draw.h"
 #include "studio/progress_text.h"
-#include "studio/screen_draft.h"
+#include "studio/render_control.h"
 #include "studio/status_line.h"
+#include "terminal/screen.h"
 
 #define MS_NS UINT64_C(1000000)
 #define S_NS  UINT64_C(1000000000)
@@ -52,6 +53,48 @@
 /* Frames take at most 1/FRAME_SHARE of a core while only new samples arrive:
  * the rest is for the render. */
 #define FRAME_SHARE 12
+
+/* ---- the draft ---- */
+
+/* Sets the draft's size for a picture in these cells, before tty_open(). A cell
+ * of half blocks shows two pixels, one above the other. */
+static void screen_draft_expect(struct session *s, const struct cells_rect *fit)
+{
+    s->draft_width = fit->cols;
+    s->draft_height = 2 * fit->rows;
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* Returns true if the draft has the size that the next one will have. */
+static bool is_current(const struct session *s, const struct film *draft)
+{
+    return draft->width == smaller(s->draft_width, s->engine.crop.width) &&
+           draft->height == smaller(s->draft_height, s->engine.crop.height);
+}
+
+/* Sets the draft's size for the present layout of the screen, which the filter
+ * decides when it is on. The present draft is resampled until the next restart;
+ * a young picture restarts at once. */
+static void screen_draft_fit(struct render_control *control,
+                             const struct screen *screen)
+{
+    struct session *s = control->session;
+    const struct film *young = render_draft(s->engine.render);
+
+    screen_draft_expect(s, &screen->fit);
+    if (s->is_filtered)
+        screen_filter_draft_size(screen->frame_width, screen->frame_height,
+                                 &s->draft_width, &s->draft_height);
+    if (control->is_live && !control->is_halted && s->draft_has_surfaces &&
+        young && !screen->is_too_small && !is_current(s, young))
+        render_control_restart(control);
+}
+
+/* ---- parts ---- */
 
 static uint64_t earlier(uint64_t a, uint64_t b)
 {
