@@ -20,7 +20,7 @@
 #include "base/thread.h"
 #include "picture/image_write.h"
 #include "render/error_text.h"
-#include "render/render_left.h"
+#include "render/progress.h"
 
 /* The bar is drawn this often, which also bounds what a slow link gets. */
 #define DRAW_MS 100

@@ -10,7 +10,7 @@
 #include "base/event_fd.h"
 #include "base/memory.h"
 #include "base/thread.h"
-#include "render/render_left.h"
+#include "render/progress.h"
 #include "scene/pose_fit.h"
 
 /* Greatest number of threads, more than machines have processors. */

@@ -19,7 +19,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
-#include "scene/profile.h"
+#include "scene/lamp.h"
 
 /* Parses the text of a file. Returns NULL if that fails. `path` is that of the
  * profile and in messages. */

@@ -10,13 +10,13 @@
 #include "base/lexer.h"
 #include "base/memory.h"
 #include "base/name_table.h"
-#include "picture/blackbody.h"
-#include "scene/material.h"
 #include "formats/asset_path.h"
 #include "formats/mtl_dialect.h"
 #include "formats/mtl_map.h"
 #include "formats/scene_lists.h"
 #include "formats/texture_table.h"
+#include "picture/color.h"
+#include "scene/material.h"
 
 struct parser {
     struct scene *scene;

@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: MIT
 /*
- * overlay.h - drawings over a picture: boxes of the tree, a path, directions
- * of scattering
+ * overlay.h - drawings over a picture: boxes of the tree, a path, directions of
+ * scattering; and their tables
  *
- * Units:     cameras of the frame's pixels, see projection.h
+ * Units:     cameras of the frame's pixels, see projection.h; file units,
+ *            radiance, densities per solid angle
  * Threads:   any; the caller owns the frame
- * Errors:    overlay_boxes() draws nothing if memory is out
+ * Errors:    overlay_boxes() draws nothing if memory is out; lines that are too
+ *            long are cut
  */
 #ifndef GLIM_OVERLAY_H
 #define GLIM_OVERLAY_H
 
 #include <stdint.h>
 
-#include "picture/frame.h"
 #include "bvh/bvh.h"
 #include "inspect/path_record.h"
+#include "picture/frame.h"
+#include "scene/scene.h"
+
+/* ---- drawings ---- */
 
 /* Most boxes that are drawn; the nearest are chosen. */
 #define OVERLAY_BOXES_MAX 4096
@@ -37,5 +42,39 @@ void overlay_path(struct frame *frame, const struct camera *camera,
  * have equal lengths. */
 void overlay_lobes(struct frame *frame, const struct camera *camera,
                    const struct path_record_lobes *lobes);
+
+/* ---- tables ---- */
+
+/*
+ * Lines that are too long are cut.
+ */
+
+/* Most lines of a path's table: the window must leave room for the picture at
+ * 80x24. */
+#define OVERLAY_TEXT_STEPS 6
+#define OVERLAY_TEXT_LINES (OVERLAY_TEXT_STEPS + 2)
+#define OVERLAY_TEXT_BYTES 256
+
+struct overlay_text {
+    char lines[OVERLAY_TEXT_LINES][OVERLAY_TEXT_BYTES];
+    int count;
+};
+
+/* Names of the materials of a world's triangles. */
+struct overlay_names {
+    const struct world *world;
+    char *const *materials;
+};
+
+/* Says what happens in the first `count` steps, or in the last ones of them
+ * that fit, and which light the whole path brings: in words, or as a table of
+ * numbers with places in the scene's units (NULL: words). */
+void overlay_text_path(struct overlay_text *l, const struct scene *scene,
+                       const struct overlay_names *names,
+                       const struct path_record *path, int count);
+
+void overlay_text_lobes(struct overlay_text *l,
+                        const struct overlay_names *names,
+                        const struct path_record_lobes *lobes);
 
 #endif

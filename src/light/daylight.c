@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/geometry.h"
-#include "picture/observer.h"
+#include "picture/color.h"
 
 /* Lumens per watt at 555 nm. */
 #define LUMINOUS_EFFICACY 683.002

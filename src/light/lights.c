@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "picture/color.h"
 #include "light/light_tree.h"
 #include "light/texture_power.h"
+#include "picture/color.h"
 #include "kernels/light.h"
 #include "kernels/texture.h"
 

@@ -6,8 +6,8 @@
 
 #include "base/memory.h"
 #include "bvh/bvh8_traverse.h"
-#include "picture/color.h"
 #include "light/triangle_cdf.h"
+#include "picture/color.h"
 #include "kernels/guide.h"
 #include "kernels/light.h"
 #include "kernels/rng.h"

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "picture/color.h"
 #include "bvh/bvh8_traverse.h"
 #include "light/triangle_cdf.h"
+#include "picture/color.h"
 #include "kernels/guide.h"
 #include "kernels/light.h"
 #include "kernels/rng.h"

@@ -7,8 +7,8 @@
 
 #include "base/decimal.h"
 #include "base/memory.h"
+#include "picture/color.h"
 #include "picture/image_header.h"
-#include "picture/observer.h"
 
 /* One of the two axes of the resolution line, such as "-Y 512": `length` steps
  * in the direction of its sign. y points up. */

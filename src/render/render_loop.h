@@ -31,7 +31,6 @@
 #include "picture/film_file.h"
 #include "render/backend.h"
 #include "render/render_limits.h"
-#include "render/render_trend.h"
 
 struct rect {
     int x, y, width, height;

@@ -1,23 +1,59 @@
 // SPDX-License-Identifier: MIT
 /*
- * lamp.h - lights that are no surfaces: points, spots and directions
+ * lamp.h - lights that are no surfaces: points, spots and directions, and their
+ * emission profiles
  *
  * Definitions are those of glTF's KHR_lights_punctual, in glim's units. A
  * surface of area A and radiance L has seen from afar the intensity L A.
+ * Profiles do not change after they were made, so that copies of a view share
+ * them.
  *
  * Units:     file units, degrees; intensity is radiance times area, irradiance
- *            is of a surface that faces the light
- * Ownership: lamps_free() frees; a zeroed list is empty
- * Threads:   one thread at a time
- * Errors:    false when memory is out
+ *            is of a surface that faces the light; a profile has factors of the
+ *            intensity, in the rows and columns of PROFILE_ROWS in
+ *            kernels/types.h
+ * Ownership: lamps_free() frees; a zeroed list is empty; profile_create() and
+ *            profile_share() return a reference for profile_release()
+ * Threads:   one thread at a time; any for profiles
+ * Errors:    false, or NULL for a profile, when memory is out
  */
 #ifndef GLIM_LAMP_H
 #define GLIM_LAMP_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "scene/profile.h"
+#include "kernels/types.h"
+
+/* ---- profiles ---- */
+
+struct profile {
+    atomic_uint references;
+    uint32_t columns;
+    float *values;
+    char *path; /* of its file */
+};
+
+/* Makes a profile with room for its values. */
+struct profile *profile_create(const char *path, uint32_t columns);
+
+/* Makes one that emits the same in all directions. */
+struct profile *profile_create_even(const char *path);
+
+/* Both accept NULL. */
+struct profile *profile_share(struct profile *profile);
+void profile_release(struct profile *profile);
+
+/* Returns true if paths and values are the same; NULL equals NULL. */
+bool profiles_equal(const struct profile *a, const struct profile *b);
+
+static inline uint32_t profile_value_count(const struct profile *profile)
+{
+    return PROFILE_ROWS * profile->columns;
+}
+
+/* ---- lamps ---- */
 
 enum lamp_kind { LAMP_POINT, LAMP_SPOT, LAMP_DIRECTIONAL };
 

@@ -15,7 +15,7 @@
 #ifndef GLIM_FRAME_SERIES_H
 #define GLIM_FRAME_SERIES_H
 
-#include "render/render_left.h"
+#include "render/progress.h"
 #include "session/session.h"
 #include "session/video_pipe.h"
 

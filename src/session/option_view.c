@@ -8,8 +8,8 @@
 
 #include "base/decimal.h"
 #include "base/lexer.h"
-#include "picture/color.h"
 #include "formats/view_parse.h"
+#include "picture/color.h"
 #include "terminal/xmalloc.h"
 
 /* A line of three numbers is the longest but for names of files. */

@@ -11,9 +11,8 @@
 #ifndef GLIM_SESSION_H
 #define GLIM_SESSION_H
 
-#include "render/error_history.h"
-#include "render/render_rates.h"
 #include "engine/engine.h"
+#include "render/progress.h"
 #include "session/command_line.h"
 #include "session/edit.h"
 #include "session/file_watch.h"

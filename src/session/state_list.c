@@ -5,11 +5,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/print.h"
 #include "base/xdg.h"
 #include "terminal/xmalloc.h"
+
+/* ---- lists ---- */
 
 static bool has(const struct state_list *list, const char *key)
 {
@@ -88,4 +92,107 @@ void state_list_free(struct state_list *list)
     for (int i = 0; i < list->count; i++)
         free(list->lines[i]);
     *list = (struct state_list){.count = 0};
+}
+
+/* ---- scenes ---- */
+
+/* Returns the whole line if it is the absolute path of a file that exists. */
+static const char *existing(const char *line)
+{
+    return *line == '/' && access(line, R_OK) == 0 ? line : NULL;
+}
+
+static const struct state_list_file scenes_file = {"recent", RECENT_MAX, existing};
+
+void recent_read(struct state_list *r)
+{
+    state_list_read(r, &scenes_file);
+}
+
+void recent_add(const char *path)
+{
+    char *whole = realpath(path, NULL);
+
+    if (whole && !strchr(whole, '\n'))
+        state_list_put(&scenes_file, whole);
+    free(whole);
+}
+
+static char *path_of_answer(const struct state_list *r, const char *answer)
+{
+    char *end;
+    unsigned long number = strtoul(answer, &end, 10);
+
+    if (*end == '\0' && number >= 1 && number <= (unsigned long)r->count)
+        return xstrdup(r->lines[number - 1]);
+    return access(answer, F_OK) == 0 ? xstrdup(answer) : NULL;
+}
+
+char *recent_choose(const struct state_list *r, FILE *in, FILE *out)
+{
+    char *answer = NULL, *path = NULL;
+    size_t capacity = 0;
+
+    for (int i = 0; i < r->count; i++)
+        print_line(out, "%3d  %s", i + 1, r->lines[i]);
+    while (!path) {
+        print_text(out, "number or file of a scene (Enter: 1, q: quit): ");
+        fflush(out);
+        if (getline(&answer, &capacity, in) < 0)
+            break;
+        answer[strcspn(answer, "\n")] = '\0';
+        if (strcmp(answer, "q") == 0)
+            break;
+        path = path_of_answer(r, *answer == '\0' ? "1" : answer);
+        if (!path)
+            print_line(out, "%s: no such scene", answer);
+    }
+    free(answer);
+    return path;
+}
+
+/* ---- glyphs ---- */
+
+/* Returns the name of the terminal, which follows the kind of glyphs. */
+static const char *terminal_of(const char *line)
+{
+    const char *blank = strchr(line, ' ');
+
+    return blank ? blank + 1 : NULL;
+}
+
+static const struct state_list_file glyphs_file = {"glyphs", 50, terminal_of};
+
+static enum glyph_mode mode_of(const char *line)
+{
+    size_t length = strcspn(line, " ");
+
+    for (int i = 0; term_caps_glyph_names[i]; i++) {
+        if (strlen(term_caps_glyph_names[i]) == length &&
+            strncmp(line, term_caps_glyph_names[i], length) == 0)
+            return (enum glyph_mode)i;
+    }
+    return GLYPH_AUTO;
+}
+
+enum glyph_mode glyph_memory_read(const char *terminal)
+{
+    struct state_list list;
+    enum glyph_mode found = GLYPH_AUTO;
+
+    state_list_read(&list, &glyphs_file);
+    for (int i = 0; i < list.count; i++) {
+        if (strcmp(list.keys[i], terminal) == 0)
+            found = mode_of(list.lines[i]);
+    }
+    state_list_free(&list);
+    return found;
+}
+
+void glyph_memory_write(const char *terminal, enum glyph_mode mode)
+{
+    char *line = xformat("%s %s", term_caps_glyph_names[mode], terminal);
+
+    state_list_put(&glyphs_file, line);
+    free(line);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * state_list.h - a short list of lines in the user's state folder, the last one
- * first
+ * state_list.h - lists in the user's state folder, the last entry first: the
+ * scenes that were opened, the glyphs that were chosen on each terminal
  *
  * Without such a folder nothing is remembered.
  *
@@ -10,6 +10,12 @@
  */
 #ifndef GLIM_STATE_LIST_H
 #define GLIM_STATE_LIST_H
+
+#include <stdio.h>
+
+#include "terminal/term_caps.h"
+
+/* ---- lists ---- */
 
 #define STATE_LIST_MAX 50
 
@@ -34,5 +40,37 @@ void state_list_read(struct state_list *list,
 void state_list_put(const struct state_list_file *file, const char *line);
 
 void state_list_free(struct state_list *list);
+
+/* ---- scenes ---- */
+
+/*
+ * The file `recent` in the user's state folder has one path a line, the last
+ * one first. Without such a folder nothing is remembered.
+ */
+
+#define RECENT_MAX 20
+
+/* Reads the absolute paths of the remembered scenes whose files still exist. */
+void recent_read(struct state_list *r);
+
+/* Adds a scene in the first place. */
+void recent_add(const char *path);
+
+/* Shows the list and lets the user choose by number or enter another path.
+ * Returns the path for free(), or NULL. */
+char *recent_choose(const struct state_list *r, FILE *in, FILE *out);
+
+/* ---- glyphs ---- */
+
+/*
+ * The file `glyphs` in the user's state folder has one terminal a line, the
+ * last one first: the kind of glyphs and the terminal's name. Without such a
+ * folder nothing is remembered.
+ */
+
+/* Returns the remembered choice for a terminal; GLYPH_AUTO if there is none. */
+enum glyph_mode glyph_memory_read(const char *terminal);
+
+void glyph_memory_write(const char *terminal, enum glyph_mode mode);
 
 #endif

@@ -11,7 +11,7 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "glim/version.h"
-#include "render/render_left.h"
+#include "render/progress.h"
 #include "render/render_metadata.h"
 
 static void write_number(FILE *to, const char *key, uint64_t value)

@@ -2,7 +2,7 @@
 #include "studio/glyph_choice.h"
 
 #include "base/clock.h"
-#include "session/glyph_memory.h"
+#include "session/state_list.h"
 
 /* A terminal that has not answered within this time shows no pixels. */
 #define LACK_NS UINT64_C(1000000000)

@@ -5,9 +5,8 @@
 #include <string.h>
 
 #include "base/print.h"
-#include "render/projection.h"
 #include "inspect/overlay.h"
-#include "inspect/overlay_text.h"
+#include "render/projection.h"
 #include "studio/save_commands.h"
 #include "kernels/vec.h"
 

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/text_width.h"
-#include "terminal/gauge.h"
 #include "studio/key_hints.h"
 #include "studio/material_parameters.h"
+#include "terminal/gauge.h"
 #include "kernels/tone.h"
 
 /* Rows besides list and parameters: pages, a title, hints. */

@@ -6,9 +6,8 @@
 
 #include "base/decimal.h"
 #include "base/file.h"
-#include "picture/blackbody.h"
-#include "picture/color.h"
 #include "light/daylight.h"
+#include "picture/color.h"
 #include "studio/material_parameters.h"
 
 /* ---- scales ---- */

@@ -13,8 +13,7 @@
 
 #include <stdbool.h>
 
-#include "render/error_history.h"
-#include "render/render_rates.h"
+#include "render/progress.h"
 
 #define PLOT_COLS       30
 #define PLOT_BYTES      (3 * PLOT_COLS + 1)

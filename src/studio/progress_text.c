@@ -8,7 +8,7 @@
 
 #include "base/print.h"
 #include "render/error_text.h"
-#include "render/render_left.h"
+#include "render/progress.h"
 #include "studio/status_line.h"
 
 #define NUMBER_BYTES 16

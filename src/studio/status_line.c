@@ -8,7 +8,7 @@
 #include "base/print.h"
 #include "base/text_width.h"
 #include "render/error_text.h"
-#include "render/render_left.h"
+#include "render/progress.h"
 
 #define FIELD_BYTES 48
 

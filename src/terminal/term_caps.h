@@ -13,8 +13,8 @@
 
 #include <stdbool.h>
 
-#include "terminal/palette.h"
 #include "terminal/pixel_graphics.h"
+#include "terminal/sgr.h"
 #include "terminal/theme.h"
 #include "terminal/tty.h"
 #include "terminal/tty_input.h"

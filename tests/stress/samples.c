@@ -8,9 +8,9 @@
 #include "tests/unit/sky_pdf.h"
 #include "stress_scene.h"
 
-#include "picture/blackbody.h"
 #include "light/lights.h"
 #include "light/sky_table.h"
+#include "picture/color.h"
 #include "kernels/roulette.h"
 #include "kernels/traverse.h"
 

@@ -8,10 +8,10 @@
 
 #include <math.h>
 
-#include "picture/frame.h"
-#include "render/projection.h"
 #include "inspect/false_color.h"
 #include "inspect/overlay.h"
+#include "picture/frame.h"
+#include "render/projection.h"
 #include "kernels/camera.h"
 
 #define SIDE 40

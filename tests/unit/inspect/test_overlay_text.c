@@ -7,7 +7,7 @@
 #include <locale.h>
 #include <string.h>
 
-#include "inspect/overlay_text.h"
+#include "inspect/overlay.h"
 
 static char none[] = "", red_paint[] = "red paint";
 static char *materials[] = {none, red_paint};

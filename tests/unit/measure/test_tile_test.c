@@ -7,7 +7,7 @@
 
 #include "tests/unit/check.h"
 
-#include "measure/tile_test.h"
+#include "measure/difference.h"
 
 enum { SIDE = 64, TILES = 4, VALUES = 3 * SIDE * SIDE };
 

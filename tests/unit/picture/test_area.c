@@ -11,8 +11,8 @@
 #include "base/clock.h"
 #include "picture/area.h"
 #include "picture/color.h"
-#include "terminal/cells.h"
 #include "session/session.h"
+#include "terminal/cells.h"
 
 #define WIDTH  150
 #define HEIGHT 86

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "picture/blackbody.h"
+#include "picture/color.h"
 
 #include <math.h>
 

@@ -10,7 +10,7 @@
 
 #include "render/error_text.h"
 #include "render/pass_plan.h"
-#include "render/render_left.h"
+#include "render/progress.h"
 
 #define S_NS   UINT64_C(1000000000)
 #define PIXELS 10000

@@ -5,7 +5,7 @@
  */
 #include "tests/unit/check.h"
 
-#include "render/render_rates.h"
+#include "render/progress.h"
 
 #define S_NS UINT64_C(1000000000)
 

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-#include "session/glyph_memory.h"
+#include "session/state_list.h"
 
 static void write_file(const char *text)
 {

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "session/recent.h"
+#include "session/state_list.h"
 
 static void make_scene(int number)
 {
