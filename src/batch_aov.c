@@ -5,9 +5,9 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "inspect/aov_picture.h"
 #include "picture/image_write.h"
 #include "terminal/xmalloc.h"
-#include "inspect/aov_picture.h"
 
 /* Names in EXR files: those of OpenEXR where it has some, else layers whose
  * channels have one letter, as Blender and Nuke need it. */

@@ -10,12 +10,12 @@
 #include "base/memory.h"
 #include "base/print.h"
 #include "base/stop.h"
-#include "picture/image_write.h"
-#include "terminal/tty.h"
-#include "measure/curve.h"
-#include "measure/chart.h"
 #include "batch_compare.h"
 #include "batch_progress.h"
+#include "measure/chart.h"
+#include "measure/curve.h"
+#include "picture/image_write.h"
+#include "terminal/tty.h"
 
 #define SPP_DEFAULT 256
 

@@ -17,7 +17,7 @@
 #include "base/file.h"
 #include "base/print.h"
 #include "base/stop.h"
-#include "base/thread.h"
+#include "base/thread_pool.h"
 #include "picture/image_write.h"
 #include "render/error_text.h"
 #include "render/progress.h"

@@ -9,11 +9,11 @@
 #include "base/file.h"
 #include "base/print.h"
 #include "base/stop.h"
-#include "picture/image_write.h"
-#include "terminal/xmalloc.h"
+#include "batch_progress.h"
 #include "measure/reference_info.h"
 #include "measure/replicates.h"
-#include "batch_progress.h"
+#include "picture/image_write.h"
+#include "terminal/xmalloc.h"
 
 #define SPP_DEFAULT 4096
 

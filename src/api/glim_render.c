@@ -9,7 +9,7 @@
 #include "base/clock.h"
 #include "base/event_fd.h"
 #include "base/memory.h"
-#include "base/thread.h"
+#include "base/thread_pool.h"
 #include "render/progress.h"
 #include "scene/pose_fit.h"
 

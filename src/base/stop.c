@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "base/thread.h"
+#include "base/thread_pool.h"
 
 #define MS_NS UINT64_C(1000000)
 

@@ -1,25 +1,45 @@
 // SPDX-License-Identifier: MIT
 /*
- * thread_pool.h - worker threads and cancellation
+ * thread_pool.h - threads with signals blocked, worker threads and cancellation
  *
  * A pool runs one job at a time: a function over the numbers 0..count-1. Each
  * worker owns a range of them and steals half of another's when its own is
  * done.
  *
- * Ownership: pool_create() returns a pool for pool_destroy(); a job's context
- *            stays the caller's and must outlive pool_run()
- * Threads:   pool_run() from one thread at a time; cancel_request() from any
- * Errors:    pool_create() fails when no thread can start; nothing else fails
+ * Ownership: a started thread is the caller's to join; pool_create() returns a
+ *            pool for pool_destroy(); a job's context stays the caller's and
+ *            must outlive pool_run()
+ * Threads:   pool_run() from one thread at a time; the rest from any
+ * Errors:    those of pthread_create(); pool_create() fails when no thread can
+ *            start; nothing else fails
  */
 #ifndef GLIM_THREAD_POOL_H
 #define GLIM_THREAD_POOL_H
 
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "base/clock.h"
 #include "base/error.h"
+
+/* ---- threads ---- */
+
+/* Starts run(argument) with signals blocked: a worker that took SIGWINCH would
+ * leave the main thread waiting for a key. Fault signals stay open, for the
+ * handler that restores the terminal. Returns 0 or an error number. */
+int thread_start(pthread_t *thread, void *(*run)(void *), void *argument);
+
+/* Initialises a condition whose timed waits end by the monotonic clock, as
+ * clock_time_after() gives it. */
+void thread_condition_init(pthread_cond_t *condition);
+
+/* Returns the number of threads that this process may run at once, at least 1,
+ * by its affinity mask and the quota of its control group. */
+int usable_threads(void);
+
+/* ---- pools ---- */
 
 /* Request to stop, at once or at a time. OpenCL kernels read `requested` as one
  * 32-bit word. */

@@ -7,7 +7,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "base/thread.h"
+#include "base/thread_pool.h"
 
 struct band_thread {
     pthread_t thread;

@@ -10,7 +10,7 @@
 #include "cluster/rank_tally.h"
 #include "cluster/wire.h"
 #include "picture/film_merge.h"
-#include "picture/film_words.h"
+#include "picture/film_pack.h"
 
 /* The ranks, seen from rank 0, and the picture that they render. */
 struct cluster_ranks {

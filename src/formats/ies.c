@@ -10,8 +10,8 @@
 #include "base/decimal.h"
 #include "base/lexer.h"
 #include "base/memory.h"
-#include "light/daylight.h"
 #include "formats/text_file.h"
+#include "light/daylight.h"
 
 /* Columns of profiles that are not the same all around: each is 2.5 degrees. */
 #define COLUMNS 144u

@@ -9,17 +9,18 @@
 #include "formats/ply.h"
 
 #include <inttypes.h>
+#include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/geometry.h"
 #include "base/memory.h"
 #include "base/print.h"
+#include "base/thread_pool.h"
 #include "formats/mesh_finish.h"
-#include "formats/ply_data.h"
-#include "formats/ply_table.h"
-#include "formats/ply_triangles.h"
-#include "formats/ply_vertices.h"
+#include "formats/ply_file.h"
 #include "formats/vertex_colors.h"
 #include "kernels/vec.h"
 
@@ -42,12 +43,286 @@ struct reader {
     bool has_uvs; /* of vertices */
 };
 
+/* ---- triangles and strips ---- */
+
+/* Bytes of a row: a count and three numbers. */
+#define ROW_BYTES 13
+
+/* Rows that are read as one. */
+#define BLOCK_ROWS 16384u
+
+struct job {
+    const char *rows;
+    uint32_t row_count;
+    struct scene *scene;
+    struct tri tri; /* its v are filled */
+    bool has_vn, has_vt;
+    bool is_swapped;
+    atomic_bool has_failed;
+};
+
+/* Returns true if the rows of the element can be faces of this kind: one list
+ * of 32-bit numbers with a count of one byte, in binary. */
+static bool ply_triangles_fit(const struct ply_data *d,
+                              const struct ply_table *t)
+{
+    const struct ply_property *list;
+
+    if (d->is_ascii || t->element->property_count != 1)
+        return false;
+    list = t->items;
+    return t->lists[PLY_LIST_VERTICES] == 0 &&
+           ply_type_bytes(list->count_type) == 1 &&
+           (list->type == PLY_INT32 || list->type == PLY_UINT32) &&
+           t->count <= (size_t)(d->end - d->p) / ROW_BYTES;
+}
+
+static bool is_finite(const struct scene *s, uint32_t v)
+{
+    const double *p = s->file_positions + 3 * (size_t)v;
+
+    return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+}
+
+static bool has_normal(const struct scene *s, uint32_t v)
+{
+    return s->normals[v].x != 0 || s->normals[v].y != 0 || s->normals[v].z != 0;
+}
+
+/* Fills a triangle. Returns false if its row is something else. */
+static bool fill(const struct job *j, const char *row, struct tri *tri)
+{
+    const struct scene *s = j->scene;
+    bool has_vn = j->has_vn;
+
+    *tri = j->tri;
+    if (row[0] != 3)
+        return false;
+    for (int k = 0; k < 3; k++) {
+        uint32_t v;
+
+        memcpy(&v, row + 1 + 4 * k, sizeof v);
+        v = j->is_swapped ? __builtin_bswap32(v) : v;
+        if (v >= s->position_count || !is_finite(s, v))
+            return false;
+        has_vn = has_vn && has_normal(s, v);
+        tri->v[k] = v;
+        tri->vt[k] = j->has_vt ? v : NO_INDEX;
+    }
+    for (int k = 0; k < 3; k++)
+        tri->vn[k] = has_vn ? tri->v[k] : NO_INDEX;
+    return true;
+}
+
+static void read_vertex_block(void *context, uint32_t block, int worker)
+{
+    struct job *j = context;
+    uint32_t begin = block * BLOCK_ROWS;
+    bool ok = true;
+
+    (void)worker;
+    for (uint32_t i = begin; ok && i < j->row_count && i < begin + BLOCK_ROWS;
+         i++) {
+        ok = fill(j, j->rows + (size_t)i * ROW_BYTES, &j->scene->tris[i]);
+        j->scene->tri_faces[i] = i;
+        j->scene->tri_objects[i] = 0;
+    }
+    if (!ok)
+        atomic_store(&j->has_failed, true);
+}
+
+/* Fills the triangles of a scene without any, whose arrays have room for all
+ * rows, as face_tris_add() would, and moves `data` behind them. Corners have
+ * the texture coordinates of their vertices if has_uvs. Returns false, and
+ * leaves the scene without triangles, if a row is no good triangle: the rows
+ * are then read one by one. `pool` may be NULL. */
+static bool ply_triangles_read(struct ply_data *d, const struct ply_table *t,
+                               struct scene *scene, bool has_uvs,
+                               uint32_t material, struct pool *pool)
+{
+    struct job job = {.rows = d->p,
+                      .row_count = t->count,
+                      .scene = scene,
+                      .tri = {.material = material},
+                      .has_vn = scene->normal_count > 0,
+                      .has_vt = has_uvs,
+                      .is_swapped = d->is_swapped};
+
+    pool_each(pool, t->count / BLOCK_ROWS + 1, read_vertex_block, &job);
+    if (atomic_load(&job.has_failed))
+        return false;
+    scene->tri_count = t->count;
+    d->p += (size_t)t->count * ROW_BYTES;
+    return true;
+}
+
+/* ---- vertices ---- */
+
+struct rows {
+    const struct ply_data *data;
+    const struct ply_table *table;
+    struct scene *scene;
+    unsigned char *roles; /* of each property, or PLY_ROLES */
+    size_t row_bytes;     /* 0: it differs between rows */
+    atomic_bool has_normals;
+};
+
+/* Reads a row of numbers; lists are skipped. */
+static bool read_row(const struct rows *r, struct ply_data *d, double *values)
+{
+    for (uint32_t i = 0; i < r->table->element->property_count; i++) {
+        const struct ply_property *p = &r->table->items[i];
+        uint64_t count = 1;
+
+        if (r->roles[i] < PLY_ROLES) {
+            if (!ply_data_number(d, p->type, &values[r->roles[i]]))
+                return false;
+            continue;
+        }
+        if ((p->count_type != PLY_NONE && !ply_data_count(d, p, &count)) ||
+            !ply_data_skip(d, p->type, count))
+            return false;
+    }
+    return true;
+}
+
+/* Returns true if the vertex has a normal. */
+static bool put_vertex(struct scene *s, uint32_t i, double *values)
+{
+    bool has_normal = false;
+
+    memcpy(s->file_positions + 3 * (size_t)i, &values[PLY_X],
+           3 * sizeof *values);
+    if (s->normals != NULL) {
+        if (!vec3d_normalize(&values[PLY_NX]))
+            memset(&values[PLY_NX], 0, 3 * sizeof *values); /* unusable */
+        s->normals[i] = v3((float)values[PLY_NX], (float)values[PLY_NY],
+                           (float)values[PLY_NZ]);
+        has_normal = !v3_is_zero(s->normals[i]);
+    }
+    if (s->uvs != NULL)
+        s->uvs[i] = v2(texture_coordinate(values[PLY_U]),
+                       texture_coordinate(values[PLY_V]));
+    if (s->colors != NULL)
+        s->colors[i] = vertex_color_encoded(&values[PLY_RED]);
+    return has_normal;
+}
+
+static bool read_range(struct rows *r, struct ply_data *d, uint32_t begin,
+                       uint32_t end)
+{
+    double values[PLY_ROLES] = {0};
+    bool has_normals = false;
+
+    for (uint32_t i = begin; i < end; i++) {
+        if (!read_row(r, d, values))
+            return false;
+        has_normals |= put_vertex(r->scene, i, values);
+    }
+    if (has_normals)
+        atomic_store(&r->has_normals, true);
+    return true;
+}
+
+/* Cannot fail, since ply_data_expect() has found all rows in the file. */
+static void read_block(void *context, uint32_t block, int worker)
+{
+    struct rows *r = context;
+    uint32_t begin = block * BLOCK_ROWS, left = r->table->count - begin;
+    struct ply_data d = *r->data;
+
+    (void)worker;
+    d.p += begin * r->row_bytes;
+    read_range(r, &d, begin, begin + (left < BLOCK_ROWS ? left : BLOCK_ROWS));
+}
+
+/* Allocates the arrays that the vertices have. */
+static bool allocate(const struct ply_table *t, struct scene *s)
+{
+    bool has_normals = ply_table_has(t, PLY_NX, 3),
+         has_colors = ply_table_has(t, PLY_RED, 3);
+    bool has_uvs = ply_table_has(t, PLY_U, 2);
+
+    s->file_positions = alloc_array(t->count, 3 * sizeof *s->file_positions);
+    if (has_normals)
+        s->normals = alloc_array(t->count, sizeof *s->normals);
+    if (has_colors)
+        s->colors = alloc_array(t->count, sizeof *s->colors);
+    if (has_uvs)
+        s->uvs = alloc_array(t->count, sizeof *s->uvs);
+    return s->file_positions != NULL && !has_normals == (s->normals == NULL) &&
+           !has_colors == (s->colors == NULL) && !has_uvs == (s->uvs == NULL);
+}
+
+/* Returns the bytes of a row, or 0 if rows differ. */
+static size_t row_bytes(const struct ply_data *d, const struct ply_table *t)
+{
+    size_t bytes = 0;
+
+    for (uint32_t i = 0; i < t->element->property_count; i++) {
+        if (d->is_ascii || t->items[i].count_type != PLY_NONE)
+            return 0;
+        bytes += ply_type_bytes(t->items[i].type);
+    }
+    return bytes;
+}
+
+static bool read_all(struct rows *r, struct ply_data *d)
+{
+    uint32_t count = r->table->count;
+    struct pool *pool;
+
+    if (r->row_bytes == 0)
+        return read_range(r, d, 0, count);
+    pool = scene_pool(r->scene, count);
+    pool_each(pool, count / BLOCK_ROWS + (count % BLOCK_ROWS > 0), read_block,
+              r);
+    pool_destroy(pool);
+    d->p += count * r->row_bytes;
+    return true;
+}
+
+/* Fills positions, normals, texture coordinates and colours of a scene without
+ * any, and moves `data` behind the rows, which must have x, y and z. */
+static bool ply_vertices_read(struct ply_data *d, const struct ply_table *t,
+                              struct scene *s)
+{
+    uint32_t property_count = t->element->property_count;
+    struct rows r = {.data = d,
+                     .table = t,
+                     .scene = s,
+                     .roles = alloc_array(property_count, sizeof *r.roles),
+                     .row_bytes = row_bytes(d, t)};
+    bool ok;
+
+    if (r.roles == NULL || !allocate(t, s)) {
+        free(r.roles);
+        return fail(d->err, "%s: out of memory for the scene", d->path);
+    }
+    memset(r.roles, PLY_ROLES, property_count);
+    for (int i = 0; i < PLY_ROLES; i++)
+        if (t->numbers[i] != NO_INDEX)
+            r.roles[t->numbers[i]] = (unsigned char)i;
+    ok = read_all(&r, d);
+    free(r.roles);
+    if (!ok)
+        return false;
+    s->position_count = t->count;
+    s->uv_count = s->uvs != NULL ? t->count : 0;
+    s->color_count = s->colors != NULL ? t->count : 0;
+    /* normals that are all unusable are none */
+    s->normal_count = atomic_load(&r.has_normals) ? t->count : 0;
+    if (s->colors != NULL)
+        ply_table_decode(t, s->colors);
+    return true;
+}
+
+/* ---- elements of vertices ---- */
+
 static bool out_of_memory(const struct reader *r)
 {
     return fail(r->err, "%s: out of memory for the scene", r->path);
 }
-
-/* ---- vertices ---- */
 
 static bool read_vertices(struct reader *r, const struct ply_element *element)
 {

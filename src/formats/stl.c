@@ -19,11 +19,11 @@
 #include "base/memory.h"
 #include "base/name_table.h"
 #include "base/print.h"
-#include "kernels/vec.h"
 #include "formats/face_tris.h"
 #include "formats/mesh_finish.h"
 #include "formats/vertex_colors.h"
 #include "formats/weld.h"
+#include "kernels/vec.h"
 
 #define HEADER_BYTES 80
 #define BEGIN_BYTES  84 /* header and count */

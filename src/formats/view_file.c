@@ -8,8 +8,8 @@
 
 #include "base/decimal.h"
 #include "base/memory.h"
-#include "light/daylight.h"
 #include "formats/view_light.h"
+#include "light/daylight.h"
 
 bool view_read(struct view *view, const char *path, struct warnings *report,
                struct error *err)

@@ -11,9 +11,9 @@
 #include "base/decimal.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "picture/film_header.h"
-#include "light/daylight.h"
 #include "formats/view_light.h"
+#include "light/daylight.h"
+#include "picture/film_header.h"
 
 /* Limits of fovy, which must be above 0 and below 180 degrees. */
 #define FOVY_LEAST    1e-6

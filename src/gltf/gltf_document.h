@@ -21,7 +21,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/memory_budget.h"
+#include "base/memory.h"
 #include "base/warnings.h"
 
 /* A buffer, or a part of one. */

@@ -10,10 +10,10 @@
 #include "base/geometry.h"
 #include "base/memory.h"
 #include "base/print.h"
-#include "kernels/vec.h"
 #include "formats/face_tris.h"
 #include "formats/mesh_finish.h"
 #include "formats/vertex_colors.h"
+#include "kernels/vec.h"
 
 struct stream {
     struct scene *scene;

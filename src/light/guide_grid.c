@@ -5,10 +5,10 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "kernels/instance.h"
 #include "bvh/instance_trees.h"
 #include "bvh/sah_bins.h"
 #include "light/triangle_cdf.h"
+#include "kernels/instance.h"
 #include "kernels/vec.h"
 
 /* Cubes along the longest side of the scene. On two balls 8 to 16 leave the

@@ -6,7 +6,7 @@
 
 #include "formats/obj.h"
 #include "formats/ply.h"
-#include "formats/ply_header.h"
+#include "formats/ply_file.h"
 #include "formats/stl.h"
 #include "gltf/gltf.h"
 #include "gltf/gltf_draco.h"

@@ -13,7 +13,7 @@
 #include <stdio.h>
 
 #include "base/error.h"
-#include "measure/series.h"
+#include "measure/curve.h"
 
 /* Points that are not above 0 are left out. */
 struct chart {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * curve.h - the error of one render at doubling numbers of samples
+ * curve.h - the error of one render at doubling numbers of samples, and curves
+ * of error over seconds
  *
- * Units:     seconds, samples per pixel; errors as struct picture_error
+ * Units:     seconds, mean squares, samples per pixel; errors as struct
+ *            picture_error
  * Ownership: curve_csv() returns memory for free()
  * Threads:   any
+ * Errors:    numbers that are not above 0 give NaN
  */
 #ifndef GLIM_CURVE_H
 #define GLIM_CURVE_H
@@ -13,10 +16,41 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "picture/film_error.h"
 #include "measure/picture_error.h"
 #include "measure/reference_info.h"
-#include "measure/series.h"
+#include "picture/film_error.h"
+
+/* ---- series ---- */
+
+/* Doublings of samples up to the most that an option takes. */
+#define SERIES_POINTS 48
+
+struct series {
+    const char *name;
+    bool is_guide; /* a line for the eye: thin, without points */
+    int count;
+    double x[SERIES_POINTS], y[SERIES_POINTS];
+};
+
+/* Slope with its 95 % interval; NaN where there are too few points. */
+struct series_fit {
+    double slope, low, high;
+};
+
+/* Fits the logarithm of the root of the error over that of seconds by least
+ * squares; -0.5 for independent samples. The interval follows from the points'
+ * distances from the line, as if they were independent. */
+struct series_fit series_fit(const struct series *s);
+
+/* Returns a guide of slope -0.5 through the points' centre of gravity. The
+ * points must be above 0. */
+struct series series_half_slope(const struct series *s);
+
+/* Returns the ratio of b's error to a's at the longest time for which both were
+ * measured. */
+double series_times(const struct series *a, const struct series *b);
+
+/* ---- curves ---- */
 
 /* A render in progress. */
 struct curve_render {

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "inspect/false_color.h"
-#include "measure/student_t.h"
+#include "measure/replicates.h"
 
 /* ---- tiles ---- */
 

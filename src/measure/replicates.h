@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * replicates.h - the mean of independent renders, and its error
+ * replicates.h - the mean of independent renders, and its error by Student's t
+ * distribution
  *
  * Units:     linear radiance; errors as struct picture_error
  * Ownership: replicates_free() frees the pictures
@@ -14,6 +15,15 @@
 #include <stddef.h>
 
 #include "base/error.h"
+
+/* ---- quantiles of Student's t ---- */
+
+/* Returns the bound that |t| exceeds with this probability, above 0 and below
+ * 1, if t has Student's distribution with `degrees` degrees of freedom, at
+ * least 1. For the 95 % interval of a mean the probability is 0.05. */
+double student_t_bound(double probability, double degrees);
+
+/* ---- replicates ---- */
 
 /* With fewer, the interval of the error is too wide to be useful. */
 #define REPLICATES_MIN 4

@@ -18,10 +18,9 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "bvh/bvh.h"
-#include "opencl/cl_film.h"
+#include "opencl/cl_buffers.h"
 #include "opencl/cl_machine.h"
 #include "opencl/cl_source.h"
-#include "opencl/cl_world.h"
 #include "kernels/camera_sample.h"
 #include "kernels/features.h"
 

@@ -9,7 +9,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/thread.h"
+#include "base/thread_pool.h"
 #include "base/xdg.h"
 
 /* Variable with the name of PoCL's cache folder. */

@@ -10,9 +10,9 @@
 #include "base/child.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "render/cpu_dispatch.h"
 #include "opencl/cl_source.h"
 #include "opencl/selftest.h"
+#include "render/cpu_dispatch.h"
 
 /* Limit of processor time: compilers take seconds, a hanging driver takes
  * forever. */

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/hash.h"
 #include "base/file.h"
-#include "base/memory.h"
+#include "base/hash.h"
 #include "base/lexer.h"
+#include "base/memory.h"
 #include "base/name_table.h"
 
 /* Prefix of kernel files in #include lines and messages, wherever they are read

@@ -8,7 +8,7 @@
 
 #include "base/event_fd.h"
 #include "base/memory.h"
-#include "base/thread.h"
+#include "base/thread_pool.h"
 #include "opencl/cl_probe.h"
 
 struct cl_start {

@@ -11,7 +11,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "picture/film_merge.h"
-#include "picture/film_words.h"
+#include "picture/film_pack.h"
 
 #include "kernels/sample_share.h"
 

@@ -12,8 +12,8 @@
 
 #include "base/thread_pool.h"
 #include "picture/film.h"
-#include "scene/world.h"
 #include "render/cpu_kernel.h"
+#include "scene/world.h"
 #include "kernels/sample_share.h"
 
 enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };

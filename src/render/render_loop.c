@@ -10,7 +10,7 @@
 #include "base/event_fd.h"
 #include "base/memory.h"
 #include "base/stop.h"
-#include "base/thread.h"
+#include "base/thread_pool.h"
 #include "render/render_run.h"
 
 /* Ends a run. The caller holds the lock. A run that was cancelled at the limit

@@ -15,7 +15,7 @@
 #define GLIM_SCENE_H
 
 #include "base/error.h"
-#include "base/memory_budget.h"
+#include "base/memory.h"
 #include "base/thread_pool.h"
 #include "base/warnings.h"
 #include "scene/instances.h"

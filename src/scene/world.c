@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "base/print.h"
 #include "bvh/instance_trees.h"
-#include "light/sun_sky.h"
+#include "light/daylight.h"
 #include "picture/color.h"
 #include "picture/image_read.h"
 #include "scene/material_features.h"

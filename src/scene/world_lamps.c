@@ -9,7 +9,6 @@
 #include "base/geometry.h"
 #include "base/memory.h"
 #include "light/daylight.h"
-#include "light/sun_sky.h"
 #include "picture/color.h"
 
 #include "kernels/vec.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "base/thread.h"
+#include "base/thread_pool.h"
 #include "picture/image_write.h"
 #include "session/option_checks.h"
 #include "session/option_set.h"

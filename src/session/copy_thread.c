@@ -6,7 +6,7 @@
 
 #include "base/event_fd.h"
 #include "base/stop.h"
-#include "base/thread.h"
+#include "base/thread_pool.h"
 
 bool copy_thread_init(struct copy_thread *t, const char *whose,
                       struct error *err)

@@ -9,8 +9,8 @@
 
 #include "base/decimal.h"
 #include "light/daylight.h"
-#include "scene/view.h"
 #include "render/cpu_dispatch.h"
+#include "scene/view.h"
 #include "session/option_view.h"
 
 /* Limits on values; anything beyond is a mistake. */

@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "base/event_fd.h"
-#include "base/thread.h"
+#include "base/thread_pool.h"
 
 bool reload_init(struct reload *r, const struct options *options,
                  struct error *err)

@@ -8,7 +8,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
-#include "base/thread.h"
+#include "base/thread_pool.h"
 #include "engine/engine_film.h"
 
 /* ---- shares ---- */

@@ -7,7 +7,7 @@
 #include <strings.h>
 
 #include "glim/version.h"
-#include "studio/key_hints.h"
+#include "studio/keys_bar.h"
 #include "terminal/tty_input.h"
 
 #define ESCAPE    27

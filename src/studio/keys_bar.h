@@ -1,20 +1,36 @@
 // SPDX-License-Identifier: MIT
 /*
- * keys_bar.h - the bar that the picture leaves free: what keys do now, and how
- * a state is left
+ * keys_bar.h - what keys do now, as a row of keys and words, and the bar that
+ * the picture leaves free for it
  *
  * A picture of another shape than the window is moved to the left or the top,
  * so that there is one bar, at the right or at the bottom. Keys are at its
  * foot, in one row or one below the other. The rest of it is for the progress.
  *
  * Units:     terminal cells
+ * Ownership: texts stay the caller's
  * Threads:   main only
  */
 #ifndef GLIM_KEYS_BAR_H
 #define GLIM_KEYS_BAR_H
 
-#include "terminal/screen.h"
 #include "studio/render_control.h"
+#include "terminal/curses_windows.h"
+#include "terminal/screen.h"
+
+/* ---- hints ---- */
+
+struct key_hint {
+    const char *key;
+    const char *does; /* one word or two; NULL ends a list */
+};
+
+/* Writes hints into `cols` columns of a row until the next one does not fit.
+ * Returns those that are left. */
+const struct key_hint *key_hints_draw(enum window_part part, int row, int col,
+                                      int cols, const struct key_hint *hints);
+
+/* ---- the bar ---- */
 
 /* What the person is doing. */
 enum keys_state {

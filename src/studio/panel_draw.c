@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/text_width.h"
-#include "studio/key_hints.h"
+#include "studio/keys_bar.h"
 #include "studio/material_parameters.h"
 #include "terminal/gauge.h"
 #include "kernels/tone.h"

@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "terminal/gauge.h"
-#include "terminal/xmalloc.h"
 #include "studio/progress_text.h"
 #include "studio/status_line.h"
+#include "terminal/gauge.h"
+#include "terminal/xmalloc.h"
 
 /* Time between two updates, long enough to read the numbers. */
 #define UPDATE_NS UINT64_C(500000000)

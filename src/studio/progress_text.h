@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
  * progress_text.h - the text of the progress panel: samples, noise, speed, load
- * of the threads, ranks of a cluster
+ * of the threads, ranks of a cluster, and plots over the time
  *
  * The number of columns is constant, and that of lines depends on the number of
- * ranks alone, so that the text stays in place.
- * The diagrams use Unicode, or ASCII where the terminal has no Unicode.
+ * ranks alone, so that the text stays in place. Plots are made of the dots of
+ * braille characters, or of ASCII where the terminal has no Unicode.
  *
  * Units:     terminal columns
  * Ownership: text goes to the caller's memory
@@ -17,8 +17,36 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "render/progress.h"
 #include "render/render_loop.h"
-#include "studio/plots.h"
+
+/* ---- plots ---- */
+
+#define PLOT_COLS       30
+#define PLOT_BYTES      (3 * PLOT_COLS + 1)
+#define PLOT_SPEED_ROWS 3
+#define PLOT_ERROR_ROWS 4
+
+/* Formats the speeds as bars from below, two in a column. The highest is `top`.
+ */
+void plot_speeds(char rows[PLOT_SPEED_ROWS][PLOT_BYTES],
+                 const struct speeds *speeds, double top, bool has_unicode);
+
+/* Formats the errors so far as a line, and their expected continuation to the
+ * target as dots; both axes are logarithmic. The rows are blank while fewer
+ * than two errors are known. `target` is the error that the render goes to, and
+ * `target_s` the time when it is expected; 0: unknown. */
+void plot_errors(char rows[PLOT_ERROR_ROWS][PLOT_BYTES],
+                 const struct error_history *history, double target,
+                 double target_s, bool has_unicode);
+
+/* ---- text ---- */
+
+/*
+ * The number of columns is constant, and that of lines depends on the number of
+ * ranks alone, so that the text stays in place.
+ * The diagrams use Unicode, or ASCII where the terminal has no Unicode.
+ */
 
 #define PROGRESS_TEXT_COLS PLOT_COLS
 

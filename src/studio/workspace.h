@@ -19,7 +19,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "terminal/screen.h"
 #include "studio/camera_control.h"
 #include "studio/comparison.h"
 #include "studio/editor_panel.h"
@@ -29,6 +28,7 @@
 #include "studio/keys_bar.h"
 #include "studio/progress_panel.h"
 #include "studio/render_control.h"
+#include "terminal/screen.h"
 
 struct workspace {
     struct render_control *control;

@@ -21,12 +21,12 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/thread.h"
+#include "base/thread_pool.h"
 #include "filter/film_filter.h"
+#include "rows.h"
 #include "session/session.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/folder.h"
-#include "rows.h"
 
 #include "kernels/sample_share.h"
 

@@ -12,9 +12,9 @@
 #include <unistd.h>
 
 #include "base/thread_pool.h"
+#include "rows.h"
 #include "tests/unit/brute.h"
 #include "tests/unit/mesh.h"
-#include "rows.h"
 
 #include "bvh/bvh8_traverse.h"
 #include "kernels/surface_point.h"

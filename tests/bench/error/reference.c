@@ -8,9 +8,9 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "picture/image_write.h"
 #include "measure/picture_error.h"
 #include "measure/reference_info.h"
+#include "picture/image_write.h"
 #include "scene/world.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/whole_image.h"

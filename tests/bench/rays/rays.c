@@ -18,7 +18,6 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "base/thread.h"
 #include "base/thread_pool.h"
 #include "bvh/bvh8.h"
 #include "bvh/bvh_reinsert.h"

@@ -11,15 +11,14 @@
 #include <time.h>
 
 #include "base/clock.h"
-#include "base/thread.h"
-#include "base/thread_pool.h"
 #include "base/memory.h"
+#include "base/thread_pool.h"
 #include "bvh/bvh8.h"
-#include "terminal/xmalloc.h"
-#include "tests/bench/median.h"
 #include "racer.h"
 #include "sets.h"
 #include "shapes.h"
+#include "terminal/xmalloc.h"
+#include "tests/bench/median.h"
 
 #define REPEATS 5
 

@@ -5,10 +5,10 @@
 #include <unistd.h>
 
 #include "base/memory.h"
-#include "scene/world.h"
 #include "formats/mtl.h"
-#include "load/scene_load.h"
 #include "formats/view_file.h"
+#include "load/scene_load.h"
+#include "scene/world.h"
 #include "terminal/xmalloc.h"
 #include "kernels/rng.h"
 

@@ -2,7 +2,7 @@
 #include "tests/unit/check.h"
 
 #include "base/cgroup_quota.h"
-#include "base/memory_budget.h"
+#include "base/memory.h"
 
 /* Items are taken until the size is used, and what does not fit takes
  * nothing. */

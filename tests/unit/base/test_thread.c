@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/thread.h"
+#include "base/thread_pool.h"
 #include "tests/unit/check.h"
 
 #define HANDLED 7

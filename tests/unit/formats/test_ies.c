@@ -5,9 +5,9 @@
  */
 #include <stdarg.h>
 
-#include "light/daylight.h"
 #include "formats/ies.h"
 #include "formats/view_file.h"
+#include "light/daylight.h"
 #include "tests/unit/files.h"
 #include "tests/unit/truth.h"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "light/sun_sky.h"
+#include "light/daylight.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/geometry.h"
 #include "kernels/light.h"
-#include "light/daylight.h"
 #include "light/sky_table.h"
 
 #include "tests/unit/check.h"

@@ -6,7 +6,7 @@
 
 #include "tests/unit/check.h"
 
-#include "measure/series.h"
+#include "measure/curve.h"
 
 /* y is a square, so the slope of its root is half of the exponent. */
 static void exact_powers_have_exact_slopes(void **state)

@@ -6,7 +6,7 @@
 
 #include "tests/unit/check.h"
 
-#include "measure/student_t.h"
+#include "measure/replicates.h"
 
 #define PI 3.14159265358979323846
 

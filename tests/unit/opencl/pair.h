@@ -20,12 +20,12 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/world.h"
 #include "load/scene_load.h"
-#include "render/cpu_dispatch.h"
-#include "render/render_loop.h"
 #include "opencl/backend_cl.h"
 #include "opencl/cl_environment.h"
+#include "render/cpu_dispatch.h"
+#include "render/render_loop.h"
+#include "scene/world.h"
 #include "tests/unit/check.h"
 #include "kernels/features.h"
 

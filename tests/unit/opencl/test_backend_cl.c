@@ -9,8 +9,8 @@
 #include <time.h>
 
 #include "opencl/cl_api.h"
+#include "opencl/cl_buffers.h"
 #include "opencl/cl_device.h"
-#include "opencl/cl_world.h"
 #include "opencl/selftest.h"
 #include "scene/world_materials.h"
 #include "tests/unit/opencl/pair.h"

@@ -15,7 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/thread.h"
+#include "base/thread_pool.h"
 #include "opencl/cl_device.h"
 #include "opencl/cl_environment.h"
 

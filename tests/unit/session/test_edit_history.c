@@ -3,7 +3,7 @@
  * test_edit_history.c - steps of one group are undone together; gestures begin
  * groups by number and by time
  */
-#include "session/edit_history.h"
+#include "session/edit.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/check.h"
 

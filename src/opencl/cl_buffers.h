@@ -1,23 +1,56 @@
 // SPDX-License-Identifier: MIT
 /*
- * cl_film.h - film buffers on an OpenCL device, and transfers to the host's
- * film
+ * cl_buffers.h - the arrays of a world and of a film on an OpenCL device, and
+ * transfers to the host's film
  *
  * A CPU device shares the host's memory, and pixels are stored from there
  * directly. For other devices rows are read into a struct cl_readback first.
  *
  * Units:     pixels, bytes
- * Ownership: cl_film_free() and cl_readback_free() release; zeroed structs are
- *            empty. The host's film is borrowed
+ * Ownership: cl_world_free(), cl_film_free() and cl_readback_free() release;
+ *            zeroed structs are empty. A device that is a CPU reads the host's
+ *            arrays in place; the host's film is borrowed
  * Threads:   one at a time
- * Errors:    too little memory, on the host or the device
+ * Errors:    too little memory, on the host or the device; an array that is
+ *            larger than the device allows
  */
-#ifndef GLIM_CL_FILM_H
-#define GLIM_CL_FILM_H
+#ifndef GLIM_CL_BUFFERS_H
+#define GLIM_CL_BUFFERS_H
 
-#include "picture/film.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "bvh/bvh.h"
 #include "opencl/cl_machine.h"
+#include "picture/film.h"
+#include "scene/world_list.h"
 #include "kernels/cl_task.h"
+
+/* ---- world ---- */
+
+/* Buffers in the order of the arguments of trace_paths(): the settings, and the
+ * arrays of world_list.h. */
+#define CL_SETTINGS     0
+#define CL_ARRAYS       1
+#define CL_BUFFER_COUNT (CL_ARRAYS + WORLD_LIST_COUNT)
+
+struct cl_world {
+    cl_mem buffers[CL_BUFFER_COUNT];
+    uint64_t versions[WORLD_LIST_COUNT]; /* of the arrays in the buffers */
+};
+
+/* Uploads the settings, and the arrays whose version differs from the buffer's.
+ * Adds their number to *upload_count. `world` is lent from the host; `bvh` is
+ * the tree of the host's shape. */
+bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
+                     const struct host_world *host, const struct world *world,
+                     const struct bvh *bvh, uint64_t *upload_count,
+                     struct error *err);
+
+void cl_world_free(struct cl_world *c, const struct cl_machine *m);
+
+/* ---- film ---- */
 
 struct cl_film {
     struct film *film; /* the host's film */
