@@ -8,13 +8,13 @@
 
 #include "base/clock.h"
 #include "base/print.h"
+#include "batch_progress.h"
+#include "filter/film_filter.h"
 #include "picture/film_error.h"
 #include "picture/film_file.h"
 #include "picture/image_write.h"
-#include "filter/film_filter.h"
 #include "render/error_text.h"
 #include "render/render_metadata.h"
-#include "batch_progress.h"
 
 static struct develop develop_of(const struct film_header *h,
                                  const struct options *o)

@@ -15,7 +15,7 @@ HEADERLESS='main stb backend_cpu cluster_none image_exr_read_none image_webp_non
 
 # Files that may use the C library's output, because they write files. Output
 # for people goes through print.c.
-WRITERS='print chart film_header import_child draco_child draco_decode draco_decode_none gltf_draco import_material assign mesh_finish mtl_save view_file view_light cl_source stats_json state_list json reference_info curses_windows'
+WRITERS='print chart film_file import_child draco_child draco_decode draco_decode_none gltf_draco import_material assign mesh_finish mtl_save view_file view_light cl_source stats_json state_list json reference_info curses_windows'
 
 {
     find include src kernels scenes tests -name '*.[ch]' -o -name '*.c[lc]'

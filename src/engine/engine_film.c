@@ -9,7 +9,6 @@
 #include "glim/version.h"
 #include "opencl/cl_source.h"
 #include "picture/film_file.h"
-#include "picture/film_header.h"
 #include "scene/world_list.h"
 #include "kernels/types.h"
 

@@ -8,8 +8,8 @@
 #ifndef GLIM_ENGINE_FILM_H
 #define GLIM_ENGINE_FILM_H
 
-#include "picture/film_header.h"
 #include "engine/engine.h"
+#include "picture/film_file.h"
 
 /* Finds what decides the samples of pictures of the view. */
 bool engine_film_identify(struct engine *e, const struct view *view,

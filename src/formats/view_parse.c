@@ -13,7 +13,7 @@
 #include "base/memory.h"
 #include "formats/view_light.h"
 #include "light/daylight.h"
-#include "picture/film_header.h"
+#include "picture/film_file.h"
 
 /* Limits of fovy, which must be above 0 and below 180 degrees. */
 #define FOVY_LEAST    1e-6

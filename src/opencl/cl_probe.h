@@ -4,19 +4,48 @@
  *
  * Drivers may crash: on a missing linker, a damaged cache, an unknown
  * processor. So a copy of the program first builds the kernels and runs the
- * self-test. Good results are cached beside PoCL's compiled kernels.
+ * self-test: device and CPU both render a small room that has every material
+ * which needs no further features. Good results are cached beside PoCL's
+ * compiled kernels.
  *
- * Ownership: cl_probe_free() frees the texts
- * Threads:   any
- * Errors:    a crash, a failed self-test, errors of backend_cl_create()
+ * Ownership: cl_probe_free() frees the texts; both backends of a self-test stay
+ *            the caller's, with another scene loaded
+ * Threads:   any; a self-test one at a time
+ * Errors:    a crash, a device that fails or whose picture differs, errors of
+ *            backend_cl_create()
  */
 #ifndef GLIM_CL_PROBE_H
 #define GLIM_CL_PROBE_H
 
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "opencl/backend_cl.h"
+#include "render/backend.h"
+
+/* ---- the self-test ---- */
+
+/*
+ * Both render a small room that has every material which needs no further
+ * features.
+ */
+
+#define SELFTEST_VERDICT_BYTES 64
+
+/* Runs the test. The verdict is "the CPU's bits", or the number of pixels with
+ * small differences. */
+bool selftest_run(struct backend *cpu, struct backend *device,
+                  uint32_t features, char verdict[SELFTEST_VERDICT_BYTES],
+                  struct error *err);
+
+/* ---- probes ---- */
+
+/*
+ * Drivers may crash: on a missing linker, a damaged cache, an unknown
+ * processor. So a copy of the program first builds the kernels and runs the
+ * self-test. Good results are cached beside PoCL's compiled kernels.
+ */
 
 struct cl_probe {
     char *device;  /* device that was tested: name and driver */

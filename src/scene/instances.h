@@ -13,8 +13,8 @@
  * because lights are triangles of the scene, and matrices that hardly have an
  * inverse.
  *
- * Units:     file units
- * Ownership: the lists belong to the scene
+ * Units:     file units until instances_build()
+ * Ownership: the lists and arrays belong to the scene
  * Threads:   one thread while loading
  * Errors:    memory; more triangles than have numbers
  */
@@ -27,6 +27,9 @@
 
 #include "base/error.h"
 #include "base/geometry.h"
+#include "base/warnings.h"
+
+/* ---- meshes and instances ---- */
 
 struct pool;
 struct scene;
@@ -76,5 +79,18 @@ bool scene_add_instance(struct scene *scene, uint32_t mesh,
 bool scene_flatten(struct scene *scene, struct pool *pool, struct error *err);
 
 void scene_instances_free(struct scene_instances *instances);
+
+/* ---- arrays for kernels ---- */
+
+struct scene;
+
+/* Joins the bounds of the scene, unless has_bounds is false, with those of all
+ * vertices of its instances. */
+void instances_join_bounds(struct scene *scene, bool has_bounds);
+
+/* Makes the scene's `placed`, after its meshes were normalised, and frees what
+ * it is made of except the meshes. Instances that have no size are dropped. */
+bool instances_build(struct scene *scene, struct warnings *report,
+                     struct error *err);
 
 #endif

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/instance_build.h"
+#include "scene/instances.h"
 #include "kernels/instance.h"
 
 /* Fewest triangles that are worth the start of threads, about 0.1 ms. */

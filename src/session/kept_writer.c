@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "engine/engine_film.h"
 #include "picture/film_file.h"
 #include "session/kept_folder.h"
-#include "engine/engine_film.h"
 
 bool kept_writer_init(struct kept_writer *w, struct error *err)
 {

@@ -6,7 +6,7 @@
 
 #include "base/geometry.h"
 #include "studio/camera_moves.h"
-#include "studio/collision.h"
+#include "studio/surfaces.h"
 
 /* ---- held keys ---- */
 

@@ -21,10 +21,10 @@
 
 #include "inspect/material_ball.h"
 #include "inspect/outline.h"
-#include "terminal/screen.h"
-#include "studio/render_control.h"
 #include "studio/parameter.h"
+#include "studio/render_control.h"
 #include "studio/surfaces.h"
+#include "terminal/screen.h"
 
 #define EDITOR_PANEL_TEXT 512
 

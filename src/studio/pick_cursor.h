@@ -16,10 +16,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "terminal/screen.h"
 #include "session/keymap.h"
 #include "studio/render_control.h"
 #include "studio/surfaces.h"
+#include "terminal/screen.h"
 
 struct pick_cursor {
     struct render_control *control;

@@ -8,10 +8,10 @@
 #include <unistd.h>
 
 #include "base/hash.h"
-#include "picture/film_file.h"
-#include "terminal/xmalloc.h"
-#include "session/kept_history.h"
 #include "engine/engine_film.h"
+#include "picture/film_file.h"
+#include "session/kept_history.h"
+#include "terminal/xmalloc.h"
 
 /* Least render time for which a picture is kept. */
 #define WORTH_NS UINT64_C(5000000000)

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * surfaces.h - rays to the surfaces of a scene, for picks and for moves of the
- * camera
+ * surfaces.h - rays to the surfaces of a scene, for picks, and moves of the
+ * camera that surfaces stop
  *
  * Both sides of a face are a surface. Cut-outs with an opacity below one half
- * are holes, so that picks are not random.
+ * are holes, so that picks are not random. The eye is a point. Each part of its
+ * way is tested against the tree, and it stops COLLISION_MARGIN before a
+ * surface. An eye that is nearer than that, or inside of a thing, can move in
+ * every direction that is free.
  *
  * Units:     file units of the scene; pixels, (0, 0) is the top left corner of
  *            the picture
@@ -15,6 +18,8 @@
 #define GLIM_SURFACES_H
 
 #include "scene/world.h"
+
+/* ---- rays ---- */
 
 /* Least opacity of what counts as a surface. */
 #define SURFACE_OPACITY 0.5f
@@ -79,5 +84,25 @@ double surfaces_size(const struct surfaces *s);
 /* Computes the point at some distance from another one. */
 void point_along(const double from[3], const double d[3], double distance,
                  double point[3]);
+
+/* ---- moves ---- */
+
+/* Distance that the eye keeps from surfaces, relative to the size of the scene.
+ * It is 1000 times the rounding error of rays, and lets the eye through a gap
+ * of 2 cm in a scene of 100 m. */
+#define COLLISION_MARGIN 1e-4
+
+/* Moves from `from` towards `to`, slides along the surfaces before it, and sets
+ * `to` to the end. Returns true, with the object that is in the way, if a
+ * surface takes most of the motion. */
+bool collision_slide(const struct surfaces *s, const double from[3],
+                     double to[3], uint32_t *object);
+
+/* Moves the eye of an orbit around the pivot from `from` to `to`, which has the
+ * same distance to the pivot. Comes nearer to the pivot where a surface is in
+ * the way, and goes back to `distance` from it where none is. Sets `to` to the
+ * end. Returns false if no way is free. */
+bool collision_orbit(const struct surfaces *s, const double pivot[3],
+                     double distance, const double from[3], double to[3]);
 
 #endif

@@ -11,7 +11,7 @@
 #include "opencl/cl_api.h"
 #include "opencl/cl_buffers.h"
 #include "opencl/cl_device.h"
-#include "opencl/selftest.h"
+#include "opencl/cl_probe.h"
 #include "scene/world_materials.h"
 #include "tests/unit/opencl/pair.h"
 

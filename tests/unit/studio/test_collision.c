@@ -12,8 +12,8 @@
 #include "base/geometry.h"
 #include "studio/camera_input.h"
 #include "studio/camera_moves.h"
-#include "studio/collision.h"
 #include "studio/framing.h"
+#include "studio/surfaces.h"
 #include "tests/unit/folder.h"
 #include "tests/unit/room.h"
 
