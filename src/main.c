@@ -38,9 +38,9 @@
 #include "opencl/cl_probe.h"
 #include "opencl/cl_source.h"
 #include "render/cpu_dispatch.h"
+#include "session/autosave_file.h"
 #include "session/command_line.h"
 #include "session/config.h"
-#include "session/kept_folder.h"
 #include "session/option_help.h"
 #include "session/session.h"
 #include "session/state_list.h"
@@ -375,8 +375,8 @@ int main(int argc, char **argv)
     if (options.list_formats)
         return list_formats();
     if (options.list_sessions)
-        return kept_print_list(stdout, &err) ? print_out("")
-                                             : complain(EXIT_FAILED, &err);
+        return autosave_print_list(stdout, &err) ? print_out("")
+                                                 : complain(EXIT_FAILED, &err);
     if (options.probe)
         return probe(&options);
     if (options.is_import || options.is_unpack)

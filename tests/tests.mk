@@ -58,7 +58,7 @@ $(B)/unit/gltf/draco_encode.o: tests/unit/gltf/draco_encode.cc $(B)/flags
 	$(compile_cxx)
 endif
 # It lets the clock jump.
-$(L)/unit/studio/test_session_keeper: private ALL_LDFLAGS += -Wl,--wrap=clock_ns
+$(L)/unit/studio/test_autosave: private ALL_LDFLAGS += -Wl,--wrap=clock_ns
 # It makes the disk slow.
 $(L)/unit/session/test_session_film: private ALL_LDFLAGS += -Wl,--wrap=fsync
 # It lets allocations fail, counts what is freed, and does not wait for disks.

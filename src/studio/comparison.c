@@ -49,10 +49,10 @@ static void forget_painted(struct comparison *c)
 /* Removes kept render i. */
 static void drop(struct comparison *c, int i)
 {
-    kept_render_free(&c->kept[i]);
+    snapshot_free(&c->kept[i]);
     memmove(&c->kept[i], &c->kept[i + 1],
             (size_t)(c->count - i - 1) * sizeof c->kept[0]);
-    c->kept[--c->count] = (struct kept_render){.pixels = NULL};
+    c->kept[--c->count] = (struct snapshot){.pixels = NULL};
     if (c->chosen >= i && c->chosen > 0)
         c->chosen--;
     forget_painted(c);
@@ -80,7 +80,7 @@ static void drop_others(struct comparison *c)
 
 static void format_legend(struct comparison *c)
 {
-    const struct kept_render *k = &c->kept[c->chosen];
+    const struct snapshot *k = &c->kept[c->chosen];
     char noise[ERROR_TEXT_BYTES], share[16] = "";
 
     c->legend[0] = '\0';
@@ -107,7 +107,7 @@ static void format_legend(struct comparison *c)
 static void change(struct comparison *c)
 {
     c->blocks_ns = 0;
-    kept_blocks_free(&c->blocks);
+    snapshot_blocks_free(&c->blocks);
     format_legend(c);
     c->control->has_changed = true;
 }
@@ -117,7 +117,7 @@ static void change(struct comparison *c)
 void comparison_keep(struct comparison *c)
 {
     const struct render_progress *p = &c->control->progress;
-    struct kept_render kept;
+    struct snapshot kept;
     struct error err;
 
     drop_others(c);
@@ -125,13 +125,13 @@ void comparison_keep(struct comparison *c)
         render_control_say(c->control, "nothing to keep yet");
         return;
     }
-    if (!kept_render_take(&kept, film_of(c), &err)) {
+    if (!snapshot_take(&kept, film_of(c), &err)) {
         render_control_say_error(c->control, err.text);
         return;
     }
     while (c->count == COMPARISON_KEPT_MAX ||
            (c->count > 0 &&
-            (uint64_t)(c->count + 1) * kept_render_bytes(&kept) > BYTES_MAX))
+            (uint64_t)(c->count + 1) * snapshot_bytes(&kept) > BYTES_MAX))
         drop(c, 0);
     kept.spp = p->spp_done;
     kept.error = p->film_error;
@@ -209,8 +209,8 @@ static bool paint_kept(struct comparison *c, int i, const struct frame *frame)
         frame_free(&c->painted[i]);
         return false;
     }
-    kept_render_paint(&c->kept[i], c->develop, &c->painted[i]);
-    kept_render_paint(&c->kept[i], c->develop, &c->thumbs[i]);
+    snapshot_paint(&c->kept[i], c->develop, &c->painted[i]);
+    snapshot_paint(&c->kept[i], c->develop, &c->thumbs[i]);
     return true;
 }
 
@@ -260,9 +260,8 @@ static void paint_differences(struct comparison *c, struct frame *frame)
     struct error ignored;
 
     if (c->blocks_ns == 0 || now_ns >= c->blocks_ns + SEARCH_NS) {
-        if (!kept_render_differences(&c->kept[c->chosen], film_of(c),
-                                     frame->width, frame->height, &c->blocks,
-                                     &ignored))
+        if (!snapshot_differences(&c->kept[c->chosen], film_of(c), frame->width,
+                                  frame->height, &c->blocks, &ignored))
             return;
         c->blocks_ns = now_ns;
         format_legend(c);
@@ -270,7 +269,7 @@ static void paint_differences(struct comparison *c, struct frame *frame)
     for (int y = 0; frame_has_row(frame, y); y++) {
         for (int x = 0; x < frame->width; x++) {
             uint8_t *rgb = frame->rgb + 3 * (y * frame->width + x);
-            const struct kept_block *b =
+            const struct snapshot_block *b =
                 &c->blocks.blocks[y * c->blocks.rows / frame->height *
                                       c->blocks.cols +
                                   x * c->blocks.cols / frame->width];
@@ -324,6 +323,6 @@ void comparison_free(struct comparison *c)
 {
     forget_painted(c);
     for (int i = 0; i < c->count; i++)
-        kept_render_free(&c->kept[i]);
-    kept_blocks_free(&c->blocks);
+        snapshot_free(&c->kept[i]);
+    snapshot_blocks_free(&c->blocks);
 }

@@ -15,7 +15,7 @@
 #ifndef GLIM_COMPARISON_H
 #define GLIM_COMPARISON_H
 
-#include "inspect/kept_render.h"
+#include "inspect/snapshot.h"
 #include "session/keymap.h"
 #include "studio/render_control.h"
 
@@ -32,7 +32,7 @@ struct comparison {
     struct render_control *control;
     enum comparison_mode mode;
     double wipe; /* 0: only the present render */
-    struct kept_render kept[COMPARISON_KEPT_MAX];
+    struct snapshot kept[COMPARISON_KEPT_MAX];
     int count, chosen;
     char legend[128]; /* text of the status line; "" while off */
 
@@ -40,7 +40,7 @@ struct comparison {
     struct frame painted[COMPARISON_KEPT_MAX], thumbs[COMPARISON_KEPT_MAX];
     int width, height;
     struct develop develop;
-    struct kept_blocks blocks;
+    struct snapshot_blocks blocks;
     uint64_t blocks_ns; /* when they were found */
 };
 

@@ -261,9 +261,9 @@ static void take_events(struct studio *studio, struct pollfd fds[FDS])
     if (fds[FD_SAVER].revents)
         save_finish(&studio->control);
     if (fds[FD_KEEPER].revents)
-        session_keeper_finish(&studio->keeper);
+        autosave_finish(&studio->autosave);
     if (fds[FD_KEEPER_TIMER].revents)
-        session_keeper_write(&studio->keeper);
+        autosave_write(&studio->autosave);
     if (fds[FD_DEVICE].revents)
         render_control_end_device(&studio->control);
     if (fds[FD_FILES].revents)
@@ -289,7 +289,7 @@ static void wait_for_events(struct studio *studio)
             render_event_fd(studio->control.session->engine.render),
         [FD_SAVER].fd = studio->control.saver.copying.event_fd,
         [FD_KEEPER].fd = studio->control.keeping.copying.event_fd,
-        [FD_KEEPER_TIMER].fd = studio->keeper.timer_fd,
+        [FD_KEEPER_TIMER].fd = studio->autosave.timer_fd,
         [FD_DEVICE].fd = start ? cl_start_event_fd(start) : -1,
         [FD_FILES].fd = studio->control.watch.fd,
         [FD_RELOAD].fd =
@@ -346,7 +346,7 @@ static void close_screen(struct studio *studio)
     /* before what may take longer than stop.h allows: a driver, or a tree */
     stop_hold();
     save_finish(&studio->control);
-    session_keeper_end(&studio->keeper, is_lost);
+    autosave_end(&studio->autosave, is_lost);
     stop_release();
     /* before tty_close(): its end puts back the signal handlers of its start */
     backends_abandon_device(&studio->control.session->engine.backends);
@@ -379,15 +379,15 @@ bool event_loop_run(struct session *s, int *status, struct error *err)
         if (s->notice[0] != '\0')
             render_control_say_long(&studio.control, "%s", s->notice);
         s->notice[0] = '\0';
-        session_keeper_init(&studio.keeper, &studio.control, &studio.camera);
-        if (studio.keeper.has_offer)
+        autosave_init(&studio.autosave, &studio.control, &studio.camera);
+        if (studio.autosave.has_offer)
             question_ask(&studio, QUESTION_KEPT);
         /* after tty_open(): it puts back the signal handlers that it finds */
         if (s->options->backend != BACKEND_CPU)
             render_control_begin_device(&studio.control);
         loop(&studio);
         close_screen(&studio);
-        session_keeper_free(&studio.keeper);
+        autosave_free(&studio.autosave);
         *status = studio.status;
         session_progress(s);
         ok = !stats_path || stats_json_write(s, false, stats_path, err);

@@ -175,12 +175,12 @@ bool render_control_init(struct render_control *control,
     if (!session_restart(session, limits_of(control), err) ||
         !save_thread_init(&control->saver, err))
         return false;
-    if (!kept_writer_init(&control->keeping, err)) {
+    if (!autosave_writer_init(&control->keeping, err)) {
         save_thread_free(&control->saver);
         return false;
     }
     if (!reload_init(&control->reload, session->options, err)) {
-        kept_writer_free(&control->keeping);
+        autosave_writer_free(&control->keeping);
         save_thread_free(&control->saver);
         return false;
     }
@@ -571,7 +571,7 @@ bool render_control_end_reload(struct render_control *control)
 void render_control_free(struct render_control *control)
 {
     save_thread_free(&control->saver);
-    kept_writer_free(&control->keeping);
+    autosave_writer_free(&control->keeping);
     reload_free(&control->reload);
     file_watch_free(&control->watch);
     for (int i = 0; i < control->result_count; i++)

@@ -18,7 +18,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "session/kept_writer.h"
+#include "session/autosave_writer.h"
 #include "session/reload.h"
 #include "session/save_thread.h"
 #include "session/session.h"
@@ -34,7 +34,7 @@ struct message {
 struct render_control {
     struct session *session;
     struct save_thread saver;
-    struct kept_writer keeping;
+    struct autosave_writer keeping;
     struct reload reload;
     struct file_watch watch;
     struct render_progress progress; /* of the last render_control_update() */

@@ -307,14 +307,14 @@ static const struct {
                           "other: no",
                           restart_unasked, 'p', save_render},
     [QUESTION_NUMBER] = {.text = "Number for this view? 1 to 9, other: none"},
-    [QUESTION_KEPT] = {0}, /* its text is that of the session keeper */
+    [QUESTION_KEPT] = {0}, /* its text is that of the session autosave */
 };
 
 void question_ask(struct studio *studio, enum question question)
 {
     studio->question = question;
     workspace_ask(&studio->workspace, question == QUESTION_KEPT
-                                          ? studio->keeper.question
+                                          ? studio->autosave.question
                                           : questions[question].text);
 }
 
@@ -341,10 +341,10 @@ static bool answer_kept(struct studio *studio, int key)
     if (action == ACTION_QUIT)
         return false;
     if (key == '\r') {
-        session_keeper_go_on(&studio->keeper);
+        autosave_go_on(&studio->autosave);
         workspace_refresh(&studio->workspace);
     } else {
-        session_keeper_start_anew(&studio->keeper);
+        autosave_start_anew(&studio->autosave);
     }
     return key == '\r' || key == 'r';
 }

@@ -17,12 +17,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "terminal/tty_input.h"
 #include "session/keymap.h"
+#include "studio/autosave.h"
 #include "studio/camera_control.h"
 #include "studio/render_control.h"
-#include "studio/session_keeper.h"
 #include "studio/workspace.h"
+#include "terminal/tty_input.h"
 
 /* Most questions come before something is lost. */
 enum question {
@@ -39,7 +39,7 @@ struct studio {
     struct render_control control;
     struct camera_control camera;
     struct workspace workspace;
-    struct session_keeper keeper;
+    struct autosave autosave;
     struct tty_input input;
     uint64_t byte_ns; /* time of the last byte of input */
     bool has_mouse;

@@ -3,27 +3,28 @@
  * Kept sessions: what is read is written and read again with the same parts.
  * Any bytes can be parts.
  */
-#include "session/kept_file.h"
 #include "fuzz.h"
+#include "session/autosave_file.h"
 
 /* Writes a session and reads it again. */
-static void check(const struct kept *k)
+static void check(const struct autosave_file *k)
 {
-    struct kept back;
+    struct autosave_file back;
     struct error err = {""};
     size_t size;
-    char *bytes = kept_bytes(k, &size);
+    char *bytes = autosave_file_bytes(k, &size);
 
     require(bytes != NULL, "memory");
     bytes[size] = '\0';
-    require(kept_parse(&back, "b.session", bytes, size, &err), err.text);
+    require(autosave_file_parse(&back, "b.session", bytes, size, &err),
+            err.text);
     require(strcmp(k->scene, back.scene) == 0, "the scene");
     require(k->render_ns == back.render_ns, "the time");
-    for (int i = 0; i < KEPT_PARTS; i++) {
+    for (int i = 0; i < AUTOSAVE_PARTS; i++) {
         require(k->sizes[i] == back.sizes[i], "a size");
         require(memcmp(k->parts[i], back.parts[i], k->sizes[i]) == 0, "a part");
     }
-    kept_free(&back);
+    autosave_file_free(&back);
     free(bytes);
 }
 
@@ -31,11 +32,11 @@ static void check(const struct kept *k)
 static void try_parts(char *text, size_t size)
 {
     char scene[] = "/s.obj";
-    struct kept k = {.scene = scene, .render_ns = size};
+    struct autosave_file k = {.scene = scene, .render_ns = size};
 
-    for (size_t i = 0; i < KEPT_PARTS; i++) {
-        k.parts[i] = text + i * (size / KEPT_PARTS);
-        k.sizes[i] = size / KEPT_PARTS;
+    for (size_t i = 0; i < AUTOSAVE_PARTS; i++) {
+        k.parts[i] = text + i * (size / AUTOSAVE_PARTS);
+        k.sizes[i] = size / AUTOSAVE_PARTS;
     }
     check(&k);
 }
@@ -43,17 +44,17 @@ static void try_parts(char *text, size_t size)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char *text = malloc(size + 1);
-    struct kept k;
+    struct autosave_file k;
     struct error err = {""};
 
     require(text != NULL, "memory");
     memcpy(text, data, size);
     text[size] = '\0';
-    if (kept_parse(&k, "a.session", text, size, &err))
+    if (autosave_file_parse(&k, "a.session", text, size, &err))
         check(&k);
     else
         fuzz_check_message(err.text);
-    kept_free(&k);
+    autosave_file_free(&k);
     try_parts(text, size);
     free(text);
     return 0;

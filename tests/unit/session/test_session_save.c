@@ -9,12 +9,12 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "engine/engine_film.h"
 #include "formats/mtl.h"
 #include "formats/view_file.h"
-#include "terminal/xmalloc.h"
-#include "session/kept_edit.h"
-#include "engine/engine_film.h"
+#include "session/autosave_state.h"
 #include "session/session_save.h"
+#include "terminal/xmalloc.h"
 #include "tests/unit/files.h"
 #include "tests/unit/kinds.h"
 
@@ -214,7 +214,7 @@ static void kept_edits_are_restored(void **state)
     restart(&first);
     for (int round = 0; round < 25; round++) {
         struct session s, again;
-        struct kept kept = {.scene = NULL};
+        struct autosave_file kept = {.scene = NULL};
         uint32_t missing;
 
         if (!check_is_due(3))
@@ -225,11 +225,12 @@ static void kept_edits_are_restored(void **state)
         if (round % 2 != 0)
             edit_the_rest(&s.edit);
         restart(&s);
-        check_or_say(kept_edit_take(&kept, &s, "/tmp/k", &err), err.text);
+        check_or_say(autosave_edit_take(&kept, &s, "/tmp/k", &err), err.text);
         assert_int_equal(kept.has_edits, edit_has_unsaved_materials(&s.edit) ||
                                              edit_has_unsaved_view(&s.edit));
         open_session(&again);
-        check_or_say(kept_edit_restore(&kept, &again, "/tmp/k", &missing, &err),
+        check_or_say(autosave_edit_restore(&kept, &again, "/tmp/k", &missing,
+                                           &err),
                      err.text);
         assert_int_equal(missing, 0);
         restart(&again);
@@ -249,7 +250,7 @@ static void kept_edits_are_restored(void **state)
         restart(&again);
         check_same_world(&again, &first);
         assert_null(edit_undo(&again.edit));
-        kept_free(&kept);
+        autosave_file_free(&kept);
         session_close(&s);
         session_close(&again);
     }
@@ -260,7 +261,7 @@ static void kept_edits_are_restored(void **state)
 static void kept_edits_of_lost_materials_are_counted(void **state)
 {
     struct session s;
-    struct kept kept = {.scene = NULL};
+    struct autosave_file kept = {.scene = NULL};
     struct mtl_source source;
     struct error err;
     uint32_t missing;
@@ -273,17 +274,17 @@ static void kept_edits_of_lost_materials_are_counted(void **state)
         source.kd = (struct mtl_color){{.25, .5, 1}, 1};
         edit_material(&s.edit, i, &source);
     }
-    check_or_say(kept_edit_take(&kept, &s, "/tmp/k", &err), err.text);
+    check_or_say(autosave_edit_take(&kept, &s, "/tmp/k", &err), err.text);
     session_close(&s);
     put("a.mtl", "newmtl wall\nKd .5 .5 .5\n");
     open_session(&s);
-    check_or_say(kept_edit_restore(&kept, &s, "/tmp/k", &missing, &err),
+    check_or_say(autosave_edit_restore(&kept, &s, "/tmp/k", &missing, &err),
                  err.text);
     assert_int_equal(missing, 1);
     source = s.edit.now.sources[mtl_find(&s.engine.scene, "wall")];
     assert_true(source.kd.rgb[0] == .25);
     session_close(&s);
-    kept_free(&kept);
+    autosave_file_free(&kept);
 }
 
 /* A picture after an edit equals that of a fresh start after saving. Comparing

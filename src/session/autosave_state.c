@@ -1,33 +1,36 @@
 // SPDX-License-Identifier: MIT
-#include "session/kept_edit.h"
+#include "session/autosave_state.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "formats/mtl.h"
 #include "formats/mtl_dialect.h"
 #include "formats/mtl_save.h"
-#include "load/scene_load.h"
 #include "formats/view_file.h"
-#include "terminal/xmalloc.h"
+#include "load/scene_load.h"
 #include "session/session_save.h"
+#include "terminal/xmalloc.h"
+
+/* ---- one state ---- */
 
 /* Size of a name in the MTL text. */
 #define NAME_BYTES 16
 
 /* ---- write ---- */
 
-static bool take_view(struct kept *k, const struct session *s, const char *path,
-                      struct error *err)
+static bool take_view(struct autosave_file *k, const struct session *s,
+                      const char *path, struct error *err)
 {
     struct view view;
     bool ok;
 
     session_view_to_save(s, &view);
-    ok = view_format(&view, path, "", 0, &k->parts[KEPT_VIEW],
-                     &k->sizes[KEPT_VIEW], err);
+    ok = view_format(&view, path, "", 0, &k->parts[AUTOSAVE_VIEW],
+                     &k->sizes[AUTOSAVE_VIEW], err);
     view_free(&view);
     return ok;
 }
@@ -67,7 +70,7 @@ static struct mtl_source maps_of(const struct mtl_source *s)
  * that differ from their files. Statements that make no difference are kept,
  * too: another type may need them again. Those of all dialects are read as they
  * are in files of Blender. */
-static bool take_materials(struct kept *k, const struct session *s,
+static bool take_materials(struct autosave_file *k, const struct session *s,
                            const char *path, struct error *err)
 {
     const struct edit *e = &s->edit;
@@ -90,10 +93,10 @@ static bool take_materials(struct kept *k, const struct session *s,
         list = add_lines(list, e, i);
         count++;
     }
-    k->parts[KEPT_MATERIALS] = list;
-    k->sizes[KEPT_MATERIALS] = strlen(list);
+    k->parts[AUTOSAVE_MATERIALS] = list;
+    k->sizes[AUTOSAVE_MATERIALS] = strlen(list);
     ok = mtl_rewrite(&s->engine.scene, path, head, strlen(head), changes, count,
-                     &k->parts[KEPT_MTL], &k->sizes[KEPT_MTL], err);
+                     &k->parts[AUTOSAVE_MTL], &k->sizes[AUTOSAVE_MTL], err);
     free(names);
     free(maps);
     free(changes);
@@ -101,8 +104,8 @@ static bool take_materials(struct kept *k, const struct session *s,
     return ok;
 }
 
-bool kept_edit_take(struct kept *k, const struct session *s, const char *path,
-                    struct error *err)
+bool autosave_edit_take(struct autosave_file *k, const struct session *s,
+                        const char *path, struct error *err)
 {
     k->has_edits =
         edit_has_unsaved_materials(&s->edit) || edit_has_unsaved_view(&s->edit);
@@ -183,17 +186,17 @@ static void restore_list(struct edit *e, const char *list,
     free(is_listed);
 }
 
-static bool restore_materials(const struct kept *k, struct session *s,
+static bool restore_materials(const struct autosave_file *k, struct session *s,
                               const char *path, uint32_t *missing,
                               struct error *err)
 {
     struct warnings ignored = {0};
     struct scene mtl = {.path = NULL};
-    bool ok = mtl_parse(&mtl, k->parts[KEPT_MTL], k->sizes[KEPT_MTL], path,
-                        &ignored, err);
+    bool ok = mtl_parse(&mtl, k->parts[AUTOSAVE_MTL], k->sizes[AUTOSAVE_MTL],
+                        path, &ignored, err);
 
     if (ok)
-        restore_list(&s->edit, k->parts[KEPT_MATERIALS], &mtl, missing);
+        restore_list(&s->edit, k->parts[AUTOSAVE_MATERIALS], &mtl, missing);
     scene_free(&mtl);
     warnings_free(&ignored);
     return ok;
@@ -223,8 +226,9 @@ static void find_assigned(const struct session *s, const struct view *view,
     }
 }
 
-bool kept_edit_restore(const struct kept *k, struct session *s,
-                       const char *path, uint32_t *missing, struct error *err)
+bool autosave_edit_restore(const struct autosave_file *k, struct session *s,
+                           const char *path, uint32_t *missing,
+                           struct error *err)
 {
     struct edit *e = &s->edit;
     struct warnings ignored = {0};
@@ -235,8 +239,8 @@ bool kept_edit_restore(const struct kept *k, struct session *s,
     *missing = 0;
     view_init(&view);
     edit_end_step(e);
-    ok = view_parse(&view, k->parts[KEPT_VIEW], k->sizes[KEPT_VIEW], path,
-                    &ignored, err) &&
+    ok = view_parse(&view, k->parts[AUTOSAVE_VIEW], k->sizes[AUTOSAVE_VIEW],
+                    path, &ignored, err) &&
          pose_check(&view.pose, path, err) &&
          restore_materials(k, s, path, missing, err);
     if (ok) {
@@ -249,4 +253,203 @@ bool kept_edit_restore(const struct kept *k, struct session *s,
     warnings_free(&ignored);
     free(assigned);
     return ok;
+}
+
+/* ---- history ---- */
+
+/* Texts of a state, which come first in enum autosave_part. */
+#define STATE_PARTS AUTOSAVE_HISTORY
+
+/* ---- write ---- */
+
+/* A text that grows. */
+struct text {
+    char *bytes;
+    size_t size;
+};
+
+static void add(struct text *t, const char *bytes, size_t size)
+{
+    t->bytes = xrealloc(t->bytes, t->size + size + 1);
+    memcpy(t->bytes + t->size, bytes, size);
+    t->size += size;
+    t->bytes[t->size] = '\0';
+}
+
+static void add_numbers(struct text *t, const size_t *numbers, int count)
+{
+    for (int i = 0; i < count; i++) {
+        char *text = xformat("%zu%c", numbers[i], i + 1 < count ? ' ' : '\n');
+
+        add(t, text, strlen(text));
+        free(text);
+    }
+}
+
+/* Adds the present state of the edit. */
+static bool add_state(struct text *t, const struct session *s, const char *path,
+                      struct error *err)
+{
+    struct autosave_file state = {.scene = NULL};
+    bool ok = autosave_edit_take(&state, s, path, err);
+
+    if (ok)
+        add_numbers(t, state.sizes, STATE_PARTS);
+    for (int i = 0; ok && i < STATE_PARTS; i++)
+        add(t, state.parts[i], state.sizes[i]);
+    autosave_file_free(&state);
+    return ok;
+}
+
+/* Undoes or redoes steps, at most this number. Returns how many there were. */
+static size_t walk(struct edit *e, const char *(*step)(struct edit *),
+                   size_t most)
+{
+    size_t count = 0;
+
+    while (count < most && step(e) != NULL)
+        count++;
+    return count;
+}
+
+/* Returns the most steps that are kept of a session whose present state is
+ * this large. */
+static size_t most_steps(const struct autosave_file *k)
+{
+    size_t size = 1, most;
+
+    for (int i = 0; i < STATE_PARTS; i++)
+        size += k->sizes[i];
+    most = AUTOSAVE_STEPS_BYTES / size;
+    return most < AUTOSAVE_STEPS_MAX ? most : AUTOSAVE_STEPS_MAX;
+}
+
+/* Adds the states before and after the present one: goes to the oldest and from
+ * there to the newest. */
+static bool add_states(struct text *t, struct session *s, size_t most,
+                       const char *path, struct error *err)
+{
+    struct edit *e = &s->edit;
+    size_t undone = walk(e, edit_redo, most);
+    size_t done;
+    bool ok = true;
+
+    walk(e, edit_undo, undone);
+    done = walk(e, edit_undo, most);
+    add_numbers(t, (size_t[]){done, undone}, 2);
+    for (size_t i = 0; i < done; i++) {
+        ok = ok && add_state(t, s, path, err);
+        edit_redo(e);
+    }
+    for (size_t i = 0; i < undone; i++) {
+        edit_redo(e);
+        ok = ok && add_state(t, s, path, err);
+    }
+    walk(e, edit_undo, undone);
+    return ok;
+}
+
+bool autosave_history_take(struct autosave_file *k, struct session *s,
+                           const char *path, struct error *err)
+{
+    struct edit *e = &s->edit;
+    const struct edit before = *e;
+    struct text t = {.bytes = NULL};
+    bool ok = autosave_edit_take(k, s, path, err) &&
+              add_states(&t, s, most_steps(k), path, err);
+
+    k->parts[AUTOSAVE_HISTORY] = t.bytes;
+    k->sizes[AUTOSAVE_HISTORY] = t.size;
+    /* the values are the same, and a gesture goes on */
+    e->version = before.version;
+    e->is_comparing = before.is_comparing;
+    e->history.group = before.history.group;
+    e->history.gesture = before.history.gesture;
+    memcpy(e->step_text, before.step_text, sizeof e->step_text);
+    return ok;
+}
+
+/* ---- restore ---- */
+
+struct reader {
+    const char *p, *end, *path;
+};
+
+/* Reads the numbers of a line. A NUL is after the text. */
+static bool read_numbers(struct reader *r, size_t *numbers, int count,
+                         struct error *err)
+{
+    for (int i = 0; i < count; i++) {
+        uint64_t number;
+
+        if (!digits_parse(&r->p, 10, SIZE_MAX, &number) ||
+            *r->p++ != (i + 1 < count ? ' ' : '\n'))
+            return fail(err,
+                        "%s: found another text in the history, expected "
+                        "numbers",
+                        r->path);
+        numbers[i] = (size_t)number;
+    }
+    return true;
+}
+
+/* Reads the texts of a state. The caller frees after a failure, too. */
+static bool read_state(struct reader *r, struct autosave_file *state,
+                       struct error *err)
+{
+    size_t sizes[STATE_PARTS];
+
+    *state = (struct autosave_file){.scene = NULL};
+    if (!read_numbers(r, sizes, STATE_PARTS, err))
+        return false;
+    for (int i = 0; i < STATE_PARTS; i++) {
+        if (sizes[i] > (size_t)(r->end - r->p))
+            return fail(err, "%s: found the end of the history, expected more",
+                        r->path);
+        state->parts[i] = xmalloc(sizes[i] + 1);
+        memcpy(state->parts[i], r->p, sizes[i]);
+        state->parts[i][sizes[i]] = '\0';
+        state->sizes[i] = sizes[i];
+        r->p += sizes[i];
+    }
+    return true;
+}
+
+static bool restore_next(struct reader *r, struct session *s, struct error *err)
+{
+    struct autosave_file state;
+    uint32_t missing;
+    bool ok = read_state(r, &state, err) &&
+              autosave_edit_restore(&state, s, r->path, &missing, err);
+
+    autosave_file_free(&state);
+    return ok;
+}
+
+bool autosave_history_restore(const struct autosave_file *k, struct session *s,
+                              const char *path, uint32_t *missing,
+                              struct error *err)
+{
+    const char *text = k->parts[AUTOSAVE_HISTORY];
+    struct reader r = {text, text + k->sizes[AUTOSAVE_HISTORY], path};
+    size_t numbers[2] = {0}; /* of done and of undone steps */
+    size_t done;
+
+    if (!read_numbers(&r, numbers, 2, err))
+        return false;
+    for (size_t i = 0; i < numbers[0]; i++) {
+        if (!restore_next(&r, s, err))
+            return false;
+        if (i == 0)
+            edit_forget_steps(&s->edit);
+    }
+    if (!autosave_edit_restore(k, s, path, missing, err))
+        return false;
+    done = s->edit.history.done_count;
+    for (size_t i = 0; i < numbers[1]; i++)
+        if (!restore_next(&r, s, err))
+            return false;
+    while (s->edit.history.done_count > done)
+        edit_undo(&s->edit);
+    return true;
 }

@@ -1,31 +1,30 @@
 // SPDX-License-Identifier: MIT
 /*
- * kept_writer.h - writes the file of a kept session in a background thread
+ * autosave_writer.h - writes the file of a kept session in a background thread
  *
  * The thread first copies the film and hashes the world, neither of which may
  * change before that is complete. Screen and render do not wait for the rest. A
  * film whose bytes are too many is left out.
  *
- * Ownership: kept_writer_free() frees, after waiting for a file that is being
- *            written
- * Threads:   all functions from one thread
- * Errors:    kept_writer_finish() returns them
+ * Ownership: autosave_writer_free() frees, after waiting for a file that is
+ * being written Threads:   all functions from one thread Errors:
+ * autosave_writer_finish() returns them
  */
-#ifndef GLIM_KEPT_WRITER_H
-#define GLIM_KEPT_WRITER_H
+#ifndef GLIM_AUTOSAVE_WRITER_H
+#define GLIM_AUTOSAVE_WRITER_H
 
+#include "session/autosave_file.h"
 #include "session/copy_thread.h"
-#include "session/kept_file.h"
 #include "session/session.h"
 
 /* Size limits of a film's copy in memory and of its bytes in the file. */
-#define KEPT_COPY_BYTES_MAX ((uint64_t)1 << 30)
-#define KEPT_FILM_BYTES_MAX ((size_t)1 << 28)
+#define AUTOSAVE_COPY_BYTES_MAX ((uint64_t)1 << 30)
+#define AUTOSAVE_FILM_BYTES_MAX ((size_t)1 << 28)
 
-struct kept_writer {
+struct autosave_writer {
     struct copy_thread copying;
     /* set before the thread starts */
-    struct kept kept; /* its film is made by the thread */
+    struct autosave_file kept; /* its film is made by the thread */
     const char *path;
     bool has_film;
     struct render *render;
@@ -33,25 +32,26 @@ struct kept_writer {
     struct world world;
     struct film_header header;
     struct film_range range;
-    /* owned by the thread until kept_writer_finish() joins it */
+    /* owned by the thread until autosave_writer_finish() joins it */
     bool is_film_left_out; /* since it is too large */
     bool is_written;
     struct error error;
 };
 
-bool kept_writer_init(struct kept_writer *w, struct error *err);
+bool autosave_writer_init(struct autosave_writer *w, struct error *err);
 
 /* Starts to write a session, with the film of the render if has_film. Frees
  * `k`, at the end or after a failure. `path` is the caller's until the end.
  * Nothing is being written. */
-bool kept_writer_begin(struct kept_writer *w, struct session *s, struct kept *k,
-                       const char *path, bool has_film, struct error *err);
+bool autosave_writer_begin(struct autosave_writer *w, struct session *s,
+                           struct autosave_file *k, const char *path,
+                           bool has_film, struct error *err);
 
 /* Blocks until the file is written. Returns false, with the error, if it, or
  * its film, is not. *is_film_left_out says that the film is too large. */
-bool kept_writer_finish(struct kept_writer *w, bool *is_film_left_out,
-                        struct error *err);
+bool autosave_writer_finish(struct autosave_writer *w, bool *is_film_left_out,
+                            struct error *err);
 
-void kept_writer_free(struct kept_writer *w);
+void autosave_writer_free(struct autosave_writer *w);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "studio/session_keeper.h"
+#include "studio/autosave.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "base/hash.h"
 #include "engine/engine_film.h"
 #include "picture/film_file.h"
-#include "session/kept_history.h"
+#include "session/autosave_state.h"
 #include "terminal/xmalloc.h"
 
 /* Least render time for which a picture is kept. */
@@ -35,38 +35,37 @@ static int start_timer(void)
     return fd;
 }
 
-static void find_offer(struct session_keeper *k)
+static void find_offer(struct autosave *k)
 {
-    char what[KEPT_TEXT_BYTES];
+    char what[AUTOSAVE_TEXT_BYTES];
     struct error err;
 
     if (access(k->path, F_OK) != 0)
         return;
-    if (!kept_read_head(&k->offer, k->path, &err)) {
+    if (!autosave_file_read_head(&k->offer, k->path, &err)) {
         render_control_say_error(k->control, err.text);
         k->has_file = true;
     } else if (strcmp(k->offer.scene, k->scene) == 0) {
-        kept_describe(what, &k->offer);
+        autosave_describe(what, &k->offer);
         snprintf(k->question, sizeof k->question,
                  "Enter goes on, r starts anew: %s kept", what);
         k->has_offer = true;
     }
 }
 
-void session_keeper_init(struct session_keeper *k,
-                         struct render_control *control,
-                         struct camera_control *camera)
+void autosave_init(struct autosave *k, struct render_control *control,
+                   struct camera_control *camera)
 {
     const struct session *s = control->session;
 
-    *k = (struct session_keeper){.control = control,
-                                 .camera = camera,
-                                 .lock_fd = -1,
-                                 .timer_fd = -1,
-                                 .scene = kept_scene(s->options->scene_path)};
-    k->path = k->scene != NULL ? kept_path(k->scene) : NULL;
+    *k = (struct autosave){.control = control,
+                           .camera = camera,
+                           .lock_fd = -1,
+                           .timer_fd = -1,
+                           .scene = autosave_scene(s->options->scene_path)};
+    k->path = k->scene != NULL ? autosave_path(k->scene) : NULL;
     if (k->path != NULL)
-        k->lock_fd = kept_lock(k->path);
+        k->lock_fd = autosave_lock(k->path);
     if (k->lock_fd < 0)
         return;
     k->timer_fd = start_timer();
@@ -76,7 +75,7 @@ void session_keeper_init(struct session_keeper *k,
 /* ---- write ---- */
 
 /* Returns true if the film has taken a while, and is of the edit as it is. */
-static bool is_film_worth(const struct session_keeper *k)
+static bool is_film_worth(const struct autosave *k)
 {
     const struct session *s = k->control->session;
     struct render_progress p = render_progress(s->engine.render);
@@ -87,7 +86,7 @@ static bool is_film_worth(const struct session_keeper *k)
 }
 
 /* Returns true if the file has these texts and all samples. */
-static bool is_written(struct session_keeper *k, const struct kept *kept,
+static bool is_written(struct autosave *k, const struct autosave_file *kept,
                        bool has_film)
 {
     uint64_t samples =
@@ -96,7 +95,7 @@ static bool is_written(struct session_keeper *k, const struct kept *kept,
     bool is_same;
 
     samples = has_film ? samples : 0;
-    for (int i = 0; i < KEPT_FILM; i++)
+    for (int i = 0; i < AUTOSAVE_FILM; i++)
         hash = hash_bytes(hash, kept->parts[i], kept->sizes[i]);
     is_same =
         k->has_file && hash == k->written_hash && samples == k->written_samples;
@@ -105,7 +104,7 @@ static bool is_written(struct session_keeper *k, const struct kept *kept,
     return is_same;
 }
 
-static void remove_file(struct session_keeper *k)
+static void remove_file(struct autosave *k)
 {
     if (k->has_file)
         unlink(k->path);
@@ -113,22 +112,22 @@ static void remove_file(struct session_keeper *k)
 }
 
 /* Starts to write the session. Returns false, with a message, on errors. */
-static bool begin(struct session_keeper *k)
+static bool begin(struct autosave *k)
 {
     struct session *s = k->control->session;
-    struct kept kept = {.is_live =
-                            k->control->is_live || !k->control->is_started,
-                        .scene = xstrdup(k->scene)};
+    struct autosave_file kept = {.is_live = k->control->is_live ||
+                                            !k->control->is_started,
+                                 .scene = xstrdup(k->scene)};
     bool film = is_film_worth(k), ok;
     struct error err;
 
-    ok = kept_history_take(&kept, s, k->path, &err);
+    ok = autosave_history_take(&kept, s, k->path, &err);
     if (ok && !film && !kept.has_edits)
         remove_file(k);
     else if (ok && !is_written(k, &kept, film))
-        ok = kept_writer_begin(&k->control->keeping, s, &kept, k->path, film,
-                               &err);
-    kept_free(&kept);
+        ok = autosave_writer_begin(&k->control->keeping, s, &kept, k->path,
+                                   film, &err);
+    autosave_file_free(&kept);
     if (!ok) {
         render_control_say_error(k->control, err.text);
         k->written_hash = 0;
@@ -136,7 +135,7 @@ static bool begin(struct session_keeper *k)
     return ok;
 }
 
-void session_keeper_write(struct session_keeper *k)
+void autosave_write(struct autosave *k)
 {
     uint64_t count;
 
@@ -146,14 +145,14 @@ void session_keeper_write(struct session_keeper *k)
         begin(k);
 }
 
-void session_keeper_finish(struct session_keeper *k)
+void autosave_finish(struct autosave *k)
 {
     bool is_left_out, had_failed = k->has_failed;
     struct error err;
 
     k->has_file = true; /* also of an earlier time, or without the film */
     k->has_failed =
-        !kept_writer_finish(&k->control->keeping, &is_left_out, &err);
+        !autosave_writer_finish(&k->control->keeping, &is_left_out, &err);
     if (k->has_failed) {
         k->written_hash = 0;
         if (!had_failed)
@@ -170,32 +169,32 @@ void session_keeper_finish(struct session_keeper *k)
 }
 
 /* Adds a line about the last file to the results. */
-static void add_result(struct session_keeper *k)
+static void add_result(struct autosave *k)
 {
-    char what[KEPT_TEXT_BYTES];
-    struct kept kept;
+    char what[AUTOSAVE_TEXT_BYTES];
+    struct autosave_file kept;
     struct error err;
     char *text;
 
-    if (kept_read_head(&kept, k->path, &err)) {
-        kept_describe(what, &kept);
+    if (autosave_file_read_head(&kept, k->path, &err)) {
+        autosave_describe(what, &kept);
         text = xformat("kept %s: glim %s goes on", what,
                        k->control->session->options->scene_path);
         render_control_add_result(k->control, text);
         free(text);
     }
-    kept_free(&kept);
+    autosave_file_free(&kept);
 }
 
-void session_keeper_end(struct session_keeper *k, bool is_lost)
+void autosave_end(struct autosave *k, bool is_lost)
 {
-    struct kept_writer *w = &k->control->keeping;
+    struct autosave_writer *w = &k->control->keeping;
     struct message before = k->control->message;
 
     if (k->lock_fd < 0)
         return;
     if (w->copying.is_busy)
-        session_keeper_finish(k);
+        autosave_finish(k);
     if (k->has_offer)
         return;
     if (!is_lost) {
@@ -205,7 +204,7 @@ void session_keeper_end(struct session_keeper *k, bool is_lost)
     k->control->message = (struct message){0};
     k->has_failed = false;
     if (begin(k) && w->copying.is_busy)
-        session_keeper_finish(k);
+        autosave_finish(k);
     if (k->control->message.text[0] != '\0')
         render_control_add_result(k->control, k->control->message.text);
     else if (k->has_file)
@@ -216,15 +215,15 @@ void session_keeper_end(struct session_keeper *k, bool is_lost)
 /* ---- go on ---- */
 
 /* Takes the film over if it is of the picture that is rendered now. */
-static bool take_film(struct session_keeper *k, const struct kept *kept,
+static bool take_film(struct autosave *k, const struct autosave_file *kept,
                       struct error *err)
 {
     struct session *s = k->control->session;
     struct view view = edit_view(&s->edit);
     struct film_identity identity;
     struct film_file film = {0};
-    bool ok = film_file_parse(&film, k->path, kept->parts[KEPT_FILM],
-                              kept->sizes[KEPT_FILM], err) &&
+    bool ok = film_file_parse(&film, k->path, kept->parts[AUTOSAVE_FILM],
+                              kept->sizes[AUTOSAVE_FILM], err) &&
               engine_film_identify(&s->engine, &view, &identity, err) &&
               film_identity_check(&film.header.identity, k->path, &identity,
                                   s->options->scene_path, err);
@@ -239,20 +238,20 @@ static bool take_film(struct session_keeper *k, const struct kept *kept,
     return ok;
 }
 
-static void restore(struct session_keeper *k, const struct kept *kept)
+static void restore(struct autosave *k, const struct autosave_file *kept)
 {
     struct render_control *control = k->control;
     uint32_t missing;
     struct error err;
 
-    if (!kept_history_restore(kept, control->session, k->path, &missing,
-                              &err)) {
+    if (!autosave_history_restore(kept, control->session, k->path, &missing,
+                                  &err)) {
         render_control_say_error(control, err.text);
         return;
     }
     camera_control_set_scene(k->camera);
     render_control_go_on(control, true, NULL);
-    if (kept->sizes[KEPT_FILM] > 0 && !take_film(k, kept, &err))
+    if (kept->sizes[AUTOSAVE_FILM] > 0 && !take_film(k, kept, &err))
         render_control_say_error(control, err.text);
     else if (missing > 0)
         render_control_say(control,
@@ -261,32 +260,33 @@ static void restore(struct session_keeper *k, const struct kept *kept)
                            missing);
     else
         render_control_say(control, "restored: %s",
-                           kept->sizes[KEPT_FILM] > 0 ? "view, changes, render"
-                                                      : "view and changes");
+                           kept->sizes[AUTOSAVE_FILM] > 0
+                               ? "view, changes, render"
+                               : "view and changes");
 }
 
-void session_keeper_go_on(struct session_keeper *k)
+void autosave_go_on(struct autosave *k)
 {
-    struct kept kept;
+    struct autosave_file kept;
     struct error err;
 
-    if (kept_read(&kept, k->path, &err))
+    if (autosave_file_read(&kept, k->path, &err))
         restore(k, &kept);
     else
         render_control_say_error(k->control, err.text);
-    kept_free(&kept);
-    session_keeper_start_anew(k);
+    autosave_file_free(&kept);
+    autosave_start_anew(k);
 }
 
-void session_keeper_start_anew(struct session_keeper *k)
+void autosave_start_anew(struct autosave *k)
 {
     k->has_offer = false;
     k->has_file = true;
 }
 
-void session_keeper_free(struct session_keeper *k)
+void autosave_free(struct autosave *k)
 {
-    kept_free(&k->offer);
+    autosave_file_free(&k->offer);
     if (k->lock_fd >= 0)
         close(k->lock_fd);
     if (k->timer_fd >= 0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * kept_render.h - a render as it was at one moment, to compare later ones with
+ * snapshot.h - a render as it was at one moment, to compare later ones with
  *
  * Each pixel has its mean and e, half the difference of the means of its two
  * halves, see film_error.h. A difference of means over a block of pixels is
@@ -9,42 +9,41 @@
  * only the noise differs.
  *
  * Units:     linear light
- * Ownership: kept_render_free() frees; a zeroed struct is empty
+ * Ownership: snapshot_free() frees; a zeroed struct is empty
  * Threads:   one; rows of the film are locked
  * Errors:    memory
  */
-#ifndef GLIM_KEPT_RENDER_H
-#define GLIM_KEPT_RENDER_H
+#ifndef GLIM_SNAPSHOT_H
+#define GLIM_SNAPSHOT_H
 
 #include "picture/film.h"
 #include "picture/film_error.h"
 
-struct kept_render {
+struct snapshot {
     int width, height;
-    struct kept_pixel *pixels;
+    struct snapshot_pixel *pixels;
     uint64_t spp;
     struct film_error error;
 };
 
-struct kept_pixel {
+struct snapshot_pixel {
     float mean[3], e[3];
     float is_known; /* 1: both halves have a sample; 0: e is unknown */
 };
 
 /* Keeps the film. A pixel without a known error has e = 0. */
-bool kept_render_take(struct kept_render *kept, struct film *film,
-                      struct error *err);
+bool snapshot_take(struct snapshot *kept, struct film *film, struct error *err);
 
-uint64_t kept_render_bytes(const struct kept_render *kept);
+uint64_t snapshot_bytes(const struct snapshot *kept);
 
 /* Develops it into a frame of any size, as film_preview() does. */
-void kept_render_paint(const struct kept_render *kept, struct develop how,
-                       struct frame *frame);
+void snapshot_paint(const struct snapshot *kept, struct develop how,
+                    struct frame *frame);
 
 /* Blocks of pixels, row 0 at the top. */
-struct kept_blocks {
+struct snapshot_blocks {
     int cols, rows;
-    struct kept_block {
+    struct snapshot_block {
         float difference; /* of the means of the channels, relative to theirs */
         bool is_significant;
     } * blocks;
@@ -54,11 +53,11 @@ struct kept_blocks {
 /* Finds the blocks in which the film differs from the kept render. There are no
  * more than cols x rows of them, and each has 8 x 8 pixels or more. Of large
  * films not all rows are read. */
-bool kept_render_differences(const struct kept_render *kept, struct film *film,
-                             int cols, int rows, struct kept_blocks *blocks,
-                             struct error *err);
+bool snapshot_differences(const struct snapshot *kept, struct film *film,
+                          int cols, int rows, struct snapshot_blocks *blocks,
+                          struct error *err);
 
-void kept_blocks_free(struct kept_blocks *blocks);
-void kept_render_free(struct kept_render *kept);
+void snapshot_blocks_free(struct snapshot_blocks *blocks);
+void snapshot_free(struct snapshot *kept);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/kept_writer.h"
+#include "session/autosave_writer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -7,11 +7,11 @@
 #include "base/file.h"
 #include "engine/engine_film.h"
 #include "picture/film_file.h"
-#include "session/kept_folder.h"
+#include "session/autosave_file.h"
 
-bool kept_writer_init(struct kept_writer *w, struct error *err)
+bool autosave_writer_init(struct autosave_writer *w, struct error *err)
 {
-    *w = (struct kept_writer){.path = NULL};
+    *w = (struct autosave_writer){.path = NULL};
     return copy_thread_init(&w->copying, "sessions", err);
 }
 
@@ -21,7 +21,7 @@ struct copy {
     uint16_t *shares; /* of adaptive sampling; NULL: not decided */
 };
 
-static bool copy_film(struct kept_writer *w, struct copy *c)
+static bool copy_film(struct autosave_writer *w, struct copy *c)
 {
     const uint16_t *shares;
     size_t size;
@@ -48,7 +48,7 @@ static const uint16_t *shares_of(void *context)
 }
 
 /* Packs the film, unless it is too large. */
-static bool pack_film(struct kept_writer *w, struct copy *c)
+static bool pack_film(struct autosave_writer *w, struct copy *c)
 {
     size_t size;
     char *bytes =
@@ -56,21 +56,21 @@ static bool pack_film(struct kept_writer *w, struct copy *c)
 
     if (bytes == NULL)
         return false;
-    w->is_film_left_out = size > KEPT_FILM_BYTES_MAX;
+    w->is_film_left_out = size > AUTOSAVE_FILM_BYTES_MAX;
     if (w->is_film_left_out) {
         free(bytes);
         return true;
     }
-    w->kept.parts[KEPT_FILM] = bytes;
-    w->kept.sizes[KEPT_FILM] = size;
+    w->kept.parts[AUTOSAVE_FILM] = bytes;
+    w->kept.sizes[AUTOSAVE_FILM] = size;
     w->kept.render_ns = w->header.render_ns;
     return true;
 }
 
-static bool write_file(struct kept_writer *w)
+static bool write_file(struct autosave_writer *w)
 {
     size_t size;
-    char *bytes = kept_bytes(&w->kept, &size);
+    char *bytes = autosave_file_bytes(&w->kept, &size);
     bool ok = bytes != NULL
                   ? file_write(w->path, bytes, size, false, NULL, &w->error)
                   : fail(&w->error, "%s: out of memory", w->path);
@@ -82,7 +82,7 @@ static bool write_file(struct kept_writer *w)
 /* Without the film, for which memory may be out, the rest is written. */
 static void work(void *context)
 {
-    struct kept_writer *w = context;
+    struct autosave_writer *w = context;
     struct copy copy = {.shares = NULL};
     bool ok = !w->has_film || copy_film(w, &copy);
 
@@ -92,11 +92,12 @@ static void work(void *context)
     film_free(&copy.film);
     free(copy.shares);
     w->is_written = write_file(w) && ok;
-    kept_prune(w->path, KEPT_DAYS_MAX, KEPT_BYTES_MAX);
+    autosave_prune(w->path, AUTOSAVE_DAYS_MAX, AUTOSAVE_BYTES_MAX);
 }
 
-bool kept_writer_begin(struct kept_writer *w, struct session *s, struct kept *k,
-                       const char *path, bool has_film, struct error *err)
+bool autosave_writer_begin(struct autosave_writer *w, struct session *s,
+                           struct autosave_file *k, const char *path,
+                           bool has_film, struct error *err)
 {
     struct engine *e = &s->engine;
     struct view view = edit_view(&s->edit);
@@ -104,12 +105,12 @@ bool kept_writer_begin(struct kept_writer *w, struct session *s, struct kept *k,
     uint64_t pixels = (uint64_t)film->width * (uint64_t)film->height;
 
     w->kept = *k;
-    *k = (struct kept){.scene = NULL}; /* the writer owns it now */
+    *k = (struct autosave_file){.scene = NULL}; /* the writer owns it now */
     w->path = path;
     w->render = e->render;
     w->kernels_path = s->options->kernels_path;
     w->is_film_left_out =
-        has_film && pixels * FILM_PIXEL_BYTES > KEPT_COPY_BYTES_MAX;
+        has_film && pixels * FILM_PIXEL_BYTES > AUTOSAVE_COPY_BYTES_MAX;
     w->has_film = has_film && !w->is_film_left_out;
     w->header =
         engine_film_header(e, &view, 0, render_progress(e->render).spp_limit,
@@ -118,27 +119,27 @@ bool kept_writer_begin(struct kept_writer *w, struct session *s, struct kept *k,
          engine_film_describe(e, &view, &w->header.identity, &w->world, err)) &&
         copy_thread_begin(&w->copying, work, w, path, err))
         return true;
-    kept_free(&w->kept);
+    autosave_file_free(&w->kept);
     return false;
 }
 
-bool kept_writer_finish(struct kept_writer *w, bool *is_film_left_out,
-                        struct error *err)
+bool autosave_writer_finish(struct autosave_writer *w, bool *is_film_left_out,
+                            struct error *err)
 {
     copy_thread_finish(&w->copying);
-    kept_free(&w->kept);
+    autosave_file_free(&w->kept);
     *is_film_left_out = w->is_film_left_out;
     if (!w->is_written)
         *err = w->error;
     return w->is_written;
 }
 
-void kept_writer_free(struct kept_writer *w)
+void autosave_writer_free(struct autosave_writer *w)
 {
     struct error ignored;
     bool is_film_left_out;
 
     if (w->copying.is_busy)
-        kept_writer_finish(w, &is_film_left_out, &ignored);
+        autosave_writer_finish(w, &is_film_left_out, &ignored);
     copy_thread_free(&w->copying);
 }

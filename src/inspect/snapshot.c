@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "inspect/kept_render.h"
+#include "inspect/snapshot.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,29 +20,28 @@
 /* Pictures with a marked block although only their noise differs. */
 #define FALSE_ALARMS 0.05
 
-bool kept_render_take(struct kept_render *k, struct film *film,
-                      struct error *err)
+bool snapshot_take(struct snapshot *k, struct film *film, struct error *err)
 {
     size_t count = (size_t)film->width * (size_t)film->height;
     float *means = alloc_array(3 * count, sizeof *means);
 
-    *k = (struct kept_render){.width = film->width, .height = film->height};
+    *k = (struct snapshot){.width = film->width, .height = film->height};
     k->pixels = alloc_array(count, sizeof *k->pixels);
     if (!means || !k->pixels) {
         free(means);
-        kept_render_free(k);
+        snapshot_free(k);
         return fail(err, "out of memory to keep a render of %dx%d pixels",
                     film->width, film->height);
     }
     film_linear(film, means);
     for (size_t i = 0; i < count; i++) {
-        struct kept_pixel *p = &k->pixels[i];
+        struct snapshot_pixel *p = &k->pixels[i];
         int y = (int)(i / (size_t)film->width);
 
-        *p = (struct kept_pixel){.is_known = 1.0f};
+        *p = (struct snapshot_pixel){.is_known = 1.0f};
         film_lock_row(film, y);
         if (!film_pixel_error(film, i, p->mean, p->e))
-            *p = (struct kept_pixel){
+            *p = (struct snapshot_pixel){
                 .mean = {means[3 * i], means[3 * i + 1], means[3 * i + 2]}};
         film_unlock_row(film, y);
     }
@@ -50,22 +49,22 @@ bool kept_render_take(struct kept_render *k, struct film *film,
     return true;
 }
 
-uint64_t kept_render_bytes(const struct kept_render *k)
+uint64_t snapshot_bytes(const struct snapshot *k)
 {
     return (uint64_t)k->width * (uint64_t)k->height * sizeof *k->pixels;
 }
 
-void kept_render_free(struct kept_render *k)
+void snapshot_free(struct snapshot *k)
 {
     free(k->pixels);
-    *k = (struct kept_render){.pixels = NULL};
+    *k = (struct snapshot){.pixels = NULL};
 }
 
 /* ---- painting ---- */
 
 /* Adds what a pixel shows: linear light after the tone curve, at most 1. */
-static void add_shown(const struct kept_pixel *p, float factor, uint32_t tone,
-                      float weight, float sum[3])
+static void add_shown(const struct snapshot_pixel *p, float factor,
+                      uint32_t tone, float weight, float sum[3])
 {
     float rgb[4] = {factor * p->mean[0], factor * p->mean[1],
                     factor * p->mean[2], 0.0f};
@@ -76,7 +75,7 @@ static void add_shown(const struct kept_pixel *p, float factor, uint32_t tone,
         sum[c] += weight * f_min(rgb[c], 1.0f);
 }
 
-static void paint_pixel(const struct kept_render *k, struct develop how, int x,
+static void paint_pixel(const struct snapshot *k, struct develop how, int x,
                         int y, const struct frame *frame, uint8_t *bytes)
 {
     struct area_walk rows = area_walk(k->height, frame->height, y, 1);
@@ -86,12 +85,12 @@ static void paint_pixel(const struct kept_render *k, struct develop how, int x,
 
     while (area_walks(&rows)) {
         struct area_walk columns = area_walk(k->width, frame->width, x, 1);
-        const struct kept_pixel *row =
+        const struct snapshot_pixel *row =
             k->pixels + (size_t)rows.from * (size_t)k->width;
         float height = area_step(&rows);
 
         while (area_walks(&columns)) {
-            const struct kept_pixel *p = row + columns.from;
+            const struct snapshot_pixel *p = row + columns.from;
 
             add_shown(p, factor, how.tone, height * area_step(&columns) / area,
                       sum);
@@ -101,8 +100,8 @@ static void paint_pixel(const struct kept_render *k, struct develop how, int x,
         bytes[c] = (uint8_t)srgb_byte(sum[c]);
 }
 
-void kept_render_paint(const struct kept_render *k, struct develop how,
-                       struct frame *frame)
+void snapshot_paint(const struct snapshot *k, struct develop how,
+                    struct frame *frame)
 {
     for (int y = 0; y < frame->height; y++)
         for (int x = 0; x < frame->width; x++)
@@ -121,7 +120,7 @@ struct sums {
     bool is_unknown;
 };
 
-static void add_pixel(struct sums *s, const struct kept_pixel *before,
+static void add_pixel(struct sums *s, const struct snapshot_pixel *before,
                       const struct film *film, size_t at)
 {
     float mean[3], e[3];
@@ -139,9 +138,9 @@ static void add_pixel(struct sums *s, const struct kept_pixel *before,
     }
 }
 
-static struct kept_block block_of(const struct sums *s, double bound)
+static struct snapshot_block block_of(const struct sums *s, double bound)
 {
-    struct kept_block block = {0.0f, false};
+    struct snapshot_block block = {0.0f, false};
     double all = 0;
 
     if (s->is_unknown)
@@ -157,14 +156,14 @@ static struct kept_block block_of(const struct sums *s, double bound)
     return block;
 }
 
-static bool alloc_blocks(struct kept_blocks *b, const struct kept_render *k,
+static bool alloc_blocks(struct snapshot_blocks *b, const struct snapshot *k,
                          int cols, int rows, struct error *err)
 {
     int most_cols = k->width / BLOCK_MIN, most_rows = k->height / BLOCK_MIN;
 
     cols = cols < most_cols ? cols : most_cols;
     rows = rows < most_rows ? rows : most_rows;
-    kept_blocks_free(b);
+    snapshot_blocks_free(b);
     b->cols = cols > 0 ? cols : 1;
     b->rows = rows > 0 ? rows : 1;
     b->blocks =
@@ -172,9 +171,9 @@ static bool alloc_blocks(struct kept_blocks *b, const struct kept_render *k,
     return b->blocks != NULL || fail(err, "out of memory for differences");
 }
 
-bool kept_render_differences(const struct kept_render *k, struct film *film,
-                             int cols, int rows, struct kept_blocks *b,
-                             struct error *err)
+bool snapshot_differences(const struct snapshot *k, struct film *film, int cols,
+                          int rows, struct snapshot_blocks *b,
+                          struct error *err)
 {
     size_t pixels = (size_t)k->width * (size_t)k->height;
     int step = 1 + (int)(pixels / PIXELS_READ);
@@ -211,8 +210,8 @@ bool kept_render_differences(const struct kept_render *k, struct film *film,
     return true;
 }
 
-void kept_blocks_free(struct kept_blocks *b)
+void snapshot_blocks_free(struct snapshot_blocks *b)
 {
     free(b->blocks);
-    *b = (struct kept_blocks){.blocks = NULL};
+    *b = (struct snapshot_blocks){.blocks = NULL};
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_kept_history.c - a kept session has the undo history of the one that was
- * lost: the same states at each undo and redo, under the same names
+ * test_autosave_history.c - a kept session has the undo history of the one that
+ * was lost: the same states at each undo and redo, under the same names
  */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
-#include "session/kept_history.h"
+#include "session/autosave_state.h"
 #include "session/session_save.h"
 
 #include "tests/unit/files.h"
@@ -157,21 +157,21 @@ static int walk(struct edit *a, struct edit *b,
     }
 }
 
-static void keep(struct kept *k, struct session *s)
+static void keep(struct autosave_file *k, struct session *s)
 {
     struct error err;
 
-    *k = (struct kept){.scene = NULL};
-    check_or_say(kept_history_take(k, s, "/tmp/k", &err), err.text);
+    *k = (struct autosave_file){.scene = NULL};
+    check_or_say(autosave_history_take(k, s, "/tmp/k", &err), err.text);
 }
 
-static void restore(const struct kept *k, struct session *s)
+static void restore(const struct autosave_file *k, struct session *s)
 {
     struct error err;
     uint32_t missing;
 
     open_session(s);
-    check_or_say(kept_history_restore(k, s, "/tmp/k", &missing, &err),
+    check_or_say(autosave_history_restore(k, s, "/tmp/k", &missing, &err),
                  err.text);
     assert_int_equal(missing, 0);
 }
@@ -194,7 +194,7 @@ static void histories_are_restored(void **state)
     (void)state;
     for (int round = 0; round < 60; round++) {
         struct session s, again;
-        struct kept kept;
+        struct autosave_file kept;
         bool saves = round % 3 == 0;
 
         put_scene(saves);
@@ -217,7 +217,7 @@ static void histories_are_restored(void **state)
         steps += walk(&s.edit, &again.edit, edit_redo);
         steps += walk(&s.edit, &again.edit, edit_undo);
         walk(&s.edit, &again.edit, edit_redo);
-        kept_free(&kept);
+        autosave_file_free(&kept);
         session_close(&s);
         session_close(&again);
     }
@@ -228,7 +228,7 @@ static void histories_are_restored(void **state)
 static void sessions_go_on_after_they_were_kept(void **state)
 {
     struct session s;
-    struct kept kept;
+    struct autosave_file kept;
     struct pose pose;
     uint32_t version;
 
@@ -242,7 +242,7 @@ static void sessions_go_on_after_they_were_kept(void **state)
     edit_compare(&s.edit, true);
     version = s.edit.version;
     keep(&kept, &s);
-    kept_free(&kept);
+    autosave_file_free(&kept);
     assert_int_equal(s.edit.version, version);
     assert_true(s.edit.is_comparing);
     assert_false(edit_begin_gesture(&s.edit, 3, 2000));
@@ -258,7 +258,7 @@ static void sessions_go_on_after_they_were_kept(void **state)
 static void long_histories_are_cut(void **state)
 {
     struct session s, again;
-    struct kept kept;
+    struct autosave_file kept;
     struct pose pose;
     int count = 0;
 
@@ -266,7 +266,7 @@ static void long_histories_are_cut(void **state)
     put_scene(false);
     open_session(&s);
     pose = s.edit.now.view.pose;
-    for (int i = 0; i < 3 * KEPT_STEPS_MAX; i++) {
+    for (int i = 0; i < 3 * AUTOSAVE_STEPS_MAX; i++) {
         edit_end_step(&s.edit);
         pose.eye[0] = i;
         edit_pose(&s.edit, &pose);
@@ -276,9 +276,9 @@ static void long_histories_are_cut(void **state)
     check_same_state(&s.edit, &again.edit);
     while (edit_undo(&again.edit) != NULL)
         count++;
-    assert_int_equal(count, KEPT_STEPS_MAX);
-    assert_true(again.edit.now.view.pose.eye[0] == 2 * KEPT_STEPS_MAX - 1);
-    kept_free(&kept);
+    assert_int_equal(count, AUTOSAVE_STEPS_MAX);
+    assert_true(again.edit.now.view.pose.eye[0] == 2 * AUTOSAVE_STEPS_MAX - 1);
+    autosave_file_free(&kept);
     session_close(&s);
     session_close(&again);
 }
@@ -288,7 +288,7 @@ static void large_histories_are_cut(void **state)
 {
     static char obj[40000];
     struct session s;
-    struct kept kept;
+    struct autosave_file kept;
     int length = sprintf(obj, "mtllib s.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n");
 
     (void)state;
@@ -302,8 +302,8 @@ static void large_histories_are_cut(void **state)
         edit_assign(&s.edit, i, 1);
     }
     keep(&kept, &s);
-    assert_in_range(kept.sizes[KEPT_HISTORY], 1 << 19, 1 << 20);
-    kept_free(&kept);
+    assert_in_range(kept.sizes[AUTOSAVE_HISTORY], 1 << 19, 1 << 20);
+    autosave_file_free(&kept);
     session_close(&s);
 }
 
@@ -312,7 +312,7 @@ static void large_histories_are_cut(void **state)
 static void damaged_histories_have_their_message(void **state)
 {
     struct session s;
-    struct kept kept, part;
+    struct autosave_file kept, part;
     struct error err;
     uint32_t missing;
     size_t size;
@@ -327,21 +327,22 @@ static void damaged_histories_have_their_message(void **state)
     keep(&kept, &s);
     session_close(&s);
     open_session(&s);
-    size = kept.sizes[KEPT_HISTORY];
+    size = kept.sizes[AUTOSAVE_HISTORY];
     for (size_t cut = 0; cut < size; cut += 1 + cut / 50) {
         char *text = malloc(cut + 1);
 
         assert_non_null(text);
-        memcpy(text, kept.parts[KEPT_HISTORY], cut);
+        memcpy(text, kept.parts[AUTOSAVE_HISTORY], cut);
         text[cut] = '\0';
         part = kept;
-        part.parts[KEPT_HISTORY] = text;
-        part.sizes[KEPT_HISTORY] = cut;
-        assert_false(kept_history_restore(&part, &s, "/tmp/k", &missing, &err));
+        part.parts[AUTOSAVE_HISTORY] = text;
+        part.sizes[AUTOSAVE_HISTORY] = cut;
+        assert_false(
+            autosave_history_restore(&part, &s, "/tmp/k", &missing, &err));
         check_has(err.text, "/tmp/k");
         free(text);
     }
-    kept_free(&kept);
+    autosave_file_free(&kept);
     session_close(&s);
 }
 

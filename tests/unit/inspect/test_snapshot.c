@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_kept_render.c - a kept render is painted as the film was; differences of
+ * test_snapshot.c - a kept render is painted as the film was; differences of
  * noise are not marked, differences of light are
  */
 #include <math.h>
 
-#include "inspect/kept_render.h"
+#include "inspect/snapshot.h"
 #include "tests/unit/check.h"
 
 #define WIDTH  128
@@ -44,7 +44,7 @@ static void fill(struct film *film, uint64_t seed, double change)
     }
 }
 
-static int count_marked(const struct kept_blocks *b, bool is_changed)
+static int count_marked(const struct snapshot_blocks *b, bool is_changed)
 {
     int count = 0;
 
@@ -63,21 +63,21 @@ static void noise_is_not_marked(void **state)
 
     (void)state;
     for (uint64_t seed = 0; seed < 40; seed++) {
-        struct kept_blocks blocks = {.blocks = NULL};
-        struct kept_render kept;
+        struct snapshot_blocks blocks = {.blocks = NULL};
+        struct snapshot kept;
         struct film before, now;
         struct error err;
 
         fill(&before, 2 * seed + 1, 0);
         fill(&now, 2 * seed + 2, 0);
-        assert_true(kept_render_take(&kept, &before, &err));
+        assert_true(snapshot_take(&kept, &before, &err));
         assert_true(
-            kept_render_differences(&kept, &now, 1000, 1000, &blocks, &err));
+            snapshot_differences(&kept, &now, 1000, 1000, &blocks, &err));
         assert_int_equal(blocks.cols, WIDTH / 8);
         assert_int_equal(blocks.rows, HEIGHT / 8);
         marked += blocks.significant_count > 0;
-        kept_blocks_free(&blocks);
-        kept_render_free(&kept);
+        snapshot_blocks_free(&blocks);
+        snapshot_free(&kept);
         film_free(&before);
         film_free(&now);
     }
@@ -87,25 +87,24 @@ static void noise_is_not_marked(void **state)
 
 static void light_is_marked(void **state)
 {
-    struct kept_blocks blocks = {.blocks = NULL};
-    struct kept_render kept;
+    struct snapshot_blocks blocks = {.blocks = NULL};
+    struct snapshot kept;
     struct film before, now;
     struct error err;
 
     (void)state;
     fill(&before, 71, 0);
     fill(&now, 72, 0.4);
-    assert_true(kept_render_take(&kept, &before, &err));
-    assert_true(
-        kept_render_differences(&kept, &now, 1000, 1000, &blocks, &err));
+    assert_true(snapshot_take(&kept, &before, &err));
+    assert_true(snapshot_differences(&kept, &now, 1000, 1000, &blocks, &err));
     /* a block's mean has a relative error of 1/32, times the root of 2 */
     assert_in_range(count_marked(&blocks, true), 15, 16);
     assert_int_equal(count_marked(&blocks, false), 0);
     for (int i = 0; i < blocks.cols * blocks.rows; i++)
         if (blocks.blocks[i].is_significant)
             check_close((double)blocks.blocks[i].difference, 0.4 / 1.2, 0.2);
-    kept_blocks_free(&blocks);
-    kept_render_free(&kept);
+    snapshot_blocks_free(&blocks);
+    snapshot_free(&kept);
     film_free(&before);
     film_free(&now);
 }
@@ -117,13 +116,13 @@ static void paintings_are_previews(void **state)
                                           {0, TONE_ACES},
                                           {-1, TONE_REINHARD}};
     static const int sizes[][2] = {{128, 64}, {37, 20}, {1, 1}, {64, 64}};
-    struct kept_render kept;
+    struct snapshot kept;
     struct film film;
     struct error err;
 
     (void)state;
     fill(&film, 5, 0);
-    assert_true(kept_render_take(&kept, &film, &err));
+    assert_true(snapshot_take(&kept, &film, &err));
     for (size_t i = 0; i < 4; i++) {
         for (size_t k = 0; k < 4; k++) {
             struct frame want, got;
@@ -131,34 +130,34 @@ static void paintings_are_previews(void **state)
             assert_true(frame_init(&want, sizes[k][0], sizes[k][1], &err));
             assert_true(frame_init(&got, sizes[k][0], sizes[k][1], &err));
             film_preview(&film, NULL, ways[i], &want);
-            kept_render_paint(&kept, ways[i], &got);
+            snapshot_paint(&kept, ways[i], &got);
             for (int at = 0; at < 3 * want.width * want.height; at++)
                 assert_in_range(got.rgb[at] - want.rgb[at] + 1, 0, 2);
             frame_free(&want);
             frame_free(&got);
         }
     }
-    kept_render_free(&kept);
+    snapshot_free(&kept);
     film_free(&film);
 }
 
 /* Without a sample in each half nothing is marked. */
 static void young_films_are_not_marked(void **state)
 {
-    struct kept_blocks blocks = {.blocks = NULL};
-    struct kept_render kept;
+    struct snapshot_blocks blocks = {.blocks = NULL};
+    struct snapshot kept;
     struct film before, now;
     struct error err;
 
     (void)state;
     fill(&before, 1, 0);
     assert_true(film_init(&now, WIDTH, HEIGHT, &err));
-    assert_true(kept_render_take(&kept, &before, &err));
-    assert_true(kept_render_differences(&kept, &now, 3, 2, &blocks, &err));
+    assert_true(snapshot_take(&kept, &before, &err));
+    assert_true(snapshot_differences(&kept, &now, 3, 2, &blocks, &err));
     assert_int_equal(blocks.cols * blocks.rows, 6);
     assert_int_equal(blocks.significant_count, 0);
-    kept_blocks_free(&blocks);
-    kept_render_free(&kept);
+    snapshot_blocks_free(&blocks);
+    snapshot_free(&kept);
     film_free(&before);
     film_free(&now);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_session_keeper.c - a session that is lost is offered to the next one,
+ * test_autosave.c - a session that is lost is offered to the next one,
  * which goes on with its edits and its film, or says why not
  */
 #include <stdlib.h>
@@ -9,18 +9,18 @@
 
 #include "base/clock.h"
 #include "picture/film_file.h"
-#include "studio/session_keeper.h"
+#include "studio/autosave.h"
 
 #include "tests/unit/files.h"
 
-/* A session with all that a keeper needs. */
+/* A session with all that a autosave needs. */
 struct work {
     struct options options;
     struct session session;
     struct render_control control;
     struct screen screen;
     struct camera_control camera;
-    struct session_keeper keeper;
+    struct autosave autosave;
 };
 
 static void begin(struct work *w)
@@ -38,14 +38,14 @@ static void begin(struct work *w)
                  err.text);
     check_or_say(render_control_init(&w->control, &w->session, &err), err.text);
     camera_control_init(&w->camera, &w->control, &w->screen);
-    session_keeper_init(&w->keeper, &w->control, &w->camera);
+    autosave_init(&w->autosave, &w->control, &w->camera);
 }
 
 static void end(struct work *w, bool is_lost)
 {
     render_halt(w->session.engine.render);
-    session_keeper_end(&w->keeper, is_lost);
-    session_keeper_free(&w->keeper);
+    autosave_end(&w->autosave, is_lost);
+    autosave_free(&w->autosave);
     render_control_free(&w->control);
     session_close(&w->session);
 }
@@ -95,7 +95,7 @@ static void quick_sessions_are_not_kept(void **state)
 
     (void)state;
     begin(&w);
-    assert_false(w.keeper.has_offer);
+    assert_false(w.autosave.has_offer);
     end(&w, true);
     assert_int_equal(count_sessions(), 0);
 }
@@ -112,23 +112,23 @@ static void edits_are_kept_until_they_are_declined(void **state)
     end(&w, true);
     assert_int_equal(count_sessions(), 1);
     begin(&w);
-    assert_true(w.keeper.has_offer);
-    assert_string_equal(w.keeper.question, "Enter goes on, r starts anew: "
-                                           "unsaved changes kept");
+    assert_true(w.autosave.has_offer);
+    assert_string_equal(w.autosave.question, "Enter goes on, r starts anew: "
+                                             "unsaved changes kept");
     end(&w, false); /* without an answer */
     begin(&w);
-    assert_true(w.keeper.has_offer);
-    session_keeper_go_on(&w.keeper);
+    assert_true(w.autosave.has_offer);
+    autosave_go_on(&w.autosave);
     check_close(exposure(&w), 1.5, 0);
-    assert_false(w.keeper.has_offer);
+    assert_false(w.autosave.has_offer);
     /* with its history */
     assert_non_null(edit_undo(&w.session.edit));
     check_close(exposure(&w), 1, 0);
     assert_non_null(edit_redo(&w.session.edit));
     end(&w, true);
     begin(&w);
-    assert_true(w.keeper.has_offer);
-    session_keeper_start_anew(&w.keeper);
+    assert_true(w.autosave.has_offer);
+    autosave_start_anew(&w.autosave);
     check_close(exposure(&w), 0, 0);
     end(&w, false);
     assert_int_equal(count_sessions(), 0);
@@ -148,10 +148,10 @@ static void films_go_on(void **state)
     end(&w, true);
     for (int i = 0; i < 2; i++) {
         begin(&w);
-        assert_string_equal(w.keeper.question,
+        assert_string_equal(w.autosave.question,
                             "Enter goes on, r starts anew: 5 s of render and "
                             "unsaved changes kept");
-        session_keeper_go_on(&w.keeper);
+        autosave_go_on(&w.autosave);
         assert_true(w.control.is_live);
         assert_true(w.control.has_gone_on);
         assert_true(render_progress(w.session.engine.render).samples >=
@@ -162,7 +162,7 @@ static void films_go_on(void **state)
     /* another picture: the edits are restored, the film is not */
     put("s.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
     begin(&w);
-    session_keeper_go_on(&w.keeper);
+    autosave_go_on(&w.autosave);
     assert_false(w.control.has_gone_on);
     assert_non_null(strstr(w.control.message.text, "geometry"));
     check_close(exposure(&w), 2, 0);
@@ -179,7 +179,7 @@ static void damaged_files_are_declined(void **state)
     (void)state;
     begin(&w);
     set_exposure(&w, 1);
-    path = strdup(w.keeper.path);
+    path = strdup(w.autosave.path);
     end(&w, true);
     file = fopen(path, "r+");
     assert_non_null(file);
@@ -187,14 +187,14 @@ static void damaged_files_are_declined(void **state)
     assert_int_equal(fputc('?', file), '?');
     assert_int_equal(fclose(file), 0);
     begin(&w);
-    assert_true(w.keeper.has_offer); /* its head is whole */
-    session_keeper_go_on(&w.keeper);
+    assert_true(w.autosave.has_offer); /* its head is whole */
+    autosave_go_on(&w.autosave);
     assert_non_null(strstr(w.control.message.text, "damaged"));
     check_close(exposure(&w), 0, 0);
     end(&w, false);
     put(path, "glim session 9\n");
     begin(&w);
-    assert_false(w.keeper.has_offer);
+    assert_false(w.autosave.has_offer);
     assert_non_null(strstr(w.control.message.text, "another kind of file"));
     end(&w, false);
     assert_int_equal(count_sessions(), 0);

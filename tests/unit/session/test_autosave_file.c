@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_kept_file.c - files of kept sessions: what is written is read, damage at
- * any byte is found, and old files are removed
+ * test_autosave_file.c - files of kept sessions: what is written is read,
+ * damage at any byte is found, and old files are removed
  */
 #include <fcntl.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "session/kept_folder.h"
+#include "session/autosave_file.h"
 
 #include "tests/unit/files.h"
 
@@ -22,9 +22,9 @@ static char history[] = "0 0\n";
 static char film[] = "any bytes\0 of a film";
 static char scene[] = "/a b/s.obj";
 
-static struct kept some_session(void)
+static struct autosave_file some_session(void)
 {
-    return (struct kept){
+    return (struct autosave_file){
         .scene = scene,
         .is_live = true,
         .has_edits = true,
@@ -35,13 +35,14 @@ static struct kept some_session(void)
     };
 }
 
-static void check_same(const struct kept *a, const struct kept *b)
+static void check_same(const struct autosave_file *a,
+                       const struct autosave_file *b)
 {
     assert_string_equal(a->scene, b->scene);
     assert_int_equal(a->is_live, b->is_live);
     assert_int_equal(a->has_edits, b->has_edits);
     assert_int_equal(a->render_ns, b->render_ns);
-    for (int i = 0; i < KEPT_PARTS; i++) {
+    for (int i = 0; i < AUTOSAVE_PARTS; i++) {
         assert_int_equal(a->sizes[i], b->sizes[i]);
         if (b->parts[i] != NULL)
             assert_memory_equal(a->parts[i], b->parts[i], a->sizes[i]);
@@ -50,57 +51,57 @@ static void check_same(const struct kept *a, const struct kept *b)
 
 static void sessions_are_read_as_written(void **state)
 {
-    struct kept from = some_session(), k;
+    struct autosave_file from = some_session(), k;
     struct error err;
     size_t size;
-    char *bytes = kept_bytes(&from, &size);
-    char text[KEPT_TEXT_BYTES];
+    char *bytes = autosave_file_bytes(&from, &size);
+    char text[AUTOSAVE_TEXT_BYTES];
 
     (void)state;
     assert_non_null(bytes);
     put_bytes("s", bytes, size);
-    check_or_say(kept_read(&k, "s", &err), err.text);
+    check_or_say(autosave_file_read(&k, "s", &err), err.text);
     check_same(&from, &k);
-    kept_free(&k);
-    check_or_say(kept_read_head(&k, "s", &err), err.text);
+    autosave_file_free(&k);
+    check_or_say(autosave_file_read_head(&k, "s", &err), err.text);
     check_same(&from, &k);
-    assert_null(k.parts[KEPT_FILM]);
-    kept_describe(text, &k);
+    assert_null(k.parts[AUTOSAVE_FILM]);
+    autosave_describe(text, &k);
     assert_string_equal(text, "3 min 20 s of render and unsaved changes");
     k.has_edits = false;
-    kept_describe(text, &k);
+    autosave_describe(text, &k);
     assert_string_equal(text, "3 min 20 s of render");
-    kept_free(&k);
+    autosave_file_free(&k);
     free(bytes);
 }
 
 /* Parses bytes, which must fail, with a line that begins with the path. */
 static void check_damaged(const char *bytes, size_t size)
 {
-    struct kept k;
+    struct autosave_file k;
     struct error err;
     char *copy = malloc(size + 1);
 
     assert_non_null(copy);
     memcpy(copy, bytes, size);
     copy[size] = '\0';
-    assert_false(kept_parse(&k, "s", copy, size, &err));
+    assert_false(autosave_file_parse(&k, "s", copy, size, &err));
     assert_int_equal(strncmp(err.text, "s:", 2), 0);
     assert_null(strchr(err.text, '\n'));
-    kept_free(&k);
+    autosave_file_free(&k);
     free(copy);
 }
 
 /* The film has checksums of its own. */
 static void damage_is_found_at_each_byte(void **state)
 {
-    struct kept from = some_session();
+    struct autosave_file from = some_session();
     size_t size, protected;
-    char *bytes = kept_bytes(&from, &size);
+    char *bytes = autosave_file_bytes(&from, &size);
 
     (void)state;
     assert_non_null(bytes);
-    protected = size - from.sizes[KEPT_FILM];
+    protected = size - from.sizes[AUTOSAVE_FILM];
     for (size_t i = 0; i < protected; i++)
         for (int bit = 0; bit < 8; bit++) {
             bytes[i] = (char)(bytes[i] ^ 1 << bit);
@@ -121,7 +122,7 @@ static char folder_of_state[512];
  * session of a scene. */
 static char *put_old(const char *name, size_t size, int days)
 {
-    char *path = kept_path(name);
+    char *path = autosave_path(name);
     char *bytes = calloc(size, 1);
     struct timespec times[2] = {{.tv_sec = time(NULL) - days * 86400L}};
 
@@ -143,10 +144,10 @@ static void old_sessions_are_removed(void **state)
     paths[1] = put_old("/week", 100, 7);
     paths[2] = put_old("/month", 100, 29);
     paths[3] = put_old("/old", 100, 31);
-    assert_int_equal(kept_prune(paths[0], 30, 1000), 1);
+    assert_int_equal(autosave_prune(paths[0], 30, 1000), 1);
     assert_int_equal(access(paths[3], F_OK), -1);
-    assert_int_equal(kept_prune(paths[0], 30, 300), 0);
-    assert_int_equal(kept_prune(paths[0], 30, 299), 1);
+    assert_int_equal(autosave_prune(paths[0], 30, 300), 0);
+    assert_int_equal(autosave_prune(paths[0], 30, 299), 1);
     assert_int_equal(access(paths[2], F_OK), -1);
     assert_int_equal(access(paths[1], F_OK), 0);
     for (int i = 0; i < 4; i++) {
@@ -158,16 +159,16 @@ static void old_sessions_are_removed(void **state)
 /* Locks are of processes, so another one asks. */
 static void one_process_has_a_session(void **state)
 {
-    char *path = kept_path("/a"), *other = kept_path("/b");
+    char *path = autosave_path("/a"), *other = autosave_path("/b");
     int fd, status;
 
     (void)state;
     assert_non_null(path);
-    fd = kept_lock(path);
+    fd = autosave_lock(path);
     assert_true(fd >= 0);
     pid_t child = fork();
     if (child == 0)
-        _exit(kept_lock(path) >= 0 ? 1 : kept_lock(other) < 0 ? 2 : 0);
+        _exit(autosave_lock(path) >= 0 ? 1 : autosave_lock(other) < 0 ? 2 : 0);
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_int_equal(status, 0);
     close(fd);
@@ -177,10 +178,11 @@ static void one_process_has_a_session(void **state)
 
 static void sessions_are_listed(void **state)
 {
-    struct kept from = some_session();
+    struct autosave_file from = some_session();
     size_t size, length;
-    char *bytes = kept_bytes(&from, &size), *path = kept_path(scene), *text;
-    char *damaged = kept_path("/damaged");
+    char *bytes = autosave_file_bytes(&from, &size),
+         *path = autosave_path(scene), *text;
+    char *damaged = autosave_path("/damaged");
     struct error err;
     FILE *to = open_memstream(&text, &length);
 
@@ -189,7 +191,7 @@ static void sessions_are_listed(void **state)
     assert_non_null(to);
     put_bytes(path, bytes, size);
     put(damaged, "no session");
-    check_or_say(kept_print_list(to, &err), err.text);
+    check_or_say(autosave_print_list(to, &err), err.text);
     assert_int_equal(fclose(to), 0);
     assert_non_null(strstr(text, "/a b/s.obj: 3 min 20 s of render and unsaved "
                                  "changes, "));
@@ -199,7 +201,7 @@ static void sessions_are_listed(void **state)
     free(text);
     to = open_memstream(&text, &length);
     assert_non_null(to);
-    check_or_say(kept_print_list(to, &err), err.text);
+    check_or_say(autosave_print_list(to, &err), err.text);
     assert_int_equal(fclose(to), 0);
     assert_string_equal(text, "no kept sessions\n");
     free(text);

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+/*
+ * autosave_file.h - files of autosaved sessions, from which the next session of
+ * a scene goes on, and the folder of them
+ *
+ * The head of a file is text: a line for each key, in a fixed order, and a
+ * checksum. It has the lengths of the parts that follow it. A checksum of its
+ * own protects all parts but the film, which has checksums in it. The folder is
+ * `sessions` in the user's state folder, with one file for each scene, named
+ * after the hash of the scene's absolute path. Files are removed when they are
+ * older than 30 days, and the oldest ones when all together have more than
+ * 1 GiB.
+ *
+ * Units:     bytes, nanoseconds; ages in seconds
+ * Ownership: autosave_file_free() frees; a zeroed struct is empty
+ * Threads:   files and autosave_prune() any; the rest of the folder main only
+ * Errors:    one line that begins with the path
+ */
+#ifndef GLIM_AUTOSAVE_FILE_H
+#define GLIM_AUTOSAVE_FILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "base/error.h"
+
+/* ---- files ---- */
+
+/*
+ * The head is text: a line for each key, in a fixed order, and a checksum. It
+ * has the lengths of the parts that follow it. A checksum of its own protects
+ * all parts but the film, which has checksums in it.
+ */
+
+enum autosave_part {
+    AUTOSAVE_VIEW,      /* text of a view file */
+    AUTOSAVE_MATERIALS, /* names of edited materials (autosave_edit.h) */
+    AUTOSAVE_MTL,       /* their statements, MTL text */
+    AUTOSAVE_HISTORY,   /* states before and after it (autosave_history.h) */
+    AUTOSAVE_FILM,      /* bytes of a film file */
+    AUTOSAVE_PARTS
+};
+
+struct autosave_file {
+    char *scene;        /* absolute path */
+    bool is_live;       /* the film is of live mode */
+    bool has_edits;     /* materials, assignments or light were not saved */
+    uint64_t render_ns; /* time of rendering of the film */
+    /* for free(); NULL without a part, and after autosave_file_read_head() */
+    char *parts[AUTOSAVE_PARTS];
+    size_t sizes[AUTOSAVE_PARTS];
+};
+
+/* Returns the bytes of a file, for free(), or NULL if memory is out. */
+char *autosave_file_bytes(const struct autosave_file *k, size_t *size_bytes);
+
+/* Parses the bytes of a file, after which a NUL follows. The caller frees after
+ * a failure, too. `path` is for messages. */
+bool autosave_file_parse(struct autosave_file *k, const char *path,
+                         const char *bytes, size_t size_bytes,
+                         struct error *err);
+
+/* Reads a file, or its head only. The caller frees after a failure, too. */
+bool autosave_file_read(struct autosave_file *k, const char *path,
+                        struct error *err);
+bool autosave_file_read_head(struct autosave_file *k, const char *path,
+                             struct error *err);
+
+void autosave_file_free(struct autosave_file *k);
+
+/* ---- the folder ---- */
+
+/*
+ * It is `sessions` in the user's state folder. Files are removed when they are
+ * older than 30 days, and the oldest ones when all together have more than
+ * 1 GiB.
+ */
+
+#define AUTOSAVE_DAYS_MAX  30
+#define AUTOSAVE_BYTES_MAX ((uint64_t)1 << 30)
+
+/* Size of the text of autosave_describe(). */
+#define AUTOSAVE_TEXT_BYTES 96
+
+/* Returns the absolute path of a scene, for free(), or NULL if it cannot be
+ * found or cannot be in the head of a file. */
+char *autosave_scene(const char *scene_path);
+
+/* Returns the path of the file of a scene with this absolute path, for free(),
+ * or NULL without a state folder. */
+char *autosave_path(const char *scene);
+
+/* Locks the file for this process, until the descriptor that is returned is
+ * closed. Returns -1 if another process has it. */
+int autosave_lock(const char *path);
+
+/* Removes files that are too old, then the oldest above a size of all together.
+ * Returns how many. */
+int autosave_prune(const char *path, int days_max, uint64_t bytes_max);
+
+/* Writes what a file has, such as "3 min 20 s of render and unsaved changes".
+ */
+void autosave_describe(char text[AUTOSAVE_TEXT_BYTES],
+                       const struct autosave_file *k);
+
+/* Removes what is too old or too much, and prints a line for each file, the
+ * last one first. Fails without a state folder. */
+bool autosave_print_list(FILE *to, struct error *err);
+
+#endif
