@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch_films.h"
+#include "command/command.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 #include "base/clock.h"
 #include "base/print.h"
-#include "batch_progress.h"
+#include "command/batch_progress.h"
 #include "filter/film_filter.h"
 #include "picture/film_error.h"
 #include "picture/film_file.h"

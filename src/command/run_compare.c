@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch_compare.h"
+#include "command/command.h"
 
 #include <inttypes.h>
 #include <math.h>

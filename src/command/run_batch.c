@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch.h"
+#include "command/command.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,18 +7,20 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "base/print.h"
 #include "base/stop.h"
+#include "command/batch_progress.h"
+#include "inspect/aov_picture.h"
+#include "inspect/error_map.h"
+#include "inspect/view_modes.h"
 #include "picture/image_write.h"
-#include "terminal/xmalloc.h"
 #include "session/frame_series.h"
 #include "session/session_film.h"
 #include "session/stats_json.h"
-#include "inspect/error_map.h"
-#include "inspect/view_modes.h"
-#include "batch_aov.h"
-#include "batch_progress.h"
-#include "batch_text.h"
+#include "terminal/ansi_text.h"
+#include "terminal/tty.h"
+#include "terminal/xmalloc.h"
 
 /* A render to files: of one picture, or of a series. */
 struct batch {
@@ -28,6 +30,229 @@ struct batch {
     struct frame_series series; /* its session is NULL for one picture */
     bool is_denoised;           /* a filtered picture was written */
 };
+
+/* ---- properties of surfaces ---- */
+
+/* Names in EXR files: those of OpenEXR where it has some, else layers whose
+ * channels have one letter, as Blender and Nuke need it. */
+static const struct exr_layer layers_of_kinds[AOV_KINDS] = {
+    [AOV_ALBEDO] = {"albedo.", "RGB", NULL},
+    [AOV_NORMALS] = {"N.", "XYZ", NULL},
+    [AOV_POSITION] = {"P.", "XYZ", NULL},
+    [AOV_DEPTH] = {"", "Z", NULL},
+    [AOV_UV] = {"uv.", "UV", NULL},
+    [AOV_OBJECT] = {"object.", "X", NULL},
+    [AOV_MATERIAL] = {"material.", "X", NULL},
+};
+
+/* Returns the name of the file beside the picture, for free(). */
+static char *path_of(const char *picture, int kind)
+{
+    char *stem = xchecked(path_stem(picture));
+    char *path = xformat("%s.%s.pfm", stem, options_aovs[kind]);
+
+    free(stem);
+    return path;
+}
+
+/* Fails if the file is one that the session reads, or another output. */
+static bool check_path(const struct session *s, const char *picture,
+                       const char *path, struct error *err)
+{
+    const struct options *o = s->options;
+    const char *const others[] = {picture,       o->denoise_path,
+                                  o->stats_path, o->error_map_path,
+                                  o->film_path,  o->checkpoint_path};
+
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (others[i] != NULL && path_is_same(path, others[i]))
+            return fail(err,
+                        "--aov: found '%s', the file of another option, "
+                        "expected another file",
+                        path);
+    return session_check_output(s, "--aov", path, err) && file_check(path, err);
+}
+
+/* Returns true if the properties are layers of the picture that the options
+ * name. */
+static bool batch_aov_is_in_picture(const struct options *o)
+{
+    return o->aovs != 0 && o->output_path != NULL &&
+           image_write_format_of(o->output_path) == IMAGE_WRITE_EXR;
+}
+
+/* Checks before the render that the files of --aov beside the picture can be
+ * written. */
+static bool batch_aov_check(const struct session *s, const char *picture,
+                            struct error *err)
+{
+    bool ok = true;
+
+    for (int i = 0; i < AOV_KINDS && ok; i++) {
+        char *path;
+
+        if ((s->options->aovs >> i & 1) == 0 ||
+            batch_aov_is_in_picture(s->options))
+            continue;
+        path = path_of(picture, i);
+        ok = check_path(s, picture, path, err);
+        free(path);
+    }
+    return ok;
+}
+
+/* Renders the kinds, one after the other, each as 3 numbers for each pixel of
+ * the crop. Returns memory for free(), or NULL. */
+static float *render(struct view_mode *show, uint32_t kinds, struct error *err)
+{
+    const struct session *s = show->session;
+    struct rect crop = s->engine.crop;
+    size_t size = 3 * (size_t)crop.width * (size_t)crop.height;
+    struct world world;
+    float *numbers, *to;
+
+    if (!view_mode_need_tree(show, err))
+        return NULL;
+    if (!view_mode_world(show, &world)) {
+        fail(err, "--aov: found an impossible camera");
+        return NULL;
+    }
+    to = numbers =
+        alloc_array(size, (size_t)__builtin_popcount(s->options->aovs) *
+                              sizeof *numbers);
+    if (numbers == NULL)
+        fail(err, "--aov: out of memory for %dx%d pixels", crop.width,
+             crop.height);
+    for (int i = 0; i < AOV_KINDS && numbers != NULL; i++) {
+        struct aov_picture a = {(enum aov_kind)i, &s->engine.scene, &world,
+                                crop};
+
+        if ((kinds >> i & 1) == 0)
+            continue;
+        aov_picture_render(&a, view_mode_pool(show), to);
+        to += size;
+    }
+    return numbers;
+}
+
+static bool write(struct view_mode *show, int kind, const char *path,
+                  struct error *err)
+{
+    struct rect crop = show->session->engine.crop;
+    float *numbers = render(show, 1u << kind, err);
+    bool ok = numbers != NULL &&
+              image_write_floats(numbers, crop.width, crop.height, path, err);
+
+    free(numbers);
+    return ok;
+}
+
+/* Writes the files of --aov beside the picture, unless they are layers. */
+static bool batch_aov_write(struct view_mode *show, const char *picture,
+                            struct error *err)
+{
+    const struct options *o = show->session->options;
+    bool ok = true;
+
+    for (int i = 0; i < AOV_KINDS && ok; i++) {
+        char *path;
+
+        if ((o->aovs >> i & 1) == 0 || batch_aov_is_in_picture(o))
+            continue;
+        path = path_of(picture, i);
+        ok = write(show, i, path, err);
+        free(path);
+    }
+    return ok;
+}
+
+/* Writes the film and the layers of --aov to the picture. */
+static bool batch_aov_write_layers(struct view_mode *show, struct film *film,
+                                   const struct image_metadata *metadata,
+                                   struct error *err)
+{
+    const struct session *s = show->session;
+    size_t size =
+        3 * (size_t)s->engine.crop.width * (size_t)s->engine.crop.height;
+    struct exr_layer layers[AOV_KINDS];
+    float *numbers = render(show, s->options->aovs, err);
+    int count = 0;
+    bool ok;
+
+    for (int i = 0; i < AOV_KINDS && numbers != NULL; i++) {
+        if ((s->options->aovs >> i & 1) == 0)
+            continue;
+        layers[count] = layers_of_kinds[i];
+        layers[count].values = numbers + (size_t)count * size;
+        count++;
+    }
+    ok = numbers != NULL && image_write_layers(film, metadata, layers, count,
+                                               s->options->output_path, err);
+    free(numbers);
+    return ok;
+}
+
+/* ---- coloured text ---- */
+
+/* Returns the file for the text; NULL for standard output. */
+static const char *batch_text_path(const struct options *o)
+{
+    const char *path = o->output_path;
+
+    return path && strcmp(path, "-") != 0 ? path : NULL;
+}
+
+/* Returns the glyphs of the text. The terminal is not asked, since the text may
+ * be read on another one; it is assumed to show Unicode. Without colours the
+ * locale decides between braille and ASCII. */
+static enum glyphs text_glyphs(const struct options *o, enum palette palette)
+{
+    bool may_learn;
+    bool has_unicode = palette != PALETTE_MONO || tty_is_utf8(&may_learn);
+
+    return term_caps_glyphs(o->display.glyph, palette, has_unicode);
+}
+
+static enum palette text_palette(const struct options *o)
+{
+    const char *no_color = getenv("NO_COLOR");
+
+    if (o->display.color == COLOR_AUTO && no_color && no_color[0] != '\0')
+        return PALETTE_MONO;
+    return term_caps_palette(o->display.color);
+}
+
+/* Writes the picture of the view as text. *name becomes the name for messages,
+ * for free(). */
+static bool batch_text_write(struct view_mode *show, struct film *film,
+                             char **name, struct error *err)
+{
+    const struct session *s = show->session;
+    const struct options *o = s->options;
+    struct cells_rect fit =
+        cells_fit(s->engine.crop.width, s->engine.crop.height, o->text_cols,
+                  o->text_rows,
+                  o->display.cell_aspect > 0 ? o->display.cell_aspect : 2);
+    enum palette palette = text_palette(o);
+    struct ansi_text_style style = {fit.cols, fit.rows, palette,
+                                    text_glyphs(o, palette)};
+    const char *path = batch_text_path(o);
+    struct frame frame = {0};
+    size_t size_bytes;
+    char *text;
+    bool ok = ansi_text_frame_init(&frame, &style, err) &&
+              view_mode_picture(show, film, &frame, err) &&
+              ansi_text_of_frame(&frame, &style, &text, &size_bytes, err);
+
+    frame_free(&frame);
+    if (!ok)
+        return false;
+    *name = xstrdup(path ? path : "standard output");
+    ok = path ? file_write(path, text, size_bytes, false, NULL, err)
+              : file_write_stdout(text, size_bytes, err);
+    free(text);
+    return ok;
+}
 
 /* ---- before the render ---- */
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch_reference.h"
+#include "command/command.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include "base/file.h"
 #include "base/print.h"
 #include "base/stop.h"
-#include "batch_progress.h"
+#include "command/batch_progress.h"
 #include "measure/reference_info.h"
 #include "measure/replicates.h"
 #include "picture/image_write.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch_progress.h"
+#include "command/batch_progress.h"
 
 #include <errno.h>
 #include <inttypes.h>

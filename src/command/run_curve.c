@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch_curve.h"
+#include "command/command.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,8 +10,8 @@
 #include "base/memory.h"
 #include "base/print.h"
 #include "base/stop.h"
-#include "batch_compare.h"
-#include "batch_progress.h"
+#include "command/batch_progress.h"
+#include "command/command.h"
 #include "measure/chart.h"
 #include "measure/curve.h"
 #include "picture/image_write.h"
