@@ -16,8 +16,8 @@
 #include "base/error.h"
 #include "base/library_child.h"
 #include "engine/engine.h"
-#include "terminal/term_caps.h"
 #include "session/keymap.h"
+#include "terminal/term_caps.h"
 
 /* Property of the scene that the picture shows. */
 enum show_kind {
