@@ -18,8 +18,9 @@
  * Units:     normalised scene units; flux as the sky's part of the
  *            cosine-weighted hemisphere
  * Ownership: sky_portals_free() frees, also if the search fails; a zeroed
- * struct has not been searched for Threads:   those of the pool, or without one
- * the caller's Errors:    memory, by false
+ *            struct has not been searched for
+ * Threads:   those of the pool, or without one the caller's
+ * Errors:    memory, by false
  */
 #ifndef GLIM_SKY_PORTALS_H
 #define GLIM_SKY_PORTALS_H

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "opencl/cl_start.h"
 
-#include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "base/event_fd.h"
+#include "base/background.h"
 #include "base/memory.h"
-#include "base/thread_pool.h"
 #include "opencl/cl_probe.h"
 
 struct cl_start {
     struct cl_request request;
     struct backend *old; /* backend that gets new kernels; NULL: create one */
-    pthread_t thread;
-    int event_fd;
+    struct background starting;
     atomic_bool is_unwanted;
     /* valid when the thread has ended */
     struct backend *backend;
@@ -76,8 +73,9 @@ static void drop_backend(struct cl_start *s)
     s->backend = NULL;
 }
 
-static void bring_up(struct cl_start *s)
+static void bring_up(void *context)
 {
+    struct cl_start *s = context;
     struct cl_probe probe = {0};
     bool is_known = cl_probe_recall(&probe, &s->request);
 
@@ -92,20 +90,10 @@ static void bring_up(struct cl_start *s)
     cl_probe_free(&probe);
 }
 
-static void *start_main(void *argument)
-{
-    struct cl_start *s = argument;
-
-    bring_up(s);
-    event_fd_set(s->event_fd);
-    return NULL;
-}
-
 struct cl_start *cl_start_begin(const struct cl_request *request,
                                 struct backend *backend, struct error *err)
 {
     struct cl_start *s = alloc_array(1, sizeof *s);
-    int reason;
 
     if (s == NULL) {
         fail(err, "OpenCL: out of memory");
@@ -113,15 +101,12 @@ struct cl_start *cl_start_begin(const struct cl_request *request,
     }
     s->request = *request;
     s->old = backend;
-    s->event_fd = event_fd_open("OpenCL", err);
-    if (s->event_fd < 0) {
+    if (!background_init(&s->starting, "OpenCL", err)) {
         free(s);
         return NULL;
     }
-    reason = thread_start(&s->thread, start_main, s);
-    if (reason != 0) {
-        fail(err, "OpenCL: cannot start a thread: %s", strerror(reason));
-        close(s->event_fd);
+    if (!background_begin(&s->starting, bring_up, s, "OpenCL", err)) {
+        background_free(&s->starting);
         free(s);
         return NULL;
     }
@@ -130,7 +115,7 @@ struct cl_start *cl_start_begin(const struct cl_request *request,
 
 int cl_start_event_fd(const struct cl_start *s)
 {
-    return s->event_fd;
+    return s->starting.event_fd;
 }
 
 /* Collects the result after the thread has ended. */
@@ -143,7 +128,7 @@ static struct backend *finish(struct cl_start *s, char **verdict, char **log,
     *log = s->log;
     if (backend == NULL)
         *err = s->error;
-    close(s->event_fd);
+    background_free(&s->starting);
     free(s);
     return backend;
 }
@@ -151,7 +136,7 @@ static struct backend *finish(struct cl_start *s, char **verdict, char **log,
 struct backend *cl_start_end(struct cl_start *s, char **verdict, char **log,
                              struct error *err)
 {
-    pthread_join(s->thread, NULL);
+    background_finish(&s->starting);
     return finish(s, verdict, log, err);
 }
 
@@ -161,7 +146,7 @@ void cl_start_abandon(struct cl_start *s)
     char *verdict, *log;
 
     atomic_store(&s->is_unwanted, true);
-    pthread_join(s->thread, NULL);
+    background_finish(&s->starting);
     drop_backend(s);
     finish(s, &verdict, &log, &ignored);
     free(verdict);

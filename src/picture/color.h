@@ -8,8 +8,9 @@
  * of 1.
  *
  * Units:     linear Rec.709; encoded sRGB, hue 0 to 360, the rest 0 to 1; XYZ
- * of the CIE 1931 observer; kelvins, nanometres Threads:   any Errors:
- * color_parse() returns false
+ *            of the CIE 1931 observer; kelvins, nanometres
+ * Threads:   any
+ * Errors:    color_parse() returns false
  */
 #ifndef GLIM_COLOR_H
 #define GLIM_COLOR_H

@@ -4,10 +4,10 @@
  * errors so far
  *
  * Units:     nanoseconds or seconds of rendering, samples of all pixels
- * together; a load of 1 is one processor all the time Ownership:
- * thread_load_free() frees; zeroed structs are empty Threads:   one at a time;
- * the backend may render Errors:    loads are 0 for the threads of a device,
- * and when memory is out
+ *            together; a load of 1 is one processor all the time
+ * Ownership: thread_load_free() frees; zeroed structs are empty
+ * Threads:   one at a time; the backend may render
+ * Errors:    loads are 0 for the threads of a device, and when memory is out
  */
 #ifndef GLIM_PROGRESS_H
 #define GLIM_PROGRESS_H

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/stop.h"
 #include "engine/engine_film.h"
 #include "picture/film_file.h"
 #include "session/autosave_file.h"
@@ -12,7 +13,7 @@
 bool autosave_writer_init(struct autosave_writer *w, struct error *err)
 {
     *w = (struct autosave_writer){.path = NULL};
-    return copy_thread_init(&w->copying, "sessions", err);
+    return background_init(&w->copying, "sessions", err);
 }
 
 /* A film that nobody adds to any more. */
@@ -84,15 +85,18 @@ static void work(void *context)
 {
     struct autosave_writer *w = context;
     struct copy copy = {.shares = NULL};
-    bool ok = !w->has_film || copy_film(w, &copy);
+    bool ok;
 
-    copy_thread_has_copied(&w->copying);
+    stop_hold();
+    ok = !w->has_film || copy_film(w, &copy);
+    background_has_copied(&w->copying);
     if (ok && w->has_film)
         ok = pack_film(w, &copy);
     film_free(&copy.film);
     free(copy.shares);
     w->is_written = write_file(w) && ok;
     autosave_prune(w->path, AUTOSAVE_DAYS_MAX, AUTOSAVE_BYTES_MAX);
+    stop_release();
 }
 
 bool autosave_writer_begin(struct autosave_writer *w, struct session *s,
@@ -117,7 +121,7 @@ bool autosave_writer_begin(struct autosave_writer *w, struct session *s,
                            &w->range);
     if ((!w->has_film ||
          engine_film_describe(e, &view, &w->header.identity, &w->world, err)) &&
-        copy_thread_begin(&w->copying, work, w, path, err))
+        background_begin(&w->copying, work, w, path, err))
         return true;
     autosave_file_free(&w->kept);
     return false;
@@ -126,7 +130,7 @@ bool autosave_writer_begin(struct autosave_writer *w, struct session *s,
 bool autosave_writer_finish(struct autosave_writer *w, bool *is_film_left_out,
                             struct error *err)
 {
-    copy_thread_finish(&w->copying);
+    background_finish(&w->copying);
     autosave_file_free(&w->kept);
     *is_film_left_out = w->is_film_left_out;
     if (!w->is_written)
@@ -141,5 +145,5 @@ void autosave_writer_free(struct autosave_writer *w)
 
     if (w->copying.is_busy)
         autosave_writer_finish(w, &is_film_left_out, &ignored);
-    copy_thread_free(&w->copying);
+    background_free(&w->copying);
 }

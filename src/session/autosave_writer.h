@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 /*
- * autosave_writer.h - writes the file of a kept session in a background thread
+ * autosave_writer.h - writes the file of an autosaved session in a background
+ * thread
  *
  * The thread first copies the film and hashes the world, neither of which may
  * change before that is complete. Screen and render do not wait for the rest. A
  * film whose bytes are too many is left out.
  *
  * Ownership: autosave_writer_free() frees, after waiting for a file that is
- * being written Threads:   all functions from one thread Errors:
- * autosave_writer_finish() returns them
+ *            being written
+ * Threads:   all functions from one thread
+ * Errors:    autosave_writer_finish() returns them
  */
 #ifndef GLIM_AUTOSAVE_WRITER_H
 #define GLIM_AUTOSAVE_WRITER_H
 
+#include "base/background.h"
 #include "session/autosave_file.h"
-#include "session/copy_thread.h"
 #include "session/session.h"
 
 /* Size limits of a film's copy in memory and of its bytes in the file. */
@@ -22,7 +24,7 @@
 #define AUTOSAVE_FILM_BYTES_MAX ((size_t)1 << 28)
 
 struct autosave_writer {
-    struct copy_thread copying;
+    struct background copying;
     /* set before the thread starts */
     struct autosave_file kept; /* its film is made by the thread */
     const char *path;

@@ -11,15 +11,13 @@
 #ifndef GLIM_RELOAD_H
 #define GLIM_RELOAD_H
 
-#include <pthread.h>
 #include <stdbool.h>
 
+#include "base/background.h"
 #include "session/session.h"
 
 struct reload {
-    int event_fd; /* readable when the load is done */
-    bool is_busy; /* between reload_begin() and reload_end() */
-    pthread_t thread;
+    struct background loading;
     const struct options *options;
     /* owned by the thread until reload_end() joins it */
     struct session fresh;

@@ -3,26 +3,30 @@
 
 #include <stdlib.h>
 
+#include "base/stop.h"
 #include "picture/image_write.h"
 #include "terminal/xmalloc.h"
 
 bool save_thread_init(struct save_thread *s, struct error *err)
 {
     *s = (struct save_thread){.stem = NULL};
-    return copy_thread_init(&s->copying, "saver", err);
+    return background_init(&s->copying, "saver", err);
 }
 
 static void save(void *context)
 {
     struct save_thread *s = context;
     struct film copy = {0};
-    bool ok = film_copy(&copy, s->film, &s->error);
+    bool ok;
 
-    copy_thread_has_copied(&s->copying);
+    stop_hold();
+    ok = film_copy(&copy, s->film, &s->error);
+    background_has_copied(&s->copying);
     if (ok)
         s->name = image_write_numbered(&copy, s->how, &s->metadata, s->stem,
                                        s->ending, &s->error);
     film_free(&copy);
+    stop_release();
 }
 
 bool save_thread_begin(struct save_thread *s, struct film *film,
@@ -43,7 +47,7 @@ bool save_thread_begin(struct save_thread *s, struct film *film,
     s->ending = ending;
     s->name = NULL;
     what = xformat("%s.%s", stem, ending);
-    ok = copy_thread_begin(&s->copying, save, s, what, err);
+    ok = background_begin(&s->copying, save, s, what, err);
     free(what);
     if (!ok)
         free(s->stem);
@@ -52,7 +56,7 @@ bool save_thread_begin(struct save_thread *s, struct film *film,
 
 char *save_thread_finish(struct save_thread *s, struct error *err)
 {
-    copy_thread_finish(&s->copying);
+    background_finish(&s->copying);
     free(s->stem);
     s->stem = NULL;
     if (!s->name)
@@ -66,5 +70,5 @@ void save_thread_free(struct save_thread *s)
 
     if (s->copying.is_busy)
         free(save_thread_finish(s, &ignored));
-    copy_thread_free(&s->copying);
+    background_free(&s->copying);
 }

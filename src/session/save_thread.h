@@ -13,12 +13,12 @@
 #ifndef GLIM_SAVE_THREAD_H
 #define GLIM_SAVE_THREAD_H
 
+#include "base/background.h"
 #include "picture/film.h"
 #include "picture/image_metadata.h"
-#include "session/copy_thread.h"
 
 struct save_thread {
-    struct copy_thread copying;
+    struct background copying;
     /* set before the thread starts */
     struct film *film;
     struct develop how;

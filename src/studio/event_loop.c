@@ -292,8 +292,9 @@ static void wait_for_events(struct studio *studio)
         [FD_KEEPER_TIMER].fd = studio->autosave.timer_fd,
         [FD_DEVICE].fd = start ? cl_start_event_fd(start) : -1,
         [FD_FILES].fd = studio->control.watch.fd,
-        [FD_RELOAD].fd =
-            studio->control.is_live ? studio->control.reload.event_fd : -1,
+        [FD_RELOAD].fd = studio->control.is_live
+                             ? studio->control.reload.loading.event_fd
+                             : -1,
     };
     uint64_t now_ns = clock_ns();
     uint64_t until_ns = wake_ns(studio, now_ns);

@@ -125,8 +125,8 @@ static struct render_limits limits_of(const struct render_control *control)
 /* Blocks until nobody reads the film or the world any more. */
 static void wait_copied(struct render_control *control)
 {
-    copy_thread_wait_copied(&control->saver.copying);
-    copy_thread_wait_copied(&control->keeping.copying);
+    background_wait_copied(&control->saver.copying);
+    background_wait_copied(&control->keeping.copying);
 }
 
 /* Starts a picture, of one step if `steps` is 1, or from the samples of a film
@@ -236,7 +236,8 @@ static void handle_files(struct render_control *control)
             control->is_live && !render_control_has_unsaved_edit(control);
     control->files_ns =
         control->watch.fd < 0 ? clock_ns() + FILES_POLL_NS : UINT64_MAX;
-    if (control->watch.is_changing || (loads && control->reload.is_busy))
+    if (control->watch.is_changing ||
+        (loads && control->reload.loading.is_busy))
         control->files_ns = clock_ns() + FILES_QUIET_NS;
     else if (loads)
         render_control_reload(control);
@@ -320,10 +321,10 @@ bool render_control_may_edit(struct render_control *control, const char *what)
 {
     if (!render_control_need_live(control, what))
         return false;
-    if (control->reload.is_busy)
+    if (control->reload.loading.is_busy)
         render_control_say(control, "the scene is being loaded: %s after that",
                            what);
-    return !control->reload.is_busy;
+    return !control->reload.loading.is_busy;
 }
 
 void render_control_set_live(struct render_control *control, bool is_live)

@@ -8,8 +8,8 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "picture/image_write.h"
-#include "terminal/xmalloc.h"
 #include "session/session_save.h"
+#include "terminal/xmalloc.h"
 
 /* Returns the scene's file name without folder and extension, for free(). */
 static char *scene_name(const struct render_control *control)
@@ -123,7 +123,7 @@ void save_view(struct render_control *control)
     struct error err;
 
     /* the reload may have read the old view file */
-    if (control->reload.is_busy) {
+    if (control->reload.loading.is_busy) {
         if (control->is_live)
             render_control_say(control,
                                "not written: the scene is being loaded");

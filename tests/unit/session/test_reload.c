@@ -212,9 +212,9 @@ static void look_now(struct render_control *w)
 /* Checks the files and waits for what is then loaded. */
 static void end_reload(struct render_control *w)
 {
-    if (!w->reload.is_busy)
+    if (!w->reload.loading.is_busy)
         look_now(w);
-    assert_true(w->reload.is_busy);
+    assert_true(w->reload.loading.is_busy);
     render_control_end_reload(w);
 }
 
@@ -292,9 +292,9 @@ static void watched_files_are_loaded_at_once(void **state)
     put("s.mtl", "newmtl m\nKd .5 0 0\n");
     look_now(&w);
     assert_true(w.has_changed_files);
-    assert_false(w.reload.is_busy);
+    assert_false(w.reload.loading.is_busy);
     render_control_reload(&w); /* only a message */
-    assert_false(w.reload.is_busy);
+    assert_false(w.reload.loading.is_busy);
     render_control_set_live(&w, true);
     end_reload(&w);
     check_close(s.engine.world.materials[1].color.x, .5, 0);

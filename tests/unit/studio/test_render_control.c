@@ -285,7 +285,7 @@ static void saving_never_replaces_files(void **state)
     render_whole(w);
     for (int i = 0; i < 2; i++) {
         save_picture(w, "png");
-        copy_thread_wait_copied(&w->saver.copying);
+        background_wait_copied(&w->saver.copying);
         assert_true(save_finish(w));
     }
     assert_int_equal(access("s.png", F_OK), 0);
@@ -330,7 +330,7 @@ static void message_describes_the_saved_picture(void **state)
 
     render_whole(w);
     save_picture(w, "png");
-    copy_thread_wait_copied(&w->saver.copying);
+    background_wait_copied(&w->saver.copying);
     w->session->engine.crop.width = 20;
     render_control_set_live(w, true);
     assert_true(save_finish(w));
