@@ -37,10 +37,8 @@
 #include "session/autosave_file.h"
 #include "session/command_line.h"
 #include "session/config.h"
-#include "session/option_help.h"
 #include "session/session.h"
 #include "session/state_list.h"
-#include "session/sub_command.h"
 #include "studio/event_loop.h"
 #include "terminal/xmalloc.h"
 
@@ -85,7 +83,7 @@ static int print_out(const char *text)
 
 static int print_help(void)
 {
-    option_help_print(stdout);
+    options_print_help(stdout);
     return print_out("");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * command_line.h - parses the command line
+ * command_line.h - the options and operands of the command line, what they mean
+ * together, and the text of --help
  *
  * Units:     pixels, samples per pixel
  * Ownership: strings point into argv; view_lines and films are allocated once
@@ -12,6 +13,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "base/error.h"
 #include "base/library_child.h"
@@ -159,6 +161,9 @@ bool options_set_configured(struct options *o, const char *name,
 /* Parses argv over the values in *o, takes GLIM_COLOR for the screen and
  * completes the keys. */
 bool options_parse(struct options *o, int argc, char **argv, struct error *err);
+
+/* Prints the text of --help. */
+void options_print_help(FILE *to);
 
 /* Returns true if pixels with more error are to get more samples. */
 bool options_adaptive(const struct options *o);
