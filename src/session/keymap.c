@@ -11,152 +11,32 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-struct binding {
+/* A row of keymap_list.h: an action, or the title of a group. */
+static const struct row {
+    const char *title;
     enum action action;
     const char *name;
+    const char *shown;
+    const char *help;
     int keys[KEYMAP_MAX];
-    int phoe[KEYMAP_MAX]; /* phoe_ray's keys; empty: the same */
+} rows[] = {
+#define GROUP(title) {title, ACTION_NONE, NULL, NULL, NULL, {0}},
+#define KEY(action, name, shown, help, ...) \
+    {NULL, ACTION_##action, name, shown, help, {__VA_ARGS__}},
+#include "session/keymap_list.h"
+#undef GROUP
+#undef KEY
 };
 
-/* Default keys. q quits, so the key for down is Q, beside e for up. With Caps
- * Lock on, all of W A S D Q E move. */
-static const struct binding bindings[] = {
-    {ACTION_FORWARD, "forward", {'w', 'W'}, {'Q'}},
-    {ACTION_BACK, "back", {'s', 'S'}, {'e', 'E'}},
-    {ACTION_LEFT, "left", {'a', 'A'}, {0}},
-    {ACTION_RIGHT, "right", {'d', 'D'}, {0}},
-    {ACTION_DOWN,
-     "down",
-     {'Q', TTY_KEY_PAGE_DOWN},
-     {'s', 'S', TTY_KEY_PAGE_DOWN}},
-    {ACTION_UP, "up", {'e', 'E', TTY_KEY_PAGE_UP}, {'w', 'W', TTY_KEY_PAGE_UP}},
-    {ACTION_LOOK_UP, "look-up", {TTY_KEY_UP}, {0}},
-    {ACTION_LOOK_DOWN, "look-down", {TTY_KEY_DOWN}, {0}},
-    {ACTION_LOOK_LEFT, "look-left", {TTY_KEY_LEFT}, {0}},
-    {ACTION_LOOK_RIGHT, "look-right", {TTY_KEY_RIGHT}, {0}},
-    {ACTION_FASTER, "faster", {'+', '='}, {0}},
-    {ACTION_SLOWER, "slower", {'-', '_'}, {0}},
-    {ACTION_CURSOR, "cursor", {'v', 'V'}, {0}},
-    {ACTION_CANCEL, "cancel", {ESCAPE}, {0}},
-    {ACTION_ORBIT, "orbit", {'o', 'O'}, {0}},
-    {ACTION_WALLS, "walls", {'j', 'J'}, {0}},
-    {ACTION_FRAME, "frame", {'z'}, {0}},
-    {ACTION_FRAME_ALL, "frame-all", {'Z'}, {0}},
-    {ACTION_NARROWER, "narrower", {'['}, {0}},
-    {ACTION_WIDER, "wider", {']'}, {0}},
-    {ACTION_FOCUS, "focus", {'f'}, {0}},
-    {ACTION_CLOSE, "close-lens", {'{'}, {0}},
-    {ACTION_OPEN, "open-lens", {'}'}, {0}},
-    {ACTION_UNDO, "undo", {'u'}, {0}},
-    {ACTION_REDO, "redo", {'U'}, {0}},
-    {ACTION_RESET, "reset", {'r', 'R', TTY_KEY_HOME}, {0}},
-    {ACTION_KEEP, "keep", {'k'}, {0}},
-    {ACTION_VIEW_1, "view-1", {'1'}, {0}},
-    {ACTION_VIEW_2, "view-2", {'2'}, {0}},
-    {ACTION_VIEW_3, "view-3", {'3'}, {0}},
-    {ACTION_VIEW_4, "view-4", {'4'}, {0}},
-    {ACTION_VIEW_5, "view-5", {'5'}, {0}},
-    {ACTION_VIEW_6, "view-6", {'6'}, {0}},
-    {ACTION_VIEW_7, "view-7", {'7'}, {0}},
-    {ACTION_VIEW_8, "view-8", {'8'}, {0}},
-    {ACTION_VIEW_9, "view-9", {'9'}, {0}},
-    {ACTION_SAVE_VIEW, "save-view", {'c'}, {0}},
-    {ACTION_VIEW_NEXT, "next-view", {'n'}, {0}},
-    {ACTION_VIEW_BACK, "previous-view", {'N'}, {0}},
-    {ACTION_KEEP_RENDER, "keep-render", {'K'}, {0}},
-    {ACTION_COMPARE, "compare", {'y', 'Y'}, {0}},
-    {ACTION_FILTER, "filter", {'F'}, {0}},
-    {ACTION_DRAWING, "drawing", {'t', 'T'}, {0}},
-    {ACTION_LESS, "less", {'<'}, {0}},
-    {ACTION_MORE, "more", {'>'}, {0}},
-    {ACTION_PANEL, "panel", {'\t'}, {0}},
-    {ACTION_MODE, "mode", {' '}, {0}},
-    {ACTION_START, "start", {'\r'}, {0}},
-    {ACTION_STEP, "step", {'.'}, {0}},
-    {ACTION_RESTART, "restart", {'0'}, {0}},
-    {ACTION_SAVE, "save", {'p'}, {0}},
-    {ACTION_SAVE_TEXT, "save-text", {'x', 'X'}, {0}},
-    {ACTION_SAVE_LINEAR, "save-linear", {'P'}, {0}},
-    {ACTION_BACKEND, "backend", {'b', 'B'}, {0}},
-    {ACTION_RELOAD, "reload", {'l', 'L'}, {0}},
-    {ACTION_COLORS, "colors", {'C'}, {0}},
-    {ACTION_GLYPHS, "glyphs", {'G'}, {0}},
-    {ACTION_METER, "meter", {'g'}, {0}},
-    {ACTION_HIDE, "hide", {'i', 'I'}, {0}},
-    {ACTION_MOUSE, "mouse", {'m', 'M'}, {0}},
-    {ACTION_REDRAW, "redraw", {CTRL('L')}, {0}},
-    {ACTION_HELP, "help", {'?', 'h', TTY_KEY_F1}, {0}},
-    {ACTION_SUSPEND, "suspend", {CTRL('Z')}, {0}},
-    {ACTION_INTERRUPT, "interrupt", {CTRL('C')}, {0}},
-    {ACTION_ABORT, "abort", {CTRL('\\')}, {0}},
-    {ACTION_QUIT, "quit", {'q'}, {0}},
-};
-
-/* Lines of the help. A line shows the first key of each of its actions, or all
- * keys of its only action, without capitals beside their small letters. `keys`
- * replaces them while the defaults are in use. Keys take 8 columns of a window
- * of 40. */
-static const struct line {
-    const char *keys;
-    enum action actions[4];
-    const char *text;
-} lines[] = {
-    {NULL, {ACTION_FORWARD, ACTION_BACK}, "move forward, back"},
-    {NULL, {ACTION_LEFT, ACTION_RIGHT}, "move left, right"},
-    {NULL, {ACTION_DOWN, ACTION_UP}, "move down, up"},
-    {"arrows",
-     {ACTION_LOOK_LEFT, ACTION_LOOK_RIGHT, ACTION_LOOK_UP, ACTION_LOOK_DOWN},
-     "look around, or drag"},
-    {NULL, {ACTION_FASTER, ACTION_SLOWER}, "faster, slower, or wheel"},
-    {NULL, {ACTION_WALLS}, "go through walls, or not"},
-    {NULL, {ACTION_CURSOR}, "cursor; Enter or click picks"},
-    {NULL, {ACTION_CANCEL}, "leave cursor, clear message"},
-    {NULL, {ACTION_ORBIT}, "orbit the picked point"},
-    {NULL, {ACTION_FRAME, ACTION_FRAME_ALL}, "frame picked object, scene"},
-    {NULL, {ACTION_NARROWER, ACTION_WIDER}, "narrower, wider view"},
-    {NULL, {ACTION_FOCUS}, "focus on the picked point"},
-    {NULL, {ACTION_CLOSE, ACTION_OPEN}, "close, open the aperture"},
-    {NULL, {ACTION_UNDO, ACTION_REDO}, "undo, redo changes"},
-    {NULL, {ACTION_RESET}, "opened view, or whole scene"},
-    {"1-9", {ACTION_VIEW_1}, "go to a numbered view"},
-    {"k 1-9", {ACTION_KEEP}, "give this view a number"},
-    {NULL, {ACTION_SAVE_VIEW}, "write the view file"},
-    {NULL, {ACTION_VIEW_NEXT, ACTION_VIEW_BACK}, "preview, normals, cost, .."},
-    {NULL, {ACTION_KEEP_RENDER, ACTION_COMPARE}, "keep renders, compare them"},
-    {NULL, {ACTION_FILTER}, "filter the noise, or show it"},
-    {NULL, {ACTION_DRAWING}, "draw boxes, lobes, a path"},
-    {NULL, {ACTION_LESS, ACTION_MORE}, "its level or step"},
-    {NULL, {ACTION_PANEL}, "materials, objects, light"},
-    {NULL, {ACTION_MODE}, "live mode, normal mode"},
-    {NULL, {ACTION_START}, "start, pause, continue"},
-    {NULL, {ACTION_STEP}, "one more sample, then pause"},
-    {NULL, {ACTION_RESTART}, "render again from sample 0"},
-    {NULL, {ACTION_BACKEND}, "OpenCL device, or CPU"},
-    {NULL, {ACTION_SAVE}, "save a new PNG file"},
-    {NULL, {ACTION_SAVE_LINEAR}, "save a linear HDR file"},
-    {NULL, {ACTION_SAVE_TEXT}, "save coloured text"},
-    {NULL, {ACTION_RELOAD}, "load changed files"},
-    {NULL, {ACTION_COLORS, ACTION_GLYPHS}, "colours, glyphs, pixels"},
-    {NULL, {ACTION_METER}, "times, speeds, threads"},
-    {NULL, {ACTION_HIDE}, "only the picture, or status"},
-    {NULL, {ACTION_MOUSE}, "mouse off, on"},
-    {NULL, {ACTION_REDRAW}, "redraw the screen"},
-    {NULL, {ACTION_HELP}, "this help"},
-    {NULL, {ACTION_SUSPEND}, "suspend"},
-    {NULL, {ACTION_INTERRUPT, ACTION_ABORT}, "exit at once"},
-    {NULL, {ACTION_QUIT}, "quit"},
-};
-
-/* Groups of the help, each with the action that its first line begins with. */
-static const struct group {
-    enum action first;
-    const char *title;
-} groups[] = {
-    {ACTION_FORWARD, "Move"},    {ACTION_CURSOR, "Pick"},
-    {ACTION_NARROWER, "Camera"}, {ACTION_VIEW_1, "Views"},
-    {ACTION_VIEW_NEXT, "Look"},  {ACTION_PANEL, "Edit"},
-    {ACTION_MODE, "Render"},     {ACTION_SAVE, "Files"},
-    {ACTION_COLORS, "Screen"},
+/* phoe_ray's keys where they differ. */
+static const struct {
+    enum action action;
+    int keys[KEYMAP_MAX];
+} phoe_keys[] = {
+    {ACTION_FORWARD, {'Q'}},
+    {ACTION_BACK, {'e', 'E'}},
+    {ACTION_DOWN, {'s', 'S', TTY_KEY_PAGE_DOWN}},
+    {ACTION_UP, {'w', 'W', TTY_KEY_PAGE_UP}},
 };
 
 /* Lines of the help for the panel. `keys` replaces the keys' names. */
@@ -245,14 +125,22 @@ void keymap_choose(struct keymap *k, enum action action,
     k->is_chosen[action] = true;
 }
 
+static const int *default_keys(const struct row *row, bool phoe)
+{
+    for (size_t i = 0; phoe && i < COUNT(phoe_keys); i++)
+        if (phoe_keys[i].action == row->action)
+            return phoe_keys[i].keys;
+    return row->keys;
+}
+
 void keymap_settle(struct keymap *k, bool phoe)
 {
-    for (size_t i = 0; i < COUNT(bindings); i++) {
-        const struct binding *b = &bindings[i];
-        const int *keys = phoe && b->phoe[0] != 0 ? b->phoe : b->keys;
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        enum action action = rows[i].action;
+        const int *keys = default_keys(&rows[i], phoe);
 
-        for (int j = 0; j < KEYMAP_MAX && !k->is_chosen[b->action]; j++)
-            k->keys[b->action][j] =
+        for (int j = 0; j < KEYMAP_MAX && !k->is_chosen[action]; j++)
+            k->keys[action][j] =
                 keymap_action(k, keys[j]) == ACTION_NONE ? keys[j] : 0;
     }
 }
@@ -275,9 +163,9 @@ static bool is_name(const char *name, const char *text, size_t length)
 
 enum action keymap_find_action(const char *name, size_t length)
 {
-    for (size_t i = 0; i < COUNT(bindings); i++) {
-        if (is_name(bindings[i].name, name, length))
-            return bindings[i].action;
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        if (rows[i].name != NULL && is_name(rows[i].name, name, length))
+            return rows[i].action;
     }
     return ACTION_NONE;
 }
@@ -356,35 +244,46 @@ static void add_action(struct keymap_help *help, const struct keymap *k,
     }
 }
 
-/* Returns the title of the group that begins with the action, or NULL. */
-static const char *group_of(enum action first)
+/* Returns the row behind the last action of a line that begins with this row.
+ */
+static size_t line_end(size_t row)
 {
-    for (size_t i = 0; i < COUNT(groups); i++)
-        if (groups[i].first == first)
-            return groups[i].title;
-    return NULL;
+    do
+        row++;
+    while (row < COUNT(rows) && rows[row].action != ACTION_NONE &&
+           rows[row].help == NULL);
+    return row;
+}
+
+/* Returns the first row of a line of the help, or COUNT(rows). */
+static size_t line_begin(int line)
+{
+    size_t row = 0;
+
+    for (; row < COUNT(rows); row++)
+        if (rows[row].help != NULL && rows[row].help[0] != '\0' && line-- == 0)
+            break;
+    return row;
 }
 
 bool keymap_help(const struct keymap *k, int line, struct keymap_help *help)
 {
-    const struct line *l;
+    size_t begin = line < 0 ? COUNT(rows) : line_begin(line), end;
     bool is_chosen = false;
 
-    if (line < 0 || (size_t)line >= COUNT(lines))
+    if (begin == COUNT(rows))
         return false;
-    l = &lines[line];
-    *help =
-        (struct keymap_help){.text = l->text, .group = group_of(l->actions[0])};
-    for (size_t i = 0; i < COUNT(l->actions); i++)
-        is_chosen |= k->is_chosen[l->actions[i]];
-    if (l->keys && !is_chosen) {
-        snprintf(help->keys, sizeof help->keys, "%s", l->keys);
+    end = line_end(begin);
+    *help = (struct keymap_help){.text = rows[begin].help,
+                                 .group = rows[begin - 1].title};
+    for (size_t i = begin; i < end; i++)
+        is_chosen |= k->is_chosen[rows[i].action];
+    if (rows[begin].shown != NULL && !is_chosen) {
+        snprintf(help->keys, sizeof help->keys, "%s", rows[begin].shown);
         return true;
     }
-    for (size_t i = 0; i < COUNT(l->actions); i++) {
-        if (l->actions[i] != ACTION_NONE)
-            add_action(help, k, l->actions[i], l->actions[1] != ACTION_NONE);
-    }
+    for (size_t i = begin; i < end; i++)
+        add_action(help, k, rows[i].action, end - begin > 1);
     return true;
 }
 

@@ -2,8 +2,8 @@
 /*
  * keymap.h - key bindings and the help text made from them
  *
- * keymap.c has the tables. The configuration file can give actions other keys,
- * except in the panel. The manual and the README repeat the help; a test
+ * keymap_list.h is the table. The configuration file can give actions other
+ * keys, except in the panel. The manual and the README repeat the help; a test
  * compares them.
  *
  * Units:     keys are bytes or enum tty_key; 0 is none
@@ -18,72 +18,11 @@
 
 enum action {
     ACTION_NONE,
-    ACTION_FORWARD,
-    ACTION_BACK,
-    ACTION_LEFT,
-    ACTION_RIGHT,
-    ACTION_DOWN,
-    ACTION_UP,
-    ACTION_LOOK_UP,
-    ACTION_LOOK_DOWN,
-    ACTION_LOOK_LEFT,
-    ACTION_LOOK_RIGHT,
-    ACTION_FASTER,
-    ACTION_SLOWER,
-    ACTION_CURSOR,
-    ACTION_CANCEL,
-    ACTION_ORBIT,
-    ACTION_WALLS, /* walls stop the camera, or let it pass */
-    ACTION_FRAME,
-    ACTION_FRAME_ALL,
-    ACTION_NARROWER,
-    ACTION_WIDER,
-    ACTION_FOCUS,
-    ACTION_CLOSE, /* closes the aperture */
-    ACTION_OPEN,
-    ACTION_UNDO,
-    ACTION_REDO,
-    ACTION_RESET,
-    ACTION_KEEP, /* stores the view under the number of the next key */
-    ACTION_VIEW_1,
-    ACTION_VIEW_2,
-    ACTION_VIEW_3,
-    ACTION_VIEW_4,
-    ACTION_VIEW_5,
-    ACTION_VIEW_6,
-    ACTION_VIEW_7,
-    ACTION_VIEW_8,
-    ACTION_VIEW_9,
-    ACTION_SAVE_VIEW,
-    ACTION_VIEW_NEXT, /* light, preview, normals, ... */
-    ACTION_VIEW_BACK,
-    ACTION_KEEP_RENDER, /* keeps the picture to compare with */
-    ACTION_COMPARE,
-    ACTION_FILTER,  /* denoising filter of the screen */
-    ACTION_DRAWING, /* boxes, directions, a path */
-    ACTION_LESS,
-    ACTION_MORE,
-    ACTION_PANEL,
-    ACTION_MODE,
-    ACTION_START,
-    ACTION_STEP, /* one more sample per pixel */
-    ACTION_RESTART,
-    ACTION_SAVE,
-    ACTION_SAVE_TEXT,
-    ACTION_SAVE_LINEAR,
-    ACTION_BACKEND,
-    ACTION_RELOAD, /* reloads the files of the scene */
-    ACTION_COLORS,
-    ACTION_GLYPHS,
-    ACTION_METER, /* progress display */
-    ACTION_HIDE,
-    ACTION_MOUSE,
-    ACTION_REDRAW,
-    ACTION_HELP,
-    ACTION_SUSPEND,
-    ACTION_INTERRUPT, /* Ctrl-C */
-    ACTION_ABORT,     /* Ctrl-\ */
-    ACTION_QUIT,
+#define GROUP(title)
+#define KEY(action, name, shown, help, ...) ACTION_##action,
+#include "session/keymap_list.h"
+#undef GROUP
+#undef KEY
     ACTIONS
 };
 

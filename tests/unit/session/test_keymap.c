@@ -161,7 +161,7 @@ static void help_names_every_key(void **state)
         for (int action = 1; action < ACTIONS; action++) {
             char name[16];
 
-            if (action >= ACTION_LOOK_UP && action <= ACTION_LOOK_RIGHT)
+            if (action >= ACTION_LOOK_LEFT && action <= ACTION_LOOK_DOWN)
                 strcpy(name, " arrows");
             else if (action >= ACTION_VIEW_1 && action <= ACTION_VIEW_9)
                 strcpy(name, " 1-9");
