@@ -44,7 +44,8 @@ FORTIFY = $(if $(SAN),,$(if $(filter-out -O0,$(filter -O%,$(CFLAGS))), \
 ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno \
 	-fno-trapping-math -I. -Isrc -Iinclude -pthread $(WARNINGS) $(HARDENING) \
 	$(FORTIFY) $(CFLAGS) $(if $(SAN), \
-	-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer)
+	-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer \
+	-ftrivial-auto-var-init=pattern)
 ALL_LDFLAGS = -pthread -pie -Wl,-z,relro,-z,now $(LDFLAGS) \
 	$(if $(SAN),-fsanitize=$(SAN))
 

@@ -105,11 +105,12 @@ static bool make_emitter(const struct world *w, uint32_t tri,
 
     if (!(twice_area > AREA_LEAST))
         return false;
-    e->normal = t.ng;
     radiance = mean_radiance(w, &t, footprints);
-    e->power = twice_area * radiance;
+    *e = (struct emitter){.lo = corner(w, tri, 0),
+                          .hi = corner(w, tri, 0),
+                          .normal = t.ng,
+                          .power = twice_area * radiance};
     *unsampled_variance += e->power / 2 * radiance;
-    e->lo = e->hi = corner(w, tri, 0);
     for (uint32_t k = 1; k < 3; k++) {
         e->lo = v3_min(e->lo, corner(w, tri, k));
         e->hi = v3_max(e->hi, corner(w, tri, k));

@@ -22,6 +22,17 @@
 
 #undef fail /* error.h has a function of this name */
 
+/* Says whether a sanitizer watches memory, which takes much of its own. */
+#ifndef __has_feature
+#define __has_feature(name) 0
+#endif
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ || \
+    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define IS_SANITIZED true
+#else
+#define IS_SANITIZED false
+#endif
+
 /* Says whether tests take their whole time: THOROUGH is set, as by `make test
  * BUILDS=all`. Otherwise the slowest take a part of their trials. */
 static inline bool check_is_thorough(void)

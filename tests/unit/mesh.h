@@ -42,10 +42,14 @@ static inline void mesh_add(struct mesh *m, struct vec3 a, struct vec3 b,
                     material,
                     {0, 0, 0}};
 
-    m->positions = realloc(m->positions, (3 * n + 3) * sizeof *m->positions);
-    m->tris = realloc(m->tris, (n + 1) * sizeof *m->tris);
-    assert_non_null(m->positions);
-    assert_non_null(m->tris);
+    if ((n & (n - 1)) == 0) { /* room for twice as many */
+        uint32_t room = n == 0 ? 1 : 2 * n;
+
+        m->positions = realloc(m->positions, 3 * room * sizeof *m->positions);
+        m->tris = realloc(m->tris, room * sizeof *m->tris);
+        assert_non_null(m->positions);
+        assert_non_null(m->tris);
+    }
     m->positions[3 * n] = a;
     m->positions[3 * n + 1] = b;
     m->positions[3 * n + 2] = c;

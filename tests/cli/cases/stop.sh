@@ -33,7 +33,7 @@ b="-b -s 1 -t 1"
 sleep 60 <out &
 reader=$!
 # nothing reads the picture
-stop INT $b -w 400 -h 400 -o - box.obj >out 2>text
+stop INT $b -w 200 -h 200 -o - box.obj >out 2>text
 cat text
 stop TERM $b --ansi 300x200 box.obj >out 2>text
 cat text

@@ -57,6 +57,7 @@ static void bad(const char *line, const char *text)
     if (parse(&o, line, &err))
         fail_msg("'%s' was taken, expected: %s", line, text);
     assert_string_equal(err.text, text);
+    free(o.view_lines);
 }
 
 static void defaults_are_set(void **state)
