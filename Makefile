@@ -76,21 +76,23 @@ all: $(L)/$(if $(MPI),mpi/)glim
 
 include kernels.mk
 
-# With MPI=1 the program has src/cluster/; otherwise cluster_none.c replaces it.
-MPI_SOURCES := $(addprefix src/cluster/,cluster.c cluster_backend.c \
+# With MPI=1 the program has src/render/cluster/; otherwise cluster_none.c
+# replaces it.
+MPI_SOURCES := $(addprefix src/render/cluster/,cluster.c cluster_backend.c \
 	cluster_worker.c wire.c)
 # kernels.mk compiles these, each several times.
 KERNEL_SOURCES := src/render/cpu_kernel.c src/render/cpu_dispatch.c
 SOURCES := $(filter-out $(MPI_SOURCES) $(KERNEL_SOURCES) \
-	src/picture/$(if $(WEBP),image_webp_none.c,image_webp.c) \
-	src/picture/$(if $(EXR),image_exr_read_none.c,image_exr_read.c) \
-	$(if $(DRACO),src/import/draco_decode_none.c),$(wildcard src/*.c src/*/*.c))
-OBJECTS := $(SOURCES:src/%.c=$(B)/%.o) $(if $(DRACO),$(B)/import/draco_decode.o) \
+	src/image/$(if $(WEBP),image_webp_none.c,image_webp.c) \
+	src/image/$(if $(EXR),image_exr_read_none.c,image_exr_read.c) \
+	$(if $(DRACO),src/read/child/draco_decode_none.c), \
+	$(wildcard src/*.c src/*/*.c src/*/*/*.c))
+OBJECTS := $(SOURCES:src/%.c=$(B)/%.o) $(if $(DRACO),$(B)/read/child/draco_decode.o) \
 	$(KERNEL_OBJECTS)
 # libglim: the folders up to src/api/ in the table of CONTRIBUTING.md.
-LIB_FOLDERS := base picture filter bvh light scene formats gltf import load render opencl cluster engine api
-LIB_OBJECTS := $(filter-out $(B)/import/draco%,$(foreach d,$(LIB_FOLDERS), \
-	$(filter $(B)/$(d)/%,$(OBJECTS)))) $(KERNEL_OBJECTS)
+LIB_FOLDERS := base image film world scene read render engine api
+LIB_OBJECTS := $(filter-out $(B)/read/child/draco%,$(sort $(KERNEL_OBJECTS) \
+	$(filter $(LIB_FOLDERS:%=$(B)/%/%),$(OBJECTS))))
 VERSION := $(shell sed -n 's/.*GLIM_VERSION *"\(.*\)"/\1/p' include/glim/version.h)
 SONAME := libglim.so.$(firstword $(subst ., ,$(VERSION)))
 # Uses all cores unless the caller gives -j.
@@ -121,14 +123,14 @@ $(Q)$(CXX) $(ALL_CXXFLAGS) -MMD -MP -c -o $@ $<
 endef
 $(B)/%.o: src/%.c $(B)/flags
 	$(compile)
-$(B)/import/draco_decode.o: src/import/draco_decode.cc $(B)/flags
+$(B)/read/child/draco_decode.o: src/read/child/draco_decode.cc $(B)/flags
 	$(compile_cxx)
 # It follows one path at a time: fast to compile is enough.
 $(B)/inspect/path_record.o: private ALL_CFLAGS := $(patsubst -O3,-O1,$(ALL_CFLAGS))
 # It reads and writes files, and -O3 takes twice as long.
-$(B)/picture/stb.o: private ALL_CFLAGS := $(patsubst -O3,-O2,$(ALL_CFLAGS))
-$(B)/gltf/gltf_draco.o: private ALL_CFLAGS += $(if $(DRACO),-DHAS_DRACO)
-$(B)/cluster/wire.o: private ALL_CFLAGS += $(shell mpicc --showme:compile)
+$(B)/image/stb.o: private ALL_CFLAGS := $(patsubst -O3,-O2,$(ALL_CFLAGS))
+$(B)/read/gltf/gltf_draco.o: private ALL_CFLAGS += $(if $(DRACO),-DHAS_DRACO)
+$(B)/render/cluster/wire.o: private ALL_CFLAGS += $(shell mpicc --showme:compile)
 # The program that tries OpenCL devices and reads formats for the library.
 $(B)/api/glim_scene.o: private ALL_CFLAGS += -DGLIM_PROGRAM='"$(BINDIR)/glim"'
 $(B)/api/glim_scene.o $(L)/glim.pc: $(B)/places

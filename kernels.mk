@@ -24,7 +24,7 @@ HOST_ISA := $(if $(filter few,$(BUILDS)),$(if $(X86_64),$(shell \
 PATHS_all := $(foreach isa,$(ISAS) plain,$(SETS:%=paths_$(isa)_%) paths_$(isa))
 PATHS_few := $(foreach isa,$(HOST_ISA) plain,paths_$(isa)_lamps paths_$(isa))
 PATHS := $(PATHS_$(BUILDS):%=$(B)/%.o)
-FILTERS := $(ISAS:%=$(B)/filter_loops_%.o)
+FILTERS := $(ISAS:%=$(B)/film/filter/filter_loops_%.o)
 KERNEL_OBJECTS := $(B)/kernels.o $(PATHS) $(FILTERS) $(B)/cpu_dispatch_$(BUILDS).o
 
 # $* is the instruction set and, after a _, the set of features.
@@ -41,7 +41,7 @@ $(B)/cpu_dispatch_all.o $(B)/cpu_dispatch_few.o: $(B)/cpu_dispatch_%.o: \
 	$(SAY) CC '$< ($*)'
 	$(Q)$(CC) $(ALL_CFLAGS) '-DBUILDS(X)=$(PATHS_$*:%=X(%))' -MMD -MP -c -o $@ $<
 
-$(FILTERS): $(B)/filter_loops_%.o: src/filter/filter_loops.c $(B)/flags
+$(FILTERS): $(B)/film/filter/filter_loops_%.o: src/film/filter/filter_loops.c $(B)/flags
 	$(SAY) CC '$< ($*)'
 	$(Q)$(CC) $(ALL_CFLAGS) $(FLAGS_$*) -mprefer-vector-width=512 \
 		-DLOOPS=filter_loops_$* -MMD -MP -c -o $@ $<

@@ -5,7 +5,7 @@ set -eu
 
 echo "#include <stddef.h>"
 echo
-echo '#include "opencl/cl_source.h"'
+echo '#include "render/opencl/cl_source.h"'
 # arrays of numbers, since compilers may limit strings to 4095 characters
 i=0
 for file; do

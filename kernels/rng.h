@@ -10,7 +10,7 @@
  *
  * A picture has two such sequences in each pixel, the halves: sample i is
  * sample i / 2 of half i % 2. The halves are independent, so the variance of
- * the pixel can be estimated from their difference (picture/film_error.h).
+ * the pixel can be estimated from their difference (film/film_error.h).
  * Within one sequence samples depend on each other, and every such estimate is
  * wrong. The two halves together have 4 to 18 % more variance than a single
  * sequence of as many samples.

@@ -3,8 +3,8 @@
  * sky.h - radiance of the sky, and sampling of its image
  *
  * Directions are sampled from a table over the texels of the image
- * (light/sky_table.h) by inversion of its cdf, which keeps stratification. They
- * are uniform by solid angle within a texel.
+ * (world/light/sky_table.h) by inversion of its cdf, which keeps
+ * stratification. They are uniform by solid angle within a texel.
  *
  * The table, world.sky_cdf, is an array of floats:
  *     height + 1             cdf over the rows, from 0 to 1

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/stb.h"
+#include "image/stb.h"
 
 /* Step of u and v between which a surface is flat, for its normals. */
 #define STEP 1e-4

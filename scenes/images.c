@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "picture/stb.h"
+#include "image/stb.h"
 
 #define SIDE_MAX   256
 #define SKY_WIDTH  256

@@ -3,7 +3,7 @@
 # layers.sh - checks the order of folders and the form of files
 #
 # The order of the folders is that of the table in CONTRIBUTING.md ("|
-# `src/bvh/` | ..."): a file includes from its own folder and from those above
+# `src/world/bvh/` | ..."): a file includes from its own folder and from those above
 # it. The files of src/ itself come last. Prints a line for each violation, then
 # "layers: N passed, N failed" counted in files.
 set -u
@@ -37,14 +37,43 @@ function place_of(folder)
     return folder == "src" ? folder_count + 1 : places[folder] + 0
 }
 
-function read_table(    line, cell)
+# Reads the third column: headers, each after the files that alone include it,
+# or after none if the whole folder does. A header that ends with / is a folder.
+function read_exclusive(folder, column,    entry, name, count, i, k, n)
+{
+    n = split(column, entry, ";")
+    for (i = 1; i <= n; i++) {
+        count = split(entry[i], name, "`")
+        if (count < 3)
+            continue
+        if (count == 3)
+            owners[name[2]] = owners[name[2]] " " folder "/*"
+        for (k = 2; k < count - 1; k += 2)
+            owners[name[count - 1]] = owners[name[count - 1]] " " folder "/" name[k]
+    }
+}
+
+function check_exclusive(name,    header, own)
+{
+    own = path
+    sub(/\.[a-z]+$/, "", own)
+    for (header in owners)
+        if ((name == header || (header ~ /\/$/ && index(name, header) == 1)) &&
+            index(owners[header] " ", " " own " ") == 0 &&
+            index(owners[header] " ", " " folder "/* ") == 0)
+            fault("only" owners[header] " include " name)
+}
+
+function read_table(    line, cell, part)
 {
     while ((getline line < "CONTRIBUTING.md") > 0) {
-        if (line !~ /^\| `(include\/glim|kernels|src\/[a-z]+)\/` \|/)
+        if (line !~ /^\| `(include\/glim|kernels|src\/[a-z]+(\/[a-z]+)?)\/` \|/)
             continue
-        split(line, cell, "`")
-        sub(/\/$/, "", cell[2])
-        places[cell[2]] = ++folder_count
+        split(line, cell, "|")
+        split(cell[2], part, "`")
+        sub(/\/$/, "", part[2])
+        places[part[2]] = ++folder_count
+        read_exclusive(part[2], cell[4])
     }
     if (folder_count < 5) {
         print "CONTRIBUTING.md: the table of folders was not found"
@@ -55,36 +84,17 @@ function read_table(    line, cell)
 function check_include(name, is_system,    kernel, other)
 {
     kernel = path ~ /^kernels\//
+    if (!kernel)
+        check_exclusive(name)
     if (is_system) {
         if (folder == "include/glim" && name !~ /^std(bool|def|int)\.h$/)
             fault("the public header includes only stdbool, stddef and stdint")
         if (kernel && stem != "dialect")
             fault("kernels include libc only in dialect.h: <" name ">")
-        if (name ~ /curses|^term(info|cap)?\.h$/ && path !~ /^src\/terminal\/(tty|curses_windows)\.c$/)
-            fault("only tty.c and curses_windows.c include <" name ">")
-        if (name == "zlib.h" && path != "src/formats/text_file.c" &&
-            path !~ /^src\/picture\/(film_file|image_exr|image_exr_read)\.c$/)
-            fault("only text_file.c, film_file.c and image_exr*.c include <" name ">")
-        if (name == "jansson.h" && folder != "src/gltf")
-            fault("only src/gltf/ includes <" name ">")
-        if (name ~ /^webp\// && path != "src/picture/image_webp.c")
-            fault("only image_webp.c includes <" name ">")
-        if (name == "meshoptimizer.h" && path != "src/gltf/gltf_meshopt.c")
-            fault("only gltf_meshopt.c includes <" name ">")
-        if (name ~ /^assimp\// && path != "src/import/assimp_api.h")
-            fault("only assimp_api.h includes <" name ">")
-        if (name ~ /^draco\// && path != "src/import/draco_decode.cc")
-            fault("only draco_decode.cc includes <" name ">")
-        if (name ~ /^CL\// && folder != "src/opencl")
-            fault("only src/opencl/ includes <" name ">")
         return
     }
     if (kernel && name !~ /^kernels\//)
         fault("kernels include only kernels: \"" name "\"")
-    if (name == "kernels/path.h" && !kernel &&
-        stem !~ /^(cpu_kernel|path_record|aov_picture)$/)
-        fault("only cpu_kernel.c, path_record.c and aov_picture.c include it: " \
-              name)
     other = name ~ /^kernels\// ? "kernels" : \
             name ~ /^glim\// ? "include/glim" : "src/" folder_of(name)
     if (other == "src/.")

@@ -6,7 +6,7 @@
 FUZZ_CC ?= clang
 TIME ?= 60
 
-C_FILES = $(foreach d,include/glim src src/* kernels scenes tests/unit tests/unit/* \
+C_FILES = $(foreach d,include/glim src src/* src/*/* kernels scenes tests/unit tests/unit/* \
 	tests/bench tests/api tests/bench/error tests/bench/rays tests/fuzz \
 	tests/stress tests/tools,$(wildcard $(d)/*.[ch] $(d)/*.cc)) \
 	$(wildcard kernels/*.cl)
@@ -74,7 +74,7 @@ $(FUZZERS): $(filter %.o,$(FUZZ_MAIN))
 GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
 $(B)/scenes/%.o: scenes/%.c $(B)/flags
 	$(compile)
-$(L)/scenes/generate: $(GENERATOR) $(B)/picture/stb.o
+$(L)/scenes/generate: $(GENERATOR) $(B)/image/stb.o
 	@mkdir -p $(@D)
 	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ -lm

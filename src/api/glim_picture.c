@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-#include "picture/film.h"
-#include "picture/image_write.h"
+#include "film/film.h"
+#include "film/image_write.h"
 
 static struct develop develop_of(const struct glim *g)
 {

@@ -9,7 +9,7 @@
 
 #include "base/event_fd.h"
 #include "base/memory.h"
-#include "scene/world_materials.h"
+#include "world/world_materials.h"
 
 /* The program whose copies run the code of others. */
 #ifndef GLIM_PROGRAM

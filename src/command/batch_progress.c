@@ -18,7 +18,7 @@
 #include "base/print.h"
 #include "base/stop.h"
 #include "base/thread_pool.h"
-#include "picture/image_write.h"
+#include "film/image_write.h"
 #include "render/error_text.h"
 #include "render/progress.h"
 

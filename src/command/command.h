@@ -16,7 +16,7 @@
 
 #include <stdbool.h>
 
-#include "picture/image_read.h"
+#include "image/image_read.h"
 #include "session/session.h"
 
 /* ---- a picture ---- */

@@ -9,10 +9,10 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/print.h"
-#include "measure/difference.h"
-#include "measure/reference_info.h"
-#include "picture/image_read.h"
-#include "picture/image_write.h"
+#include "command/difference.h"
+#include "command/reference_info.h"
+#include "film/image_write.h"
+#include "image/image_read.h"
 
 /* More tiles than this are only counted. */
 #define LISTED_MAX 20

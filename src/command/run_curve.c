@@ -11,10 +11,10 @@
 #include "base/print.h"
 #include "base/stop.h"
 #include "command/batch_progress.h"
+#include "command/chart.h"
 #include "command/command.h"
-#include "measure/chart.h"
-#include "measure/curve.h"
-#include "picture/image_write.h"
+#include "command/curve.h"
+#include "film/image_write.h"
 #include "terminal/tty.h"
 
 #define SPP_DEFAULT 256

@@ -10,9 +10,9 @@
 #include "base/print.h"
 #include "base/stop.h"
 #include "command/batch_progress.h"
-#include "measure/reference_info.h"
-#include "measure/replicates.h"
-#include "picture/image_write.h"
+#include "command/reference_info.h"
+#include "command/replicates.h"
+#include "film/image_write.h"
 #include "terminal/xmalloc.h"
 
 #define SPP_DEFAULT 4096

@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-#include "cluster/cluster.h"
-#include "filter/film_filter.h"
+#include "film/filter/film_filter.h"
+#include "render/cluster/cluster.h"
 #include "render/cpu_dispatch.h"
 #include "render/render_metadata.h"
 #include "kernels/features.h"

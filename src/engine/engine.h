@@ -21,12 +21,12 @@
 #include <stdint.h>
 
 #include "base/warnings.h"
-#include "load/scene_load.h"
-#include "opencl/cl_start.h"
-#include "picture/image_metadata.h"
+#include "engine/scene_load.h"
+#include "image/image_metadata.h"
 #include "render/backend.h"
+#include "render/opencl/cl_start.h"
 #include "render/render_loop.h"
-#include "scene/world.h"
+#include "world/world.h"
 
 /* ---- backends ---- */
 

@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "film/film_file.h"
 #include "glim/version.h"
-#include "opencl/cl_source.h"
-#include "picture/film_file.h"
-#include "scene/world_list.h"
+#include "render/opencl/cl_source.h"
+#include "world/world_list.h"
 #include "kernels/types.h"
 
 /* ---- hash of the world ---- */

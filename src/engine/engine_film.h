@@ -9,7 +9,7 @@
 #define GLIM_ENGINE_FILM_H
 
 #include "engine/engine.h"
-#include "picture/film_file.h"
+#include "film/film_file.h"
 
 /* Finds what decides the samples of pictures of the view. */
 bool engine_film_identify(struct engine *e, const struct view *view,

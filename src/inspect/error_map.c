@@ -5,9 +5,9 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "film/film_error.h"
+#include "film/image_write.h"
 #include "inspect/false_color.h"
-#include "picture/film_error.h"
-#include "picture/image_write.h"
 
 uint32_t error_map_color(float error)
 {

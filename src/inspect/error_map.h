@@ -14,7 +14,7 @@
 
 #include <stdint.h>
 
-#include "picture/film.h"
+#include "film/film.h"
 
 /* Error of black pixels and below, and of white ones and above. */
 #define ERROR_MAP_BLACK 0.001f

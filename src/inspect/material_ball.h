@@ -14,10 +14,10 @@
 #ifndef GLIM_MATERIAL_BALL_H
 #define GLIM_MATERIAL_BALL_H
 
-#include "bvh/bvh8.h"
-#include "light/sky_table.h"
-#include "picture/frame.h"
+#include "image/frame.h"
 #include "render/cpu_kernel.h"
+#include "world/bvh/bvh8.h"
+#include "world/light/sky_table.h"
 
 /* Width and height of the picture. */
 #define BALL_PIXELS 24

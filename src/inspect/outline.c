@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "bvh/bvh8_traverse.h"
+#include "world/bvh/bvh8_traverse.h"
 #include "kernels/camera.h"
 
 #define COLOR 0xff9a2eu

@@ -14,9 +14,9 @@
 #ifndef GLIM_OUTLINE_H
 #define GLIM_OUTLINE_H
 
-#include "bvh/bvh8.h"
-#include "picture/frame.h"
+#include "image/frame.h"
 #include "scene/scene.h"
+#include "world/bvh/bvh8.h"
 
 /* Places of a mask at most: rays of some ten milliseconds. */
 #define OUTLINE_PLACES 20000

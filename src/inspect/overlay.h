@@ -14,10 +14,10 @@
 
 #include <stdint.h>
 
-#include "bvh/bvh.h"
+#include "image/frame.h"
 #include "inspect/path_record.h"
-#include "picture/frame.h"
 #include "scene/scene.h"
+#include "world/bvh/bvh.h"
 
 /* ---- drawings ---- */
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "picture/area.h"
+#include "image/area.h"
 
 /* Least width and height of a block in pixels: a sum of fewer e^2 says little
  * of the variance. */

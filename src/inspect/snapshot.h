@@ -16,8 +16,8 @@
 #ifndef GLIM_SNAPSHOT_H
 #define GLIM_SNAPSHOT_H
 
-#include "picture/film.h"
-#include "picture/film_error.h"
+#include "film/film.h"
+#include "film/film_error.h"
 
 struct snapshot {
     int width, height;

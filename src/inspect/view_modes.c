@@ -7,14 +7,14 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "film/film_error.h"
+#include "image/area.h"
+#include "image/frame.h"
 #include "inspect/aov_picture.h"
 #include "inspect/error_map.h"
-#include "picture/area.h"
-#include "picture/film_error.h"
-#include "picture/frame.h"
 #include "render/error_text.h"
 #include "render/projection.h"
-#include "scene/world.h"
+#include "world/world.h"
 #include "kernels/tone.h"
 
 /* Sample kind and legend of each view. */

@@ -19,11 +19,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "bvh/bvh.h"
-#include "filter/screen_filter.h"
-#include "session/session.h"
+#include "film/filter/screen_filter.h"
 #include "inspect/false_color.h"
 #include "inspect/traversal_cost.h"
+#include "session/session.h"
+#include "world/bvh/bvh.h"
 
 struct view_mode {
     struct session *session;

@@ -11,9 +11,9 @@
 #define GLIM_BACKEND_H
 
 #include "base/thread_pool.h"
-#include "picture/film.h"
+#include "film/film.h"
 #include "render/cpu_kernel.h"
-#include "scene/world.h"
+#include "world/world.h"
 #include "kernels/sample_share.h"
 
 enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };

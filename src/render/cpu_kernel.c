@@ -13,7 +13,7 @@
 
 #include "render/cpu_kernel.h"
 
-#include "bvh/bvh8_traverse.h"
+#include "world/bvh/bvh8_traverse.h"
 
 #ifdef __AVX2__
 #define HAS_WIDE_VECTORS 1

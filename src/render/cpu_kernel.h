@@ -13,7 +13,7 @@
 #ifndef GLIM_CPU_KERNEL_H
 #define GLIM_CPU_KERNEL_H
 
-#include "bvh/bvh8.h"
+#include "world/bvh/bvh8.h"
 #include "kernels/first_surface.h"
 #include "kernels/path_types.h"
 

@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "picture/film_error.h"
+#include "film/film_error.h"
 
 #define ERROR_TEXT_BYTES   64
 #define ERROR_FAULTS_BYTES 128

@@ -13,7 +13,7 @@
 #ifndef GLIM_PASS_PLAN_H
 #define GLIM_PASS_PLAN_H
 
-#include "picture/adaptive.h"
+#include "film/adaptive.h"
 #include "render/backend.h"
 #include "render/render_limits.h"
 

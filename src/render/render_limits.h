@@ -11,7 +11,7 @@
 
 #include <stdint.h>
 
-#include "picture/film_error.h"
+#include "film/film_error.h"
 
 /* ---- limits ---- */
 

@@ -26,9 +26,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "picture/film.h"
-#include "picture/film_error.h"
-#include "picture/film_file.h"
+#include "film/film.h"
+#include "film/film_error.h"
+#include "film/film_file.h"
 #include "render/backend.h"
 #include "render/render_limits.h"
 

@@ -7,7 +7,7 @@
 #ifndef GLIM_RENDER_METADATA_H
 #define GLIM_RENDER_METADATA_H
 
-#include "picture/image_metadata.h"
+#include "image/image_metadata.h"
 #include "render/render_loop.h"
 
 /* Returns program, scene, seed, samples, the error if it is known, the limit

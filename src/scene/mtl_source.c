@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "picture/color.h"
+#include "image/color.h"
 #include "kernels/types.h"
 
 #define MEMBER(name) offsetof(struct mtl_source, name)

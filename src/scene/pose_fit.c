@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/geometry.h"
-#include "bvh/instance_trees.h"
+#include "world/bvh/instance_trees.h"
 #include "kernels/instance.h"
 
 /* Elevation of the camera that frames a scene, and its azimuth before a model,

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "light/daylight.h"
+#include "world/light/daylight.h"
 
 const char *const view_tones[TONES] = {
     [TONE_LINEAR] = "linear",

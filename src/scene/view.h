@@ -23,7 +23,7 @@
  * memories, so that larger numbers can only be mistakes. */
 #define VIEW_SIDE_MAX 65536
 
-/* Sun with a clear sky around it (light/daylight.h). */
+/* Sun with a clear sky around it (world/light/daylight.h). */
 struct sun {
     bool is_on;
     double azimuth_deg;   /* clockwise seen from above, 0 at -z, 90 at +x */

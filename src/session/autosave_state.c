@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "base/decimal.h"
-#include "formats/mtl.h"
-#include "formats/mtl_dialect.h"
-#include "formats/mtl_save.h"
-#include "formats/view_file.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
+#include "read/mtl.h"
+#include "read/mtl_dialect.h"
+#include "read/mtl_save.h"
+#include "read/view_file.h"
 #include "session/session_save.h"
 #include "terminal/xmalloc.h"
 

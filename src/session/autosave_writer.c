@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "base/stop.h"
 #include "engine/engine_film.h"
-#include "picture/film_file.h"
+#include "film/film_file.h"
 #include "session/autosave_file.h"
 
 bool autosave_writer_init(struct autosave_writer *w, struct error *err)

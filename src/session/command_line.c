@@ -9,7 +9,7 @@
 #include "base/file.h"
 #include "base/print.h"
 #include "base/thread_pool.h"
-#include "picture/image_write.h"
+#include "film/image_write.h"
 #include "session/option_table.h"
 #include "session/video_pipe.h"
 #include "terminal/xmalloc.h"

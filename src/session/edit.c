@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
 #include "terminal/xmalloc.h"
 
 /* ---- history ---- */

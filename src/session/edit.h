@@ -23,7 +23,7 @@
 #include "base/name_table.h"
 #include "scene/material.h"
 #include "scene/view.h"
-#include "scene/world_materials.h"
+#include "world/world_materials.h"
 
 /* ---- history ---- */
 

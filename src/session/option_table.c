@@ -11,11 +11,11 @@
 
 #include "base/decimal.h"
 #include "base/lexer.h"
-#include "light/daylight.h"
-#include "picture/color.h"
+#include "image/color.h"
 #include "render/cpu_dispatch.h"
 #include "scene/view.h"
 #include "terminal/xmalloc.h"
+#include "world/light/daylight.h"
 
 /* Limits on values; anything beyond is a mistake. */
 #define SPP_MAX     1000000000000u

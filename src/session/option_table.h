@@ -19,7 +19,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "formats/view_parse.h"
+#include "read/view_parse.h"
 #include "session/command_line.h"
 
 struct option_given;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/stop.h"
-#include "picture/image_write.h"
+#include "film/image_write.h"
 #include "terminal/xmalloc.h"
 
 bool save_thread_init(struct save_thread *s, struct error *err)

@@ -14,8 +14,8 @@
 #define GLIM_SAVE_THREAD_H
 
 #include "base/background.h"
-#include "picture/film.h"
-#include "picture/image_metadata.h"
+#include "film/film.h"
+#include "image/image_metadata.h"
 
 struct save_thread {
     struct background copying;

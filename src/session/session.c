@@ -7,8 +7,8 @@
 
 #include "base/clock.h"
 #include "base/file.h"
-#include "scene/world_lamps.h"
 #include "terminal/xmalloc.h"
+#include "world/world_lamps.h"
 
 #include "kernels/features.h"
 

@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include "base/print.h"
-#include "formats/mtl_save.h"
-#include "formats/view_file.h"
+#include "read/mtl_save.h"
+#include "read/view_file.h"
 #include "terminal/xmalloc.h"
 
 /* Returns the material whose saved block is the template for a new one: the

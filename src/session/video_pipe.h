@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "picture/frame.h"
+#include "image/frame.h"
 
 struct video_pipe {
     const char *path;

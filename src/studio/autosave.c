@@ -9,7 +9,7 @@
 
 #include "base/hash.h"
 #include "engine/engine_film.h"
-#include "picture/film_file.h"
+#include "film/film_file.h"
 #include "session/autosave_state.h"
 #include "terminal/xmalloc.h"
 
@@ -43,7 +43,7 @@ static void find_offer(struct autosave *k)
     if (access(k->path, F_OK) != 0)
         return;
     if (!autosave_file_read_head(&k->offer, k->path, &err)) {
-        render_control_say_error(k->control, err.text);
+        live_render_say_error(k->control, err.text);
         k->has_file = true;
     } else if (strcmp(k->offer.scene, k->scene) == 0) {
         autosave_describe(what, &k->offer);
@@ -53,7 +53,7 @@ static void find_offer(struct autosave *k)
     }
 }
 
-void autosave_init(struct autosave *k, struct render_control *control,
+void autosave_init(struct autosave *k, struct live_render *control,
                    struct camera_control *camera)
 {
     const struct session *s = control->session;
@@ -129,7 +129,7 @@ static bool begin(struct autosave *k)
                                    film, &err);
     autosave_file_free(&kept);
     if (!ok) {
-        render_control_say_error(k->control, err.text);
+        live_render_say_error(k->control, err.text);
         k->written_hash = 0;
     }
     return ok;
@@ -156,14 +156,14 @@ void autosave_finish(struct autosave *k)
     if (k->has_failed) {
         k->written_hash = 0;
         if (!had_failed)
-            render_control_say_error(k->control, err.text);
+            live_render_say_error(k->control, err.text);
         return;
     }
     if (is_left_out && !k->has_said_large) {
-        render_control_say(k->control,
-                           "the picture is too large to be kept, except by "
-                           "saving it: %s",
-                           render_control_key(k->control, ACTION_SAVE).text);
+        live_render_say(k->control,
+                        "the picture is too large to be kept, except by "
+                        "saving it: %s",
+                        live_render_key(k->control, ACTION_SAVE).text);
         k->has_said_large = true;
     }
 }
@@ -180,7 +180,7 @@ static void add_result(struct autosave *k)
         autosave_describe(what, &kept);
         text = xformat("kept %s: glim %s goes on", what,
                        k->control->session->options->scene_path);
-        render_control_add_result(k->control, text);
+        live_render_add_result(k->control, text);
         free(text);
     }
     autosave_file_free(&kept);
@@ -206,7 +206,7 @@ void autosave_end(struct autosave *k, bool is_lost)
     if (begin(k) && w->copying.is_busy)
         autosave_finish(k);
     if (k->control->message.text[0] != '\0')
-        render_control_add_result(k->control, k->control->message.text);
+        live_render_add_result(k->control, k->control->message.text);
     else if (k->has_file)
         add_result(k);
     k->control->message = before;
@@ -233,36 +233,35 @@ static bool take_film(struct autosave *k, const struct autosave_file *kept,
         ok = fail(err, "%s: found another film, expected one from sample 0 on",
                   k->path);
     if (ok)
-        render_control_go_on(k->control, kept->is_live, &film);
+        live_render_go_on(k->control, kept->is_live, &film);
     film_file_free(&film);
     return ok;
 }
 
 static void restore(struct autosave *k, const struct autosave_file *kept)
 {
-    struct render_control *control = k->control;
+    struct live_render *control = k->control;
     uint32_t missing;
     struct error err;
 
     if (!autosave_history_restore(kept, control->session, k->path, &missing,
                                   &err)) {
-        render_control_say_error(control, err.text);
+        live_render_say_error(control, err.text);
         return;
     }
     camera_control_set_scene(k->camera);
-    render_control_go_on(control, true, NULL);
+    live_render_go_on(control, true, NULL);
     if (kept->sizes[AUTOSAVE_FILM] > 0 && !take_film(k, kept, &err))
-        render_control_say_error(control, err.text);
+        live_render_say_error(control, err.text);
     else if (missing > 0)
-        render_control_say(control,
-                           "restored, without the changes of %" PRIu32
-                           " materials that the scene does not have any more",
-                           missing);
+        live_render_say(control,
+                        "restored, without the changes of %" PRIu32
+                        " materials that the scene does not have any more",
+                        missing);
     else
-        render_control_say(control, "restored: %s",
-                           kept->sizes[AUTOSAVE_FILM] > 0
-                               ? "view, changes, render"
-                               : "view and changes");
+        live_render_say(control, "restored: %s",
+                        kept->sizes[AUTOSAVE_FILM] > 0 ? "view, changes, render"
+                                                       : "view and changes");
 }
 
 void autosave_go_on(struct autosave *k)
@@ -273,7 +272,7 @@ void autosave_go_on(struct autosave *k)
     if (autosave_file_read(&kept, k->path, &err))
         restore(k, &kept);
     else
-        render_control_say_error(k->control, err.text);
+        live_render_say_error(k->control, err.text);
     autosave_file_free(&kept);
     autosave_start_anew(k);
 }

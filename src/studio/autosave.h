@@ -16,11 +16,11 @@
 #define GLIM_AUTOSAVE_H
 
 #include "session/autosave_file.h"
-#include "studio/camera_control.h"
-#include "studio/render_control.h"
+#include "session/live_render.h"
+#include "studio/camera/camera_control.h"
 
 struct autosave {
-    struct render_control *control;
+    struct live_render *control;
     struct camera_control *camera;
     char *scene, *path; /* path NULL: nothing is kept */
     int lock_fd;        /* -1: another program keeps the scene's session */
@@ -35,7 +35,7 @@ struct autosave {
 };
 
 /* Looks for a file of the scene. has_offer says that one is found. */
-void autosave_init(struct autosave *k, struct render_control *control,
+void autosave_init(struct autosave *k, struct live_render *control,
                    struct camera_control *camera);
 
 /* Restores the offered session: view, edits, and the film if it is of the

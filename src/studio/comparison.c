@@ -31,7 +31,7 @@
 /* Relative difference that has the full colour. */
 #define FULL 0.25
 
-void comparison_init(struct comparison *c, struct render_control *control)
+void comparison_init(struct comparison *c, struct live_render *control)
 {
     *c = (struct comparison){.control = control, .wipe = 0.5};
 }
@@ -122,11 +122,11 @@ void comparison_keep(struct comparison *c)
 
     drop_others(c);
     if (p->samples == 0) {
-        render_control_say(c->control, "nothing to keep yet");
+        live_render_say(c->control, "nothing to keep yet");
         return;
     }
     if (!snapshot_take(&kept, film_of(c), &err)) {
-        render_control_say_error(c->control, err.text);
+        live_render_say_error(c->control, err.text);
         return;
     }
     while (c->count == COMPARISON_KEPT_MAX ||
@@ -140,24 +140,22 @@ void comparison_keep(struct comparison *c)
     c->mode = COMPARISON_WIPE;
     forget_painted(c);
     change(c);
-    render_control_say(c->control,
-                       "kept render %d: %s shows differences, %s ends",
-                       c->count,
-                       render_control_key(c->control, ACTION_COMPARE).text,
-                       render_control_key(c->control, ACTION_CANCEL).text);
+    live_render_say(c->control, "kept render %d: %s shows differences, %s ends",
+                    c->count, live_render_key(c->control, ACTION_COMPARE).text,
+                    live_render_key(c->control, ACTION_CANCEL).text);
 }
 
 void comparison_next(struct comparison *c)
 {
     drop_others(c);
     if (c->count == 0) {
-        render_control_say(
-            c->control, "no render is kept: %s keeps the present one",
-            render_control_key(c->control, ACTION_KEEP_RENDER).text);
+        live_render_say(c->control,
+                        "no render is kept: %s keeps the present one",
+                        live_render_key(c->control, ACTION_KEEP_RENDER).text);
         return;
     }
     c->mode = (enum comparison_mode)((c->mode + 1) % COMPARISON_MODES);
-    render_control_clear_message(c->control);
+    live_render_clear_message(c->control);
     change(c);
 }
 
@@ -185,7 +183,7 @@ bool comparison_takes(struct comparison *c, enum action action)
     case ACTION_LOOK_DOWN: choose(c, 1); break;
     case ACTION_CANCEL:
         c->mode = COMPARISON_OFF;
-        render_control_clear_message(c->control);
+        live_render_clear_message(c->control);
         change(c);
         break;
     default: return false;

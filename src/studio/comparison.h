@@ -17,7 +17,7 @@
 
 #include "inspect/snapshot.h"
 #include "session/keymap.h"
-#include "studio/render_control.h"
+#include "session/live_render.h"
 
 #define COMPARISON_KEPT_MAX 6
 
@@ -29,7 +29,7 @@ enum comparison_mode {
 };
 
 struct comparison {
-    struct render_control *control;
+    struct live_render *control;
     enum comparison_mode mode;
     double wipe; /* 0: only the present render */
     struct snapshot kept[COMPARISON_KEPT_MAX];
@@ -44,7 +44,7 @@ struct comparison {
     uint64_t blocks_ns; /* when they were found */
 };
 
-void comparison_init(struct comparison *c, struct render_control *control);
+void comparison_init(struct comparison *c, struct live_render *control);
 
 /* Keeps the present render and compares with it. The oldest one goes if there
  * are too many. */

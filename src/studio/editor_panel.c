@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "terminal/gauge.h"
+#include "session/save.h"
 #include "studio/panel_draw.h"
-#include "studio/save_commands.h"
+#include "terminal/gauge.h"
 
 #define ENTER     '\r'
 #define ESCAPE    27
@@ -24,7 +24,7 @@ static struct edit *edit_of(const struct editor_panel *p)
     return &p->control->session->edit;
 }
 
-void editor_panel_init(struct editor_panel *p, struct render_control *control,
+void editor_panel_init(struct editor_panel *p, struct live_render *control,
                        struct screen *screen)
 {
     *p = (struct editor_panel){.control = control, .screen = screen};
@@ -73,7 +73,7 @@ bool editor_panel_step(struct editor_panel *p)
                            s->engine.world.versions[WORLD_TEXTURES],
                            &s->engine.world.materials[material], &is_new,
                            &err)) {
-        render_control_say_error(p->control, err.text);
+        live_render_say_error(p->control, err.text);
         p->shows_ball = false;
     }
     return is_new;
@@ -131,7 +131,7 @@ static void take_change(struct editor_panel *p)
 
 static bool may_change(struct editor_panel *p)
 {
-    return render_control_may_edit(p->control, "materials change");
+    return live_render_may_edit(p->control, "materials change");
 }
 
 /* Returns the selected parameter; its id is -1 if there is none. */
@@ -192,7 +192,7 @@ static void take_typed(struct editor_panel *p)
         edit_end_step(edit_of(p));
         take_change(p);
     } else {
-        render_control_say(p->control, "%s", err.text);
+        live_render_say(p->control, "%s", err.text);
     }
 }
 
@@ -224,8 +224,8 @@ static void add_lamp(struct editor_panel *p)
     if (!may_change(p))
         return;
     if (e->now.view.lamps.count >= PARAMETER_LAMPS) {
-        render_control_say(p->control, "the panel lists %d lights at most",
-                           PARAMETER_LAMPS);
+        live_render_say(p->control, "the panel lists %d lights at most",
+                        PARAMETER_LAMPS);
         return;
     }
     lamp = parameter_new_lamp(&p->selection, selected(p).lamp);
@@ -240,8 +240,8 @@ static void remove_lamp(struct editor_panel *p)
     uint32_t lamp = selected(p).lamp;
 
     if (lamp == NO_INDEX) {
-        render_control_say(p->control, "select a value of the light to remove "
-                                       "on the page of light");
+        live_render_say(p->control, "select a value of the light to remove "
+                                    "on the page of light");
         return;
     }
     if (!may_change(p))
@@ -271,13 +271,13 @@ static void duplicate(struct editor_panel *p)
     if (s->page == PAGE_OBJECTS) {
         *material = edit_duplicate(e, selection_material_of(s, object));
         edit_assign(e, object, *material);
-        render_control_say(p->control, "%.40s has its own material now: %.40s",
-                           selection_name(s, PAGE_OBJECTS, object),
-                           e->names[*material]);
+        live_render_say(p->control, "%.40s has its own material now: %.40s",
+                        selection_name(s, PAGE_OBJECTS, object),
+                        e->names[*material]);
     } else {
         *material = edit_duplicate(e, *material);
-        render_control_say(p->control, "%.60s: Tab goes to the objects for it",
-                           e->names[*material]);
+        live_render_say(p->control, "%.60s: Tab goes to the objects for it",
+                        e->names[*material]);
     }
     edit_end_step(e);
     selection_settle(s);
@@ -327,8 +327,8 @@ static void begin_typing(struct editor_panel *p, int key)
         if (key == ENTER)
             change_by(p, 1);
         else
-            render_control_say(p->control,
-                               "this is changed with the arrows, or Enter");
+            live_render_say(p->control,
+                            "this is changed with the arrows, or Enter");
         return;
     }
     p->is_typing = true;

@@ -21,15 +21,15 @@
 
 #include "inspect/material_ball.h"
 #include "inspect/outline.h"
+#include "session/live_render.h"
+#include "studio/camera/surfaces.h"
 #include "studio/parameter.h"
-#include "studio/render_control.h"
-#include "studio/surfaces.h"
 #include "terminal/screen.h"
 
 #define EDITOR_PANEL_TEXT 512
 
 struct editor_panel {
-    struct render_control *control;
+    struct live_render *control;
     struct screen *screen;
     struct selection selection;
     bool is_open;
@@ -48,7 +48,7 @@ struct editor_panel {
     struct outline outline; /* of what is selected */
 };
 
-void editor_panel_init(struct editor_panel *p, struct render_control *control,
+void editor_panel_init(struct editor_panel *p, struct live_render *control,
                        struct screen *screen);
 
 /* Open or close the panel. The caller then calls workspace_layout(). */

@@ -13,9 +13,9 @@
 #include "base/event_fd.h"
 #include "base/print.h"
 #include "base/stop.h"
+#include "session/save.h"
 #include "session/stats_json.h"
 #include "studio/panel_draw.h"
-#include "studio/save_commands.h"
 #include "studio/studio.h"
 
 #define MS_NS UINT64_C(1000000)
@@ -94,7 +94,7 @@ static void take_key(struct studio *studio, int key)
     enum action action =
         keymap_action(&studio->control.session->options->keys, key);
 
-    render_control_acknowledge_error(&studio->control);
+    live_render_acknowledge_error(&studio->control);
     if (!is_urgent(action) && studio->question != QUESTION_NONE &&
         question_answer(studio, key))
         return;
@@ -239,7 +239,7 @@ static void take_reload(struct studio *studio)
     struct selection_names names =
         selection_names(&studio->workspace.panel.selection);
 
-    if (render_control_end_reload(&studio->control)) {
+    if (live_render_end_reload(&studio->control)) {
         camera_control_set_scene(&studio->camera);
         workspace_renew(&studio->workspace, &names);
     }
@@ -257,7 +257,7 @@ static void take_events(struct studio *studio, struct pollfd fds[FDS])
     if (studio->is_ending)
         return;
     if (fds[FD_RENDER].revents)
-        event_fd_clear(fds[FD_RENDER].fd); /* render_control_update() follows */
+        event_fd_clear(fds[FD_RENDER].fd); /* live_render_update() follows */
     if (fds[FD_SAVER].revents)
         save_finish(&studio->control);
     if (fds[FD_KEEPER].revents)
@@ -265,9 +265,9 @@ static void take_events(struct studio *studio, struct pollfd fds[FDS])
     if (fds[FD_KEEPER_TIMER].revents)
         autosave_write(&studio->autosave);
     if (fds[FD_DEVICE].revents)
-        render_control_end_device(&studio->control);
+        live_render_end_device(&studio->control);
     if (fds[FD_FILES].revents)
-        render_control_check_files(&studio->control);
+        live_render_check_files(&studio->control);
     if (fds[FD_RELOAD].revents)
         take_reload(studio);
     if (fds[FD_KEYS].revents)
@@ -369,7 +369,7 @@ bool event_loop_run(struct session *s, int *status, struct error *err)
     if (stats_path && (!session_check_output(s, "--stats", stats_path, err) ||
                        !stats_json_check(stats_path, err)))
         return false;
-    if (!render_control_init(&studio.control, s, err))
+    if (!live_render_init(&studio.control, s, err))
         return false;
     camera_control_init(&studio.camera, &studio.control,
                         &studio.workspace.screen);
@@ -378,14 +378,14 @@ bool event_loop_run(struct session *s, int *status, struct error *err)
     if (ok) {
         workspace_open(&studio.workspace);
         if (s->notice[0] != '\0')
-            render_control_say_long(&studio.control, "%s", s->notice);
+            live_render_say_long(&studio.control, "%s", s->notice);
         s->notice[0] = '\0';
         autosave_init(&studio.autosave, &studio.control, &studio.camera);
         if (studio.autosave.has_offer)
             question_ask(&studio, QUESTION_KEPT);
         /* after tty_open(): it puts back the signal handlers that it finds */
         if (s->options->backend != BACKEND_CPU)
-            render_control_begin_device(&studio.control);
+            live_render_begin_device(&studio.control);
         loop(&studio);
         close_screen(&studio);
         autosave_free(&studio.autosave);
@@ -394,6 +394,6 @@ bool event_loop_run(struct session *s, int *status, struct error *err)
         ok = !stats_path || stats_json_write(s, false, stats_path, err);
     }
     workspace_free(&studio.workspace);
-    render_control_free(&studio.control);
+    live_render_free(&studio.control);
     return ok;
 }

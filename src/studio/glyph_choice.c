@@ -7,7 +7,7 @@
 /* A terminal that has not answered within this time shows no pixels. */
 #define LACK_NS UINT64_C(1000000000)
 
-void glyph_choice_init(struct glyph_choice *g, struct render_control *control,
+void glyph_choice_init(struct glyph_choice *g, struct live_render *control,
                        struct screen *screen)
 {
     *g = (struct glyph_choice){.control = control,
@@ -55,11 +55,11 @@ void glyph_choice_say(struct glyph_choice *g)
     const char *name = screen_glyphs_name(g->screen);
 
     if (g->screen->display.glyph_mode == g->before) {
-        render_control_say(g->control, "%s again", name);
+        live_render_say(g->control, "%s again", name);
         return;
     }
-    render_control_say(g->control, "%s from now on; %s goes back", name,
-                       render_control_key(g->control, ACTION_CANCEL).text);
+    live_render_say(g->control, "%s from now on; %s goes back", name,
+                    live_render_key(g->control, ACTION_CANCEL).text);
     g->until_ns = g->control->message.until_ns;
 }
 
@@ -88,6 +88,6 @@ void glyph_choice_say_lack(struct glyph_choice *g, uint64_t now_ns)
         return;
     }
     if (lack && g->screen->graphics.shape.kind == PIXEL_GRAPHICS_NONE)
-        render_control_say(g->control, "%s: %s", screen_glyphs_name(g->screen),
-                           lack);
+        live_render_say(g->control, "%s: %s", screen_glyphs_name(g->screen),
+                        lack);
 }

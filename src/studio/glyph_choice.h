@@ -13,11 +13,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "session/live_render.h"
 #include "terminal/screen.h"
-#include "studio/render_control.h"
 
 struct glyph_choice {
-    struct render_control *control;
+    struct live_render *control;
     struct screen *screen;
     enum glyph_mode before; /* Esc brings them back */
     uint64_t until_ns;      /* the end of the message that says so */
@@ -29,7 +29,7 @@ struct glyph_choice {
 };
 
 /* After screen_init(). */
-void glyph_choice_init(struct glyph_choice *g, struct render_control *control,
+void glyph_choice_init(struct glyph_choice *g, struct live_render *control,
                        struct screen *screen);
 
 /* Selects the next glyphs. A layout and glyph_choice_say() must follow. */

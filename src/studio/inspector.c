@@ -7,7 +7,7 @@
 #include "base/print.h"
 #include "inspect/overlay.h"
 #include "render/projection.h"
-#include "studio/save_commands.h"
+#include "session/save.h"
 #include "kernels/vec.h"
 
 #define TEXT_BYTES 256
@@ -89,8 +89,8 @@ void inspector_open_table(struct inspector *inspector)
         snprintf(title, sizeof title, " sample %llu of pixel %u %u - %s %s ",
                  (unsigned long long)inspector->sample, inspector->x,
                  inspector->y,
-                 render_control_key(inspector->control, ACTION_LESS).text,
-                 render_control_key(inspector->control, ACTION_MORE).text);
+                 live_render_key(inspector->control, ACTION_LESS).text,
+                 live_render_key(inspector->control, ACTION_MORE).text);
     } else {
         return;
     }
@@ -109,13 +109,13 @@ static void say_boxes(struct inspector *inspector)
     uint32_t nodes = overlay_boxes(&nothing, &any, &inspector->view_mode.bvh,
                                    inspector->level);
 
-    render_control_say_long(
+    live_render_say_long(
         inspector->control,
         "boxes of level %u of %u: %u node%s; %s %s go up and down",
         inspector->level, inspector->view_mode.bvh.depth, nodes,
         print_plural(nodes),
-        render_control_key(inspector->control, ACTION_LESS).text,
-        render_control_key(inspector->control, ACTION_MORE).text);
+        live_render_key(inspector->control, ACTION_LESS).text,
+        live_render_key(inspector->control, ACTION_MORE).text);
 }
 
 static bool is_new_pick(const struct inspector *inspector)
@@ -184,10 +184,10 @@ static void say_drawing(struct inspector *inspector)
     if (inspector->drawing == INSPECTOR_BOXES)
         say_boxes(inspector);
     else if (inspector->drawing == INSPECTOR_LOBES && !inspector->is_surface)
-        render_control_say(
+        live_render_say(
             inspector->control,
             "only the sky is there: %s picks something else",
-            render_control_key(inspector->control, ACTION_CURSOR).text);
+            live_render_key(inspector->control, ACTION_CURSOR).text);
     inspector_open_table(inspector);
 }
 
@@ -198,11 +198,11 @@ void inspector_next_drawing(struct inspector *inspector)
 
     inspector->drawing =
         (enum inspector_drawing)((inspector->drawing + 1) % INSPECTOR_DRAWINGS);
-    render_control_clear_message(inspector->control);
+    live_render_clear_message(inspector->control);
     if (inspector->drawing != INSPECTOR_NOTHING &&
         !view_mode_need_tree(&inspector->view_mode, &err)) {
         inspector->drawing = INSPECTOR_NOTHING;
-        render_control_say_error(inspector->control, err.text);
+        live_render_say_error(inspector->control, err.text);
     }
     if (inspector->drawing == INSPECTOR_LOBES)
         begin_at_pick(inspector);
@@ -244,12 +244,12 @@ void inspector_change(struct inspector *inspector, int by)
     else if (draws_path(inspector))
         change_step(inspector, by);
     else
-        render_control_say(
+        live_render_say(
             inspector->control,
             "%s %s go through boxes or a path: %s draws them",
-            render_control_key(inspector->control, ACTION_LESS).text,
-            render_control_key(inspector->control, ACTION_MORE).text,
-            render_control_key(inspector->control, ACTION_DRAWING).text);
+            live_render_key(inspector->control, ACTION_LESS).text,
+            live_render_key(inspector->control, ACTION_MORE).text,
+            live_render_key(inspector->control, ACTION_DRAWING).text);
 }
 
 /* ---- saving ---- */
@@ -260,7 +260,7 @@ static bool has_picture(struct inspector *inspector)
     if (view_mode_sample(inspector->view_mode.kind) != SAMPLE_LIGHT ||
         render_progress(session_of(inspector)->engine.render).samples > 0)
         return true;
-    render_control_say(inspector->control, "nothing to save yet");
+    live_render_say(inspector->control, "nothing to save yet");
     return false;
 }
 
@@ -286,7 +286,7 @@ static void save_shown_frame(struct inspector *inspector)
         paint_all(inspector, &frame, &err))
         save_frame(inspector->control, &frame);
     else
-        render_control_say_error(inspector->control, err.text);
+        live_render_say_error(inspector->control, err.text);
     frame_free(&frame);
 }
 
@@ -302,7 +302,7 @@ void inspector_save_text(struct inspector *inspector)
         paint_all(inspector, &frame, &err))
         save_text(inspector->control, &frame, &style);
     else
-        render_control_say_error(inspector->control, err.text);
+        live_render_say_error(inspector->control, err.text);
     frame_free(&frame);
 }
 
@@ -321,10 +321,10 @@ void inspector_save_hdr(struct inspector *inspector)
     if (view_mode_sample(inspector->view_mode.kind) == SAMPLE_LIGHT)
         save_picture(inspector->control, "hdr");
     else
-        render_control_say(
+        live_render_say(
             inspector->control,
             "only light is saved as HDR: %s goes back to it",
-            render_control_key(inspector->control, ACTION_VIEW_BACK).text);
+            live_render_key(inspector->control, ACTION_VIEW_BACK).text);
 }
 
 /* ---- actions ---- */
@@ -336,10 +336,10 @@ void inspector_switch_filter(struct inspector *inspector)
 
     s->is_filtered = !s->is_filtered;
     if (s->is_filtered && inspector->control->is_live && !s->draft_has_surfaces)
-        render_control_restart(inspector->control);
-    render_control_say(inspector->control,
-                       s->is_filtered ? "the screen's picture is filtered"
-                                      : "the screen's picture is not filtered");
+        live_render_restart(inspector->control);
+    live_render_say(inspector->control,
+                    s->is_filtered ? "the screen's picture is filtered"
+                                   : "the screen's picture is not filtered");
     inspector->control->has_changed = true;
 }
 
@@ -349,13 +349,13 @@ static void show(struct inspector *inspector, enum show_kind kind)
     enum sample_kind before = s->sample;
     struct error err;
 
-    render_control_clear_message(inspector->control);
+    live_render_clear_message(inspector->control);
     if (!view_mode_set(&inspector->view_mode, kind, &err))
-        render_control_say_error(inspector->control, err.text);
+        live_render_say_error(inspector->control, err.text);
     s->sample = view_mode_sample(inspector->view_mode.kind);
     inspector->control->has_changed = true;
     if (inspector->control->is_live && s->sample != before)
-        render_control_restart(
+        live_render_restart(
             inspector->control); /* the film has samples of the old kind */
 }
 
@@ -391,7 +391,7 @@ void inspector_stop_drawing(struct inspector *inspector)
     inspector->drawing = INSPECTOR_NOTHING;
 }
 
-void inspector_init(struct inspector *inspector, struct render_control *control,
+void inspector_init(struct inspector *inspector, struct live_render *control,
                     struct screen *screen, struct pick_cursor *cursor)
 {
     *inspector = (struct inspector){.control = control,

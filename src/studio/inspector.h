@@ -20,7 +20,7 @@
 
 #include "inspect/path_record.h"
 #include "inspect/view_modes.h"
-#include "studio/pick_cursor.h"
+#include "studio/camera/pick_cursor.h"
 
 enum inspector_drawing {
     INSPECTOR_NOTHING,
@@ -32,7 +32,7 @@ enum inspector_drawing {
 };
 
 struct inspector {
-    struct render_control *control;
+    struct live_render *control;
     struct screen *screen;
     struct pick_cursor *cursor;
     struct view_mode view_mode;
@@ -51,7 +51,7 @@ struct inspector {
     bool has_table; /* the table of the drawing is in the window */
 };
 
-void inspector_init(struct inspector *inspector, struct render_control *control,
+void inspector_init(struct inspector *inspector, struct live_render *control,
                     struct screen *screen, struct pick_cursor *cursor);
 
 /* Fills a frame for the screen with the render in the current view mode and the

@@ -141,7 +141,7 @@ const struct window_rect *keys_bar_room(const struct keys_bar *bar,
                : NULL;
 }
 
-void keys_bar_draw(struct keys_bar *bar, const struct render_control *control,
+void keys_bar_draw(struct keys_bar *bar, const struct live_render *control,
                    struct screen *screen, enum keys_state state)
 {
     struct keymap_name names[HINTS_MAX];
@@ -157,7 +157,7 @@ void keys_bar_draw(struct keys_bar *bar, const struct render_control *control,
     for (int i = 0; i < HINTS_MAX && hints[state][i].does; i++) {
         const struct hint *h = &hints[state][i];
 
-        names[i] = render_control_key(control, h->action);
+        names[i] = live_render_key(control, h->action);
         list[i] = (struct key_hint){h->keys ? h->keys : names[i].text, h->does};
     }
     for (int row = -bar->key_rows; row < 0; row++) {

@@ -14,7 +14,7 @@
 #ifndef GLIM_KEYS_BAR_H
 #define GLIM_KEYS_BAR_H
 
-#include "studio/render_control.h"
+#include "session/live_render.h"
 #include "terminal/curses_windows.h"
 #include "terminal/screen.h"
 
@@ -62,7 +62,7 @@ const struct window_rect *keys_bar_room(const struct keys_bar *bar,
                                         struct window_rect *room);
 
 /* Draws the keys of a state, if it is another one than before. */
-void keys_bar_draw(struct keys_bar *bar, const struct render_control *control,
+void keys_bar_draw(struct keys_bar *bar, const struct live_render *control,
                    struct screen *screen, enum keys_state state);
 
 #endif

@@ -6,8 +6,8 @@
 
 #include "base/decimal.h"
 #include "base/file.h"
-#include "picture/color.h"
-#include "scene/textures.h"
+#include "image/color.h"
+#include "world/textures.h"
 
 /* Ks that a material gets when it becomes plastic; see MATERIAL_SPECULAR. */
 #define KS_DEFAULT 0.5

@@ -12,8 +12,8 @@
 #ifndef GLIM_MATERIAL_PARAMETERS_H
 #define GLIM_MATERIAL_PARAMETERS_H
 
-#include "scene/world.h"
 #include "studio/parameter_table.h"
+#include "world/world.h"
 
 #define MATERIAL_PARAMETERS 27
 

@@ -363,7 +363,7 @@ static const struct key_hint *hints_of(const struct editor_panel *p)
 
 static void add_hints(const struct editor_panel *p, struct sheet *s)
 {
-    struct keymap_name mode = render_control_key(p->control, ACTION_MODE);
+    struct keymap_name mode = live_render_key(p->control, ACTION_MODE);
     const struct key_hint to_live[] = {{mode.text, "live mode, to edit"},
                                        {"Esc", "close"},
                                        {NULL, NULL}};

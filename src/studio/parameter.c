@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/decimal.h"
-#include "picture/color.h"
+#include "image/color.h"
 #include "studio/parameter_table.h"
 
 /* Factor of a step on a scale whose step is a tenth of the value. */

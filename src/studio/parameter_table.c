@@ -6,9 +6,9 @@
 
 #include "base/decimal.h"
 #include "base/file.h"
-#include "light/daylight.h"
-#include "picture/color.h"
+#include "image/color.h"
 #include "studio/material_parameters.h"
+#include "world/light/daylight.h"
 
 /* ---- scales ---- */
 

@@ -15,13 +15,13 @@
 /* The same on a slow line, which the picture needs. */
 #define SLOW_NS UINT64_C(2000000000)
 
-static const struct backend *backend_of(const struct render_control *control)
+static const struct backend *backend_of(const struct live_render *control)
 {
     return render_backend(control->session->engine.render);
 }
 
 uint64_t progress_panel_next_ns(const struct progress_panel *panel,
-                                const struct render_control *control)
+                                const struct live_render *control)
 {
     bool changes =
         control->progress.state == RENDER_RUNNING || panel->due_ns == 0;
@@ -32,7 +32,7 @@ uint64_t progress_panel_next_ns(const struct progress_panel *panel,
 /* Measures the load of each thread since the last update. Loads are 0 if the
  * render is paused. */
 static void measure_loads(struct progress_panel *panel,
-                          const struct render_control *control, uint64_t now_ns,
+                          const struct live_render *control, uint64_t now_ns,
                           double *loads)
 {
     const struct backend *b = backend_of(control);
@@ -90,7 +90,7 @@ static void draw_in_bar(const struct render_progress *p, struct screen *screen,
 }
 
 void progress_panel_draw(struct progress_panel *panel,
-                         const struct render_control *control,
+                         const struct live_render *control,
                          struct screen *screen, const struct window_rect *bar,
                          uint64_t now_ns)
 {

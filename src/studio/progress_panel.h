@@ -13,8 +13,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "session/live_render.h"
 #include "terminal/screen.h"
-#include "studio/render_control.h"
 
 struct progress_panel {
     bool is_on;      /* over the picture */
@@ -27,12 +27,12 @@ struct progress_panel {
 /* Returns the time of the next update of a panel that is shown, or UINT64_MAX
  * if nothing will change. */
 uint64_t progress_panel_next_ns(const struct progress_panel *panel,
-                                const struct render_control *control);
+                                const struct live_render *control);
 
 /* Updates the text: in a bar beside or below the picture, as many lines as it
  * has (NULL: there is none), and in the window, which is opened first. */
 void progress_panel_draw(struct progress_panel *panel,
-                         const struct render_control *control,
+                         const struct live_render *control,
                          struct screen *screen, const struct window_rect *bar,
                          uint64_t now_ns);
 

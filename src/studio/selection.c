@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/mtl.h"
+#include "read/mtl.h"
 #include "terminal/xmalloc.h"
 
 static void find_first_tris(struct selection *s)

@@ -14,8 +14,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "scene/world.h"
 #include "session/edit.h"
+#include "world/world.h"
 
 enum selection_page { PAGE_MATERIALS, PAGE_OBJECTS, PAGE_LIGHT, PAGES };
 

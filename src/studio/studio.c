@@ -5,8 +5,8 @@
 #include <signal.h>
 
 #include "base/stop.h"
+#include "session/save.h"
 #include "studio/panel_draw.h"
-#include "studio/save_commands.h"
 
 /* ---- commands that concern several parts ---- */
 
@@ -29,7 +29,7 @@ void studio_set_live(struct studio *studio, bool is_live)
 {
     camera_control_stop(&studio->camera);
     inspector_leave(&studio->workspace.inspector);
-    render_control_set_live(&studio->control, is_live);
+    live_render_set_live(&studio->control, is_live);
     panel_draw(&studio->workspace.panel); /* only live mode edits */
 }
 
@@ -38,13 +38,13 @@ void studio_set_live(struct studio *studio, bool is_live)
 static bool would_lose_render(struct studio *studio)
 {
     return save_finish(&studio->control) &&
-           render_control_has_unsaved(&studio->control);
+           live_render_has_unsaved(&studio->control);
 }
 
 static void cancel(struct studio *studio)
 {
     if (!workspace_take_back_glyphs(&studio->workspace))
-        render_control_clear_message(&studio->control);
+        live_render_clear_message(&studio->control);
 }
 
 static void change_mode(struct studio *studio)
@@ -60,16 +60,16 @@ static void restart(struct studio *studio)
     if (would_lose_render(studio))
         question_ask(studio, QUESTION_RESTART);
     else
-        render_control_restart(&studio->control);
+        live_render_restart(&studio->control);
 }
 
 void studio_quit(struct studio *studio)
 {
     if (!save_finish(&studio->control))
         return;
-    if (render_control_has_unsaved(&studio->control))
+    if (live_render_has_unsaved(&studio->control))
         question_ask(studio, QUESTION_QUIT);
-    else if (render_control_has_unsaved_edit(&studio->control))
+    else if (live_render_has_unsaved_edit(&studio->control))
         question_ask(studio, QUESTION_EDIT);
     else
         studio_end(studio, 0);
@@ -85,9 +85,9 @@ static void switch_mouse(struct studio *studio)
     studio->has_mouse = !studio->has_mouse;
     camera_control_stop(&studio->camera);
     tty_set_mouse(studio->has_mouse);
-    render_control_say(&studio->control, studio->has_mouse
-                                             ? "mouse on: drag to look around"
-                                             : "mouse off");
+    live_render_say(&studio->control, studio->has_mouse
+                                          ? "mouse on: drag to look around"
+                                          : "mouse off");
 }
 
 /* ---- table ---- */
@@ -99,7 +99,7 @@ struct command {
     void (*camera)(struct camera_control *camera);
     void (*camera_by)(struct camera_control *camera, int by);
     void (*cursor)(struct pick_cursor *cursor);
-    void (*control)(struct render_control *control);
+    void (*control)(struct live_render *control);
     void (*inspector)(struct inspector *inspector);
     void (*inspector_by)(struct inspector *inspector, int by);
     void (*comparison)(struct comparison *comparison);
@@ -164,14 +164,14 @@ static const struct command commands[ACTIONS] = {
     [ACTION_MORE] = {.inspector_by = inspector_change, .by = 1},
     [ACTION_PANEL] = {.workspace = workspace_open_panel},
     [ACTION_MODE] = {.studio = change_mode},
-    [ACTION_START] = {.control = render_control_start_or_halt},
-    [ACTION_STEP] = {.control = render_control_step},
+    [ACTION_START] = {.control = live_render_start_or_halt},
+    [ACTION_STEP] = {.control = live_render_step},
     [ACTION_RESTART] = {.studio = restart},
     [ACTION_SAVE] = {.inspector = inspector_save},
     [ACTION_SAVE_TEXT] = {.inspector = inspector_save_text},
     [ACTION_SAVE_LINEAR] = {.inspector = inspector_save_hdr},
-    [ACTION_BACKEND] = {.control = render_control_switch_backend},
-    [ACTION_RELOAD] = {.control = render_control_reload},
+    [ACTION_BACKEND] = {.control = live_render_switch_backend},
+    [ACTION_RELOAD] = {.control = live_render_reload},
     [ACTION_COLORS] = {.workspace = workspace_next_colors},
     [ACTION_GLYPHS] = {.workspace = workspace_next_glyphs},
     [ACTION_METER] = {.workspace = workspace_switch_progress},
@@ -200,7 +200,7 @@ static void run_settled(struct studio *studio, const struct command *c)
 {
     struct workspace *workspace = &studio->workspace;
 
-    render_control_restart_if_outdated(&studio->control);
+    live_render_restart_if_outdated(&studio->control);
     if (c->control)
         c->control(&studio->control);
     else if (c->inspector)
@@ -273,7 +273,7 @@ static void go_live(struct studio *studio)
 
 static void restart_unasked(struct studio *studio)
 {
-    render_control_restart(&studio->control);
+    live_render_restart(&studio->control);
 }
 
 static void save_render(struct studio *studio)

@@ -18,9 +18,9 @@
 #include <stdint.h>
 
 #include "session/keymap.h"
+#include "session/live_render.h"
 #include "studio/autosave.h"
-#include "studio/camera_control.h"
-#include "studio/render_control.h"
+#include "studio/camera/camera_control.h"
 #include "studio/workspace.h"
 #include "terminal/tty_input.h"
 
@@ -36,7 +36,7 @@ enum question {
 };
 
 struct studio {
-    struct render_control control;
+    struct live_render control;
     struct camera_control camera;
     struct workspace workspace;
     struct autosave autosave;

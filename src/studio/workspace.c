@@ -5,10 +5,10 @@
 #include <time.h>
 
 #include "base/clock.h"
-#include "filter/screen_filter.h"
+#include "film/filter/screen_filter.h"
+#include "session/live_render.h"
 #include "studio/panel_draw.h"
 #include "studio/progress_text.h"
-#include "studio/render_control.h"
 #include "studio/status_line.h"
 #include "terminal/screen.h"
 
@@ -79,7 +79,7 @@ static bool is_current(const struct session *s, const struct film *draft)
 /* Sets the draft's size for the present layout of the screen, which the filter
  * decides when it is on. The present draft is resampled until the next restart;
  * a young picture restarts at once. */
-static void screen_draft_fit(struct render_control *control,
+static void screen_draft_fit(struct live_render *control,
                              const struct screen *screen)
 {
     struct session *s = control->session;
@@ -91,7 +91,7 @@ static void screen_draft_fit(struct render_control *control,
                                  &s->draft_width, &s->draft_height);
     if (control->is_live && !control->is_halted && s->draft_has_surfaces &&
         young && !screen->is_too_small && !is_current(s, young))
-        render_control_restart(control);
+        live_render_restart(control);
 }
 
 /* ---- parts ---- */
@@ -178,7 +178,7 @@ void workspace_layout(struct workspace *workspace)
     if (!screen_layout(&workspace->screen, film->width, film->height, &err) ||
         !resize_frame(workspace, &err)) {
         workspace->screen.is_too_small = true; /* so nothing is drawn */
-        render_control_say_error(workspace->control, err.text);
+        live_render_say_error(workspace->control, err.text);
     }
     keys_bar_lay_out(&workspace->keys_bar, &workspace->screen);
     panel_draw(&workspace->panel);
@@ -186,7 +186,7 @@ void workspace_layout(struct workspace *workspace)
     open_window(workspace); /* the layout closed it */
 }
 
-void workspace_init(struct workspace *workspace, struct render_control *control,
+void workspace_init(struct workspace *workspace, struct live_render *control,
                     struct camera_control *camera)
 {
     *workspace = (struct workspace){.control = control, .camera = camera};
@@ -275,8 +275,8 @@ void workspace_next_drawing(struct workspace *workspace)
 void workspace_next_colors(struct workspace *workspace)
 {
     term_caps_next_palette(&workspace->screen.display);
-    render_control_say(workspace->control, "%s",
-                       palette_name(workspace->screen.display.palette));
+    live_render_say(workspace->control, "%s",
+                    palette_name(workspace->screen.display.palette));
     workspace_layout(workspace);
 }
 
@@ -332,7 +332,7 @@ void workspace_help_key(struct workspace *workspace, int key)
 
 static bool says_filtered(const struct workspace *workspace, uint64_t now_ns)
 {
-    const struct render_control *control = workspace->control;
+    const struct live_render *control = workspace->control;
 
     return control->session->is_filtered &&
            (workspace->inspector.view_mode.is_filtered ||
@@ -342,13 +342,13 @@ static bool says_filtered(const struct workspace *workspace, uint64_t now_ns)
 
 static void update_status(struct workspace *workspace, uint64_t now_ns)
 {
-    const struct render_control *control = workspace->control;
+    const struct live_render *control = workspace->control;
     const struct film *film = film_of(workspace);
     const struct backend *backend =
         render_backend(control->session->engine.render);
-    struct keymap_name load = render_control_key(control, ACTION_RELOAD);
-    struct keymap_name help = render_control_key(control, ACTION_HELP);
-    struct keymap_name quit = render_control_key(control, ACTION_QUIT);
+    struct keymap_name load = live_render_key(control, ACTION_RELOAD);
+    struct keymap_name help = live_render_key(control, ACTION_HELP);
+    struct keymap_name quit = live_render_key(control, ACTION_QUIT);
     const char *legend = workspace->comparison.legend[0] != '\0'
                              ? workspace->comparison.legend
                              : workspace->inspector.view_mode.legend;
@@ -485,7 +485,7 @@ static void paint(struct workspace *workspace)
 static enum pixel_graphics_pace pace_of(const struct workspace *workspace,
                                         uint64_t now_ns)
 {
-    const struct render_control *control = workspace->control;
+    const struct live_render *control = workspace->control;
 
     if (!control->is_live || control->progress.state != RENDER_RUNNING)
         return PIXEL_GRAPHICS_RESTS;
@@ -571,7 +571,7 @@ static enum screen_result send(struct workspace *workspace, bool has_frame,
 /* Finds what the person is doing, the innermost state first. */
 static enum keys_state keys_state(const struct workspace *workspace)
 {
-    const struct render_control *control = workspace->control;
+    const struct live_render *control = workspace->control;
 
     if (workspace->screen.has_cursor)
         return KEYS_CURSOR;
@@ -617,7 +617,7 @@ bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
     struct screen *screen = &workspace->screen;
     bool is_running = workspace->control->progress.state == RENDER_RUNNING;
     bool is_new = workspace->frame_ns <= now_ns;
-    bool shows = !render_control_awaits_picture(workspace->control) &&
+    bool shows = !live_render_awaits_picture(workspace->control) &&
                  !workspace->is_settled && frame_due_ns(workspace) <= now_ns;
     uint64_t begin_ns = used_ns();
     struct window_rect room;
@@ -635,7 +635,7 @@ bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
         !frame_pacing_may_send(&screen->pace))
         return true;
     if (!shows && now_ns < workspace->layout_ns + LAYOUT_NS &&
-        render_control_awaits_picture(workspace->control))
+        live_render_awaits_picture(workspace->control))
         return true;
     if (shows && is_new) {
         workspace->has_frame = true;
@@ -661,7 +661,7 @@ void workspace_look(struct workspace *workspace)
     uint64_t before_ns = workspace->control->restarted_ns;
 
     inspector_step(&workspace->inspector);
-    render_control_update(workspace->control);
+    live_render_update(workspace->control);
     if (film->width != workspace->width_px ||
         film->height != workspace->height_px)
         workspace_layout(workspace);
@@ -689,12 +689,12 @@ static uint64_t next_look_ns(const struct workspace *workspace, uint64_t now_ns)
 
 uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns)
 {
-    const struct render_control *control = workspace->control;
+    const struct live_render *control = workspace->control;
     uint64_t next = control->files_ns;
 
-    if (render_control_awaits_picture(control))
+    if (live_render_awaits_picture(control))
         next = earlier(next, next_look_ns(workspace, now_ns));
-    else if (render_control_is_outdated(control))
+    else if (live_render_is_outdated(control))
         next = now_ns;
     else if (!workspace->is_settled &&
              frame_pacing_may_send(&workspace->screen.pace))

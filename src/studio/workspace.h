@@ -19,7 +19,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "studio/camera_control.h"
+#include "session/live_render.h"
+#include "studio/camera/camera_control.h"
 #include "studio/comparison.h"
 #include "studio/editor_panel.h"
 #include "studio/glyph_choice.h"
@@ -27,11 +28,10 @@
 #include "studio/inspector.h"
 #include "studio/keys_bar.h"
 #include "studio/progress_panel.h"
-#include "studio/render_control.h"
 #include "terminal/screen.h"
 
 struct workspace {
-    struct render_control *control;
+    struct live_render *control;
     struct camera_control *camera;
     struct screen screen;
     struct frame frame; /* of the size that the screen wants */
@@ -60,7 +60,7 @@ struct workspace {
  * terminal has now. Call it before tty_open(). */
 void workspace_expect(struct session *s);
 
-void workspace_init(struct workspace *workspace, struct render_control *control,
+void workspace_init(struct workspace *workspace, struct live_render *control,
                     struct camera_control *camera);
 
 /* After tty_open(). */

@@ -13,7 +13,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "picture/frame.h"
+#include "image/frame.h"
 #include "terminal/dither.h"
 #include "terminal/glyphs.h"
 

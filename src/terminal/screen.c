@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "picture/frame.h"
+#include "image/frame.h"
 #include "terminal/gauge.h"
 #include "terminal/kitty.h"
 

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
-#include "opencl/backend_cl.h"
-#include "opencl/cl_environment.h"
+#include "render/opencl/backend_cl.h"
+#include "render/opencl/cl_environment.h"
 #include "session/session.h"
 #include "tests/bench/median.h"
 

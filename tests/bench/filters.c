@@ -11,7 +11,7 @@
 #include <time.h>
 
 #include "base/clock.h"
-#include "filter/screen_filter.h"
+#include "film/filter/screen_filter.h"
 #include "session/session.h"
 
 #define ROUNDS 15

@@ -11,10 +11,10 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "opencl/backend_cl.h"
-#include "opencl/cl_environment.h"
-#include "terminal/xmalloc.h"
+#include "render/opencl/backend_cl.h"
+#include "render/opencl/cl_environment.h"
 #include "session/session.h"
+#include "terminal/xmalloc.h"
 
 static int compare(const void *a, const void *b)
 {

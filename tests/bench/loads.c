@@ -13,7 +13,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
 #include "tests/bench/median.h"
 
 #define ROUNDS  7

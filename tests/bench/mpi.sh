@@ -77,7 +77,7 @@ echo "packing, sending and adding: $exchange ns a pixel of a worker"
 
 # The share of the time in which ranks of 16 threads render 1920x1080 pixels.
 # A pass has 16 samples for each rank, and so many slices that each rank has 8
-# bands of 2 rows (src/cluster/band_plan.c). Rank 0 receives and adds the slices
+# bands of 2 rows (src/render/cluster/band_plan.c). Rank 0 receives and adds the slices
 # with one thread, which is taken as the whole cost above, 45 bytes a pixel come
 # over 10 Gbit/s, and ranks wait for half a last band. Rendering, adding and the
 # line overlap.

@@ -10,9 +10,9 @@
 #include <time.h>
 
 #include "base/clock.h"
+#include "session/session.h"
 #include "terminal/cells.h"
 #include "terminal/xmalloc.h"
-#include "session/session.h"
 
 #define COLS 200
 #define ROWS 60

@@ -8,8 +8,8 @@
 #ifndef TESTS_RENDER_CROP_H
 #define TESTS_RENDER_CROP_H
 
-#include "scene/world.h"
 #include "session/session.h"
+#include "world/world.h"
 
 /* More features than the scene's select another kernel; the light is the same.
  */

@@ -11,8 +11,8 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "light/lights.h"
-#include "light/sky_table.h"
+#include "world/light/lights.h"
+#include "world/light/sky_table.h"
 
 #include "kernels/light.h"
 #include "kernels/rng.h"

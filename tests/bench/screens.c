@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "picture/film.h"
+#include "film/film.h"
 #include "scene/view.h"
 #include "terminal/cells.h"
 #include "terminal/xmalloc.h"

@@ -12,8 +12,8 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
-#include "filter/film_filter.h"
-#include "picture/image_write.h"
+#include "film/filter/film_filter.h"
+#include "film/image_write.h"
 #include "session/session.h"
 #include "terminal/xmalloc.h"
 #include "tests/bench/render_crop.h"

@@ -4,10 +4,10 @@
  * be any bytes: they give a scene that can be rendered, or one line.
  */
 #include "fuzz_tris.h"
-#include "formats/mesh_finish.h"
-#include "gltf/gltf_draco.h"
-#include "gltf/gltf_material.h"
-#include "gltf/gltf_mesh.h"
+#include "read/gltf/gltf_draco.h"
+#include "read/gltf/gltf_material.h"
+#include "read/gltf/gltf_mesh.h"
+#include "read/mesh_finish.h"
 
 /* Two packed primitives: one with all attributes, some of them sparse, and a
  * strip. */

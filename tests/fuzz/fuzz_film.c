@@ -7,9 +7,9 @@
 #include <math.h>
 
 #include "base/hash.h"
+#include "film/film_error.h"
+#include "film/film_file.h"
 #include "fuzz.h"
-#include "picture/film_error.h"
-#include "picture/film_file.h"
 
 static void check_picture(struct film *film)
 {

@@ -4,8 +4,8 @@
  * rest and posed by an animation. Its memory is at most a multiple of the
  * file's size: libFuzzer limits it.
  */
-#include "gltf/gltf.h"
 #include "fuzz_tris.h"
+#include "read/gltf/gltf.h"
 
 static bool parse_posed(struct scene *scene, const char *bytes,
                         size_t size_bytes, const char *path,

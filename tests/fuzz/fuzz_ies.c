@@ -2,8 +2,8 @@
 /* IES text. Profiles are finite, and some light is in them. */
 #include <math.h>
 
-#include "formats/ies.h"
 #include "fuzz.h"
+#include "read/ies.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

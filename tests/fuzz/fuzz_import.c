@@ -4,7 +4,7 @@
  * be any bytes: they give a scene that can be rendered, or one line.
  */
 #include "fuzz_tris.h"
-#include "import/import_stream.h"
+#include "read/child/import_stream.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

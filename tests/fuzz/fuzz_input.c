@@ -3,8 +3,8 @@
  * Keys, mouse reports and answers of terminals. The events are the same whether
  * the bytes arrive at once or in pieces, whose size is the first byte.
  */
-#include "terminal/tty_input.h"
 #include "fuzz.h"
+#include "terminal/tty_input.h"
 
 /* Longer sequences are dropped at the end of a piece, so pieces change the
  * events there. */

@@ -5,8 +5,8 @@
  */
 #include <math.h>
 
-#include "formats/mtl.h"
 #include "fuzz.h"
+#include "read/mtl.h"
 
 static int is_light(struct vec3 c)
 {

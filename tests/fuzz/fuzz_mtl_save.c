@@ -5,11 +5,11 @@
  * edits, three bytes are an edit, and the rest is the file.
  */
 #include "base/lexer.h"
+#include "fuzz.h"
+#include "read/mtl.h"
 #include "scene/material.h"
-#include "formats/mtl.h"
 #include "session/session_save.h"
 #include "studio/parameter.h"
-#include "fuzz.h"
 
 #define EDITS_MAX 16
 

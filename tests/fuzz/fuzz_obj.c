@@ -4,9 +4,9 @@
  * names in the files, and everything in it can be rendered. fuzz_put_scene()
  * describes the input.
  */
-#include "scene/world.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
 #include "fuzz_tris.h"
+#include "world/world.h"
 
 static void check_textures(const struct host_world *host,
                            const struct scene *scene)

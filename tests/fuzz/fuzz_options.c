@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /* The command line: each line of the input is an argument. */
-#include "session/command_line.h"
 #include "fuzz.h"
+#include "session/command_line.h"
 
 #define ARGUMENTS_MAX 64
 

@@ -3,8 +3,8 @@
  * A PLY file of any bytes gives a scene that can be rendered, or one line. Its
  * memory is at most a multiple of the file's size: libFuzzer limits it.
  */
-#include "formats/ply.h"
 #include "fuzz_tris.h"
+#include "read/ply.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

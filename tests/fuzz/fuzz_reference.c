@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "base/file.h"
-#include "measure/reference_info.h"
+#include "command/reference_info.h"
 #include "fuzz.h"
 
 /* Numbers are written with six digits. */

@@ -3,8 +3,8 @@
  * A scene is opened with its view, its sky and all other files, and rendered
  * with one sample per pixel. fuzz_put_scene() describes the input.
  */
-#include "session/session.h"
 #include "fuzz.h"
+#include "session/session.h"
 
 static void render(struct session *s)
 {

@@ -3,8 +3,8 @@
  * View files: what was read is written to a new file and over the old one, and
  * read again from both. All three views are equal.
  */
-#include "formats/view_file.h"
 #include "fuzz.h"
+#include "read/view_file.h"
 
 static int is_same_text(const char *a, const char *b)
 {

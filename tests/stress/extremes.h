@@ -21,14 +21,14 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "picture/film_error.h"
-#include "filter/film_filter.h"
-#include "scene/world.h"
+#include "film/film_error.h"
+#include "film/filter/film_filter.h"
 #include "render/cpu_dispatch.h"
-#include "opencl/backend_cl.h"
-#include "opencl/cl_environment.h"
+#include "render/opencl/backend_cl.h"
+#include "render/opencl/cl_environment.h"
 #include "session/session.h"
 #include "tests/unit/check.h"
+#include "world/world.h"
 
 #define EXTREMES_RENDERERS 5
 #define EXTREMES_SIDE      8

@@ -22,7 +22,7 @@
 
 #include "base/clock.h"
 #include "base/thread_pool.h"
-#include "filter/film_filter.h"
+#include "film/filter/film_filter.h"
 #include "rows.h"
 #include "session/session.h"
 #include "terminal/xmalloc.h"

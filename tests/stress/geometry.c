@@ -8,8 +8,8 @@
  *
  * usage: geometry [opencl]
  */
-#include "tests/unit/check.h"
 #include "lamp.h"
+#include "tests/unit/check.h"
 
 #define ROOM "Kd .5 .5 .5\nKe .5 .5 .5"
 

@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "tests/unit/regions.h"
 #include "rows.h"
+#include "tests/unit/regions.h"
 
 #define SEEDS   6
 #define SIDE_PX 256

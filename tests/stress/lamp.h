@@ -8,8 +8,8 @@
 #ifndef TESTS_LAMP_H
 #define TESTS_LAMP_H
 
-#include "tests/unit/lambert.h"
 #include "stress_scene.h"
+#include "tests/unit/lambert.h"
 
 /* Corners of the lamp in the plane y = 0.7, in put_quad()'s order: z, x. */
 static const double lamp_lo[2] = {-0.3, -0.4}, lamp_hi[2] = {0.3, 0.4};

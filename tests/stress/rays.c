@@ -16,7 +16,7 @@
 #include "tests/unit/brute.h"
 #include "tests/unit/mesh.h"
 
-#include "bvh/bvh8_traverse.h"
+#include "world/bvh/bvh8_traverse.h"
 #include "kernels/surface_point.h"
 
 /* An item of work is this many rays with a seed of its own. */

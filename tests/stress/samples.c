@@ -4,13 +4,13 @@
  *
  * usage: samples [opencl]
  */
+#include "stress_scene.h"
 #include "tests/unit/mesh.h"
 #include "tests/unit/sky_pdf.h"
-#include "stress_scene.h"
 
-#include "light/lights.h"
-#include "light/sky_table.h"
-#include "picture/color.h"
+#include "image/color.h"
+#include "world/light/lights.h"
+#include "world/light/sky_table.h"
 #include "kernels/roulette.h"
 #include "kernels/traverse.h"
 

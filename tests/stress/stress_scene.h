@@ -23,15 +23,15 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "scene/world.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
 #include "render/cpu_dispatch.h"
+#include "render/opencl/backend_cl.h"
+#include "render/opencl/cl_environment.h"
 #include "render/render_loop.h"
-#include "opencl/backend_cl.h"
-#include "opencl/cl_environment.h"
-#include "terminal/xmalloc.h"
 #include "rows.h"
+#include "terminal/xmalloc.h"
 #include "tests/unit/folder.h"
+#include "world/world.h"
 
 #define SEEDS   12
 #define T_LIMIT 9.4

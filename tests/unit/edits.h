@@ -10,7 +10,7 @@
 
 #include <stdlib.h>
 
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
 #include "session/edit.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/check.h"

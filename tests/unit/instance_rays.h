@@ -15,9 +15,9 @@
 
 #include <stdlib.h>
 
-#include "scene/world.h"
 #include "tests/unit/brute.h"
 #include "tests/unit/instanced.h"
+#include "world/world.h"
 
 #define GROUP 8
 

@@ -14,8 +14,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/mtl.h"
-#include "formats/obj.h"
+#include "read/mtl.h"
+#include "read/obj.h"
 #include "tests/unit/check.h"
 #include "kernels/vec.h"
 

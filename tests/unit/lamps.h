@@ -12,9 +12,9 @@
 
 #include <math.h>
 
-#include "light/lights.h"
 #include "tests/unit/check.h"
 #include "tests/unit/mesh.h"
+#include "world/light/lights.h"
 #include "kernels/light.h"
 #include "kernels/rng.h"
 

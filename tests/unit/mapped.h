@@ -13,9 +13,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "scene/world.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
 #include "tests/unit/files.h"
+#include "world/world.h"
 
 #include "kernels/traverse.h"
 

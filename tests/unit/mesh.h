@@ -12,8 +12,8 @@
 
 #include <stdlib.h>
 
-#include "scene/world.h"
 #include "tests/unit/check.h"
+#include "world/world.h"
 #include "kernels/hit.h"
 
 #define MESH_MATERIALS 8

@@ -11,8 +11,8 @@
 
 #include <stdlib.h>
 
-#include "load/scene_load.h"
-#include "studio/surfaces.h"
+#include "engine/scene_load.h"
+#include "studio/camera/surfaces.h"
 #include "tests/unit/check.h"
 
 struct room {

@@ -16,9 +16,9 @@
 
 #include <math.h>
 
-#include "light/lights.h"
-#include "light/sky_table.h"
 #include "tests/unit/mesh.h"
+#include "world/light/lights.h"
+#include "world/light/sky_table.h"
 
 #include "tests/unit/paths.h"
 

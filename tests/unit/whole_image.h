@@ -8,7 +8,7 @@
 #ifndef TESTS_WHOLE_IMAGE_H
 #define TESTS_WHOLE_IMAGE_H
 
-#include "picture/image_read.h"
+#include "image/image_read.h"
 
 static inline bool image_read_8bit(struct image *image, const char *path,
                                    struct error *err)

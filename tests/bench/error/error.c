@@ -21,12 +21,12 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "filter/film_filter.h"
-#include "scene/world.h"
-#include "measure/chart.h"
+#include "command/chart.h"
+#include "film/filter/film_filter.h"
+#include "reference.h"
 #include "terminal/xmalloc.h"
 #include "tests/bench/median.h"
-#include "reference.h"
+#include "world/world.h"
 
 #define POINTS     7 /* 1 to 64 samples a pixel */
 #define ROUNDS_MAX MEDIAN_MAX

@@ -8,12 +8,12 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "measure/picture_error.h"
-#include "measure/reference_info.h"
-#include "picture/image_write.h"
-#include "scene/world.h"
+#include "command/picture_error.h"
+#include "command/reference_info.h"
+#include "film/image_write.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/whole_image.h"
+#include "world/world.h"
 
 #define HALF_SPP 1024
 

@@ -15,8 +15,8 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "terminal/xmalloc.h"
 #include "scenes/mesh.h"
+#include "terminal/xmalloc.h"
 
 static const char *folder;
 

@@ -3,7 +3,7 @@
  * struct. */
 #include "racer.h"
 
-#include "bvh/bvh8_traverse.h"
+#include "world/bvh/bvh8_traverse.h"
 
 #ifndef RACER
 #define RACER racer_plain

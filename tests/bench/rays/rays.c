@@ -19,11 +19,11 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/thread_pool.h"
-#include "bvh/bvh8.h"
-#include "bvh/bvh_reinsert.h"
 #include "render/cpu_dispatch.h"
 #include "terminal/xmalloc.h"
 #include "tests/bench/median.h"
+#include "world/bvh/bvh8.h"
+#include "world/bvh/bvh_reinsert.h"
 #include "kernels/instance.h"
 
 #define REPEATS     7

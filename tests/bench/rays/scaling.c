@@ -13,12 +13,12 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/thread_pool.h"
-#include "bvh/bvh8.h"
 #include "racer.h"
 #include "sets.h"
 #include "shapes.h"
 #include "terminal/xmalloc.h"
 #include "tests/bench/median.h"
+#include "world/bvh/bvh8.h"
 
 #define REPEATS 5
 

@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include "base/memory.h"
-#include "formats/mtl.h"
-#include "formats/view_file.h"
-#include "load/scene_load.h"
-#include "scene/world.h"
+#include "engine/scene_load.h"
+#include "read/mtl.h"
+#include "read/view_file.h"
 #include "terminal/xmalloc.h"
+#include "world/world.h"
 #include "kernels/rng.h"
 
 /* Number of octaves of a terrain's height. */

@@ -11,7 +11,7 @@
 #ifndef RAYS_SHAPES_H
 #define RAYS_SHAPES_H
 
-#include "scene/world.h"
+#include "world/world.h"
 
 #define SHAPES 6
 

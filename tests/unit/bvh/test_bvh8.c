@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /* This file is built for several instruction sets; ISA is the name of the
  * set. */
-#include "bvh/bvh8_traverse.h"
 #include "render/cpu_dispatch.h"
+#include "world/bvh/bvh8_traverse.h"
 
 #include "tests/unit/trees.h"
 

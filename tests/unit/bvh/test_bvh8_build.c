@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bvh/bvh8_traverse.h"
+#include "world/bvh/bvh8_traverse.h"
 
 #include "tests/unit/many.h"
 

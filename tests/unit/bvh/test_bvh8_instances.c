@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "bvh/bvh8_traverse.h"
 #include "render/cpu_dispatch.h"
+#include "world/bvh/bvh8_traverse.h"
 
 #include "tests/unit/instance_rays.h"
 

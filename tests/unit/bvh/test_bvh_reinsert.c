@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/unit/check.h"
 
-#include "bvh/bvh_reinsert.h"
+#include "world/bvh/bvh_reinsert.h"
 #include "kernels/traverse.h"
 
 #include <math.h>

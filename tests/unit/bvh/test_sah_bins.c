@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bvh/sah_bins.h"
+#include "world/bvh/sah_bins.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bvh/sah_splitter.h"
+#include "world/bvh/sah_splitter.h"
 
 #include "tests/unit/check.h"
 #include "tests/unit/many.h"

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cluster/band_answer.h"
-#include "picture/film_merge.h"
+#include "film/film_merge.h"
+#include "render/cluster/band_answer.h"
 #include "render/cpu_dispatch.h"
 
 #define WIDTH  37

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "cluster/band_plan.h"
+#include "render/cluster/band_plan.h"
 
 #define WIDTH 5
 

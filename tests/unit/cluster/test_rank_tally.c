@@ -8,7 +8,7 @@
 #include <time.h>
 
 #include "base/clock.h"
-#include "cluster/rank_tally.h"
+#include "render/cluster/rank_tally.h"
 
 #define MS_NS UINT64_C(1000000)
 

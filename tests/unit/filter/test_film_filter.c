@@ -9,7 +9,7 @@
 #include "tests/unit/check.h"
 
 #include "base/clock.h"
-#include "filter/film_filter.h"
+#include "film/filter/film_filter.h"
 #include "session/session.h"
 
 #define WIDTH  96

@@ -8,8 +8,8 @@
 
 #include "tests/unit/check.h"
 
-#include "filter/filter.h"
-#include "filter/filter_dispatch.h"
+#include "film/filter/filter.h"
+#include "film/filter/filter_dispatch.h"
 
 /* A picture in memory. */
 struct picture {

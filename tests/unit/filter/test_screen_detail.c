@@ -9,8 +9,8 @@
 
 #include "tests/unit/check.h"
 
-#include "filter/filter_dispatch.h"
-#include "filter/screen_detail.h"
+#include "film/filter/filter_dispatch.h"
+#include "film/filter/screen_detail.h"
 
 #define WIDTH  96
 #define HEIGHT 60

@@ -10,7 +10,7 @@
 
 #include "tests/unit/check.h"
 
-#include "filter/screen_filter.h"
+#include "film/filter/screen_filter.h"
 
 #define WIDTH  64
 #define HEIGHT 48

@@ -2,7 +2,7 @@
 /*
  * test_gltf_animation.c - poses against closed forms
  */
-#include "gltf/gltf_animation.h"
+#include "read/gltf/gltf_animation.h"
 
 #include <math.h>
 #include <stdlib.h>

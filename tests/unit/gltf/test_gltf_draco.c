@@ -6,16 +6,16 @@
  * triangles, bit for bit. This test is the program of the copies that unpack:
  * see main().
  */
-#include "gltf/gltf_draco.h"
+#include "read/gltf/gltf_draco.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "base/file.h"
-#include "gltf/draco_stream.h"
-#include "import/draco_child.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
+#include "read/child/draco_child.h"
+#include "read/gltf/draco_stream.h"
 #include "tests/unit/files.h"
 #include "tests/unit/gltf/draco_encode.h"
 

@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "formats/view_file.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
+#include "read/view_file.h"
 #include "tests/unit/files.h"
 
 struct opened {

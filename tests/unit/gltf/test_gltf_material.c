@@ -8,9 +8,9 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "formats/mtl.h"
-#include "formats/mtl_save.h"
-#include "gltf/gltf_material.h"
+#include "read/gltf/gltf_material.h"
+#include "read/mtl.h"
+#include "read/mtl_save.h"
 #include "tests/unit/files.h"
 #include "tests/unit/shared.h"
 

@@ -12,9 +12,9 @@
 #include <unistd.h>
 
 #include "base/file.h"
-#include "gltf/gltf_draco.h"
-#include "import/draco_child.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
+#include "read/child/draco_child.h"
+#include "read/gltf/gltf_draco.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/shared.h"
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
 #include "tests/unit/files.h"
 #include "tests/unit/shared.h"
 

@@ -6,12 +6,12 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
-#include "bvh/bvh.h"
 #include "inspect/aov_picture.h"
 #include "inspect/view_modes.h"
 #include "tests/unit/files.h"
 #include "tests/unit/folder.h"
 #include "tests/unit/instanced.h"
+#include "world/bvh/bvh.h"
 
 #define SIDE 16
 

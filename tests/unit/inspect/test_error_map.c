@@ -7,7 +7,7 @@
 #include <math.h>
 #include <unistd.h>
 
-#include "picture/image_read.h"
+#include "image/image_read.h"
 #include "inspect/error_map.h"
 #include "tests/unit/files.h"
 

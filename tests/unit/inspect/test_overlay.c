@@ -8,9 +8,9 @@
 
 #include <math.h>
 
+#include "image/frame.h"
 #include "inspect/false_color.h"
 #include "inspect/overlay.h"
-#include "picture/frame.h"
 #include "render/projection.h"
 #include "kernels/camera.h"
 

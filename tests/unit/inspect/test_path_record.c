@@ -9,11 +9,11 @@
 #include <math.h>
 
 #include "base/clock.h"
-#include "scene/world.h"
-#include "session/session.h"
 #include "inspect/path_record.h"
 #include "inspect/traversal_cost.h"
+#include "session/session.h"
 #include "tests/unit/paths.h"
+#include "world/world.h"
 
 #define SIDE 24
 

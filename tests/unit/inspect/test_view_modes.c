@@ -14,7 +14,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
-#include "picture/film_error.h"
+#include "film/film_error.h"
 #include "inspect/error_map.h"
 #include "inspect/view_modes.h"
 #include "tests/unit/files.h"

@@ -10,7 +10,7 @@
 #include "tests/unit/lambert.h"
 #include "tests/unit/truth.h"
 
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
 
 enum { GLASS, LAMP, FLOOR };
 

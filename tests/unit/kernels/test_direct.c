@@ -9,10 +9,10 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "light/sky_table.h"
-#include "scene/world.h"
 #include "session/session.h"
 #include "tests/unit/check.h"
+#include "world/light/sky_table.h"
+#include "world/world.h"
 
 static const char *const scenes[] = {
     "scenes/glass_mirror.obj", "scenes/cornell.obj",  "scenes/materials.obj",

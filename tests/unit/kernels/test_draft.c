@@ -12,8 +12,8 @@
 #include "tests/unit/mesh.h"
 
 #include "base/clock.h"
-#include "scene/world.h"
 #include "session/session.h"
+#include "world/world.h"
 #include "kernels/camera.h"
 #include "kernels/rng.h"
 

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "opencl/cl_environment.h"
-#include "opencl/cl_machine.h"
-#include "opencl/cl_source.h"
+#include "render/opencl/cl_environment.h"
+#include "render/opencl/cl_machine.h"
+#include "render/opencl/cl_source.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/check.h"
 #include "kernels/camera.h"

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "light/lights.h"
-#include "light/texture_power.h"
+#include "world/light/lights.h"
+#include "world/light/texture_power.h"
 #include "kernels/light.h"
 
 #include "tests/unit/check.h"

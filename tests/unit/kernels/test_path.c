@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-#include "light/lights.h"
 #include "tests/unit/paths.h"
+#include "world/light/lights.h"
 
 /* Mean radiance of n paths along one ray, and its standard error. */
 struct estimate {

@@ -7,7 +7,7 @@
 #include <complex.h>
 #include <math.h>
 
-#include "picture/color.h"
+#include "image/color.h"
 #include "tests/unit/surfaces.h"
 
 /* Amplitudes that a face reflects: Fresnel's equations for the field across

@@ -5,10 +5,10 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "scene/world.h"
 #include "session/session.h"
 #include "tests/unit/files.h"
 #include "tests/unit/truth.h"
+#include "world/world.h"
 
 #define SPP 64
 

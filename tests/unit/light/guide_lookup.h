@@ -7,7 +7,7 @@
 #ifndef TESTS_GUIDE_LOOKUP_H
 #define TESTS_GUIDE_LOOKUP_H
 
-#include "light/path_guide.h"
+#include "world/light/path_guide.h"
 
 #include "kernels/guide.h"
 

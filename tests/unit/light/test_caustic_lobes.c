@@ -3,9 +3,9 @@
  * test_caustic_lobes.c - caustics of spheres and discs: their means and
  * directions against closed forms, and the densities of lobes
  */
-#include "light/path_guide.h"
 #include "tests/bench/median.h"
 #include "tests/unit/truth.h"
+#include "world/light/path_guide.h"
 #include "kernels/caustic_lobes.h"
 
 #define ALBEDO 0.5

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "light/daylight.h"
+#include "world/light/daylight.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "light/lights.h"
+#include "world/light/lights.h"
 
 #include "tests/unit/check.h"
 #include "tests/unit/chi_square.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "light/lights.h"
+#include "world/light/lights.h"
 
 #include <math.h>
 
-#include "light/sky_table.h"
+#include "world/light/sky_table.h"
 #include "kernels/light.h"
 
 #include "tests/unit/check.h"

@@ -3,9 +3,9 @@
  * test_path_guide.c - sampling of a random guide: its density, its samples, and
  * means of pictures, which no guide changes
  */
-#include "light/path_guide.h"
 #include "tests/unit/light/guide_lookup.h"
 #include "tests/unit/truth.h"
+#include "world/light/path_guide.h"
 
 /* The sphere is divided into rows of equal cos(theta) and columns of phi. */
 #define ROWS    12

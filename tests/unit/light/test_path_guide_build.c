@@ -3,10 +3,10 @@
  * test_path_guide_build.c - the guide built for a scene: it leads to where
  * caustics come from and to windows, and exists only where it helps
  */
-#include "light/path_guide.h"
-#include "light/triangle_cdf.h"
 #include "tests/unit/light/guide_lookup.h"
 #include "tests/unit/truth.h"
+#include "world/light/path_guide.h"
+#include "world/light/triangle_cdf.h"
 
 /* Makes a small lamp beside a wall of this kind, above a floor. */
 static void make_lamp_and_wall(struct lit_mesh *s, enum material_kind kind)

@@ -3,8 +3,8 @@
  * test_photons.c - caustics of points and of single directions: which lights
  * have photons, where their lobes aim, and their means
  */
-#include "light/path_guide.h"
 #include "tests/unit/truth.h"
+#include "world/light/path_guide.h"
 #include "kernels/caustic_lobes.h"
 
 #define ALBEDO 0.5

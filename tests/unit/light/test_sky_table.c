@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "light/sky_table.h"
+#include "world/light/sky_table.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "light/daylight.h"
+#include "world/light/daylight.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/geometry.h"
+#include "world/light/sky_table.h"
 #include "kernels/light.h"
-#include "light/sky_table.h"
 
 #include "tests/unit/check.h"
 

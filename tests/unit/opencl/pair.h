@@ -20,13 +20,13 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "load/scene_load.h"
-#include "opencl/backend_cl.h"
-#include "opencl/cl_environment.h"
+#include "engine/scene_load.h"
 #include "render/cpu_dispatch.h"
+#include "render/opencl/backend_cl.h"
+#include "render/opencl/cl_environment.h"
 #include "render/render_loop.h"
-#include "scene/world.h"
 #include "tests/unit/check.h"
+#include "world/world.h"
 #include "kernels/features.h"
 
 /* A scene, and its renders on the CPU and on the device. */

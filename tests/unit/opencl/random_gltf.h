@@ -18,7 +18,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "picture/stb.h"
+#include "image/stb.h"
 #include "tests/unit/files.h"
 
 #define RANDOM_SIDE      33 /* vertices along each edge of the grid */

@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "opencl/cl_api.h"
-#include "opencl/cl_buffers.h"
-#include "opencl/cl_device.h"
-#include "opencl/cl_probe.h"
-#include "scene/world_materials.h"
+#include "render/opencl/cl_api.h"
+#include "render/opencl/cl_buffers.h"
+#include "render/opencl/cl_device.h"
+#include "render/opencl/cl_probe.h"
 #include "tests/unit/opencl/pair.h"
+#include "world/world_materials.h"
 
 static const char *const scenes[] = {
     "scenes/cornell.obj",  "scenes/materials.obj", "scenes/glass_mirror.obj",

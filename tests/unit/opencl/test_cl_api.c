@@ -5,7 +5,7 @@
  */
 #include "tests/unit/check.h"
 
-#include "opencl/cl_api.h"
+#include "render/opencl/cl_api.h"
 
 static void all_functions_are_loaded_once(void **state)
 {

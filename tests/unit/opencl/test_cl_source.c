@@ -11,8 +11,8 @@
 #include <unistd.h>
 
 #include "base/file.h"
-#include "opencl/cl_device.h"
-#include "opencl/cl_source.h"
+#include "render/opencl/cl_device.h"
+#include "render/opencl/cl_source.h"
 #include "terminal/xmalloc.h"
 
 /* Writes a file by the C library alone. */

@@ -6,9 +6,9 @@
 
 #include "tests/unit/check.h"
 
+#include "render/opencl/cl_environment.h"
+#include "render/opencl/cl_machine.h"
 #include "kernels/filter.h"
-#include "opencl/cl_environment.h"
-#include "opencl/cl_machine.h"
 
 #define COUNT  4096
 #define INPUTS 6

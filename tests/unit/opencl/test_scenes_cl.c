@@ -3,12 +3,12 @@
  * test_scenes_cl.c - scenes with every feature on the OpenCL device and on the
  * CPU: the shipped scenes, edited ones, lamps, and random glTF files
  */
-#include "scene/world_lamps.h"
-#include "scene/world_materials.h"
 #include "tests/unit/files.h"
 #include "tests/unit/folder.h"
 #include "tests/unit/opencl/pair.h"
 #include "tests/unit/opencl/random_gltf.h"
+#include "world/world_lamps.h"
+#include "world/world_materials.h"
 
 static const char *const scenes[] = {
     "scenes/cornell.obj",    "scenes/materials.obj", "scenes/glass_mirror.obj",

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/adaptive.h"
-#include "picture/film_error.h"
+#include "film/adaptive.h"
+#include "film/film_error.h"
 #include "render/cpu_dispatch.h"
 #include "render/render_loop.h"
 #include "tests/unit/check.h"

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "scene/world.h"
 #include "render/cpu_dispatch.h"
 #include "session/session.h"
+#include "world/world.h"
 
 static const char *const scenes[] = {
     "scenes/cornell.obj",  "scenes/materials.obj", "scenes/glass_mirror.obj",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "scene/world.h"
-#include "scene/world_materials.h"
 #include "tests/unit/instanced.h"
+#include "world/world.h"
+#include "world/world_materials.h"
 
 #define PLACES 20
 

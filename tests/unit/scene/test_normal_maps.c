@@ -10,11 +10,11 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "scene/world.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/files.h"
 #include "tests/unit/shared.h"
+#include "world/world.h"
 
 #define SIDE 32
 

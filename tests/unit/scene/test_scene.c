@@ -4,12 +4,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "scene/pose_fit.h"
 #include "base/memory.h"
-#include "scene/world_lamps.h"
-#include "formats/obj.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
+#include "read/obj.h"
+#include "scene/pose_fit.h"
 #include "tests/unit/files.h"
+#include "world/world_lamps.h"
 
 /* Two texels: an opaque 255 128 0 and a transparent 10 20 30. */
 static const unsigned char two_texels[] = {

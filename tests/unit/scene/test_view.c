@@ -11,8 +11,8 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "read/view_file.h"
 #include "scene/view.h"
-#include "formats/view_file.h"
 #include "terminal/xmalloc.h"
 
 static struct file_change change; /* the most recent write */

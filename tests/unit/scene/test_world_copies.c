@@ -3,9 +3,9 @@
  * test_world_copies.c - the tree of faces in one place, before and after an
  * edit that lets rays through them
  */
-#include "scene/world.h"
-#include "scene/world_materials.h"
 #include "tests/unit/instanced.h"
+#include "world/world.h"
+#include "world/world_materials.h"
 
 #define COPIES 40
 

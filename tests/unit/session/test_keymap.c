@@ -6,9 +6,9 @@
 #include <stdlib.h>
 
 #include "base/file.h"
-#include "terminal/tty_input.h"
 #include "session/keymap.h"
 #include "studio/help.h"
+#include "terminal/tty_input.h"
 #include "tests/unit/check.h"
 
 static struct keymap table_keys(bool phoe)

@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "formats/view_file.h"
-#include "studio/save_commands.h"
+#include "read/view_file.h"
+#include "session/save.h"
 
 #define OBJ                                                                  \
     "mtllib s.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nv 0 0 -1\nf 1 2 " \
@@ -201,48 +201,48 @@ static void framed_cameras_stay(void **state)
 }
 
 /* Looks at the files until none has changed since the last look. */
-static void look_now(struct render_control *w)
+static void look_now(struct live_render *w)
 {
     do {
         w->files_ns = clock_ns();
-        render_control_update(w);
+        live_render_update(w);
     } while (w->watch.is_changing);
 }
 
 /* Checks the files and waits for what is then loaded. */
-static void end_reload(struct render_control *w)
+static void end_reload(struct live_render *w)
 {
     if (!w->reload.loading.is_busy)
         look_now(w);
     assert_true(w->reload.loading.is_busy);
-    render_control_end_reload(w);
+    live_render_end_reload(w);
 }
 
-static void open_work(struct render_control *w, struct session *s)
+static void open_work(struct live_render *w, struct session *s)
 {
     struct error err;
 
     open_scene(s);
-    assert_true(render_control_init(w, s, &err));
+    assert_true(live_render_init(w, s, &err));
 }
 
-static void close_work(struct render_control *w, struct session *s)
+static void close_work(struct live_render *w, struct session *s)
 {
-    render_control_free(w);
+    live_render_free(w);
     session_close(s);
 }
 
 static void broken_files_leave_the_scene(void **state)
 {
     struct session s;
-    struct render_control w;
+    struct live_render w;
 
     (void)state;
     open_work(&w, &s);
     put("s.mtl", "newmtl m\nKd .1 x\n");
     look_now(&w);
     assert_true(w.has_changed_files);
-    render_control_reload(&w);
+    live_render_reload(&w);
     end_reload(&w);
     assert_true(w.message.is_error);
     assert_non_null(strstr(w.message.text, "s.mtl:2: "));
@@ -252,7 +252,7 @@ static void broken_files_leave_the_scene(void **state)
     put("s.mtl", "newmtl m\nKd .25 0 0\n");
     look_now(&w);
     assert_true(w.has_changed_files);
-    render_control_reload(&w);
+    live_render_reload(&w);
     end_reload(&w);
     assert_false(w.message.is_error);
     assert_string_equal(w.message.text, "loaded s.obj");
@@ -264,12 +264,12 @@ static void broken_files_leave_the_scene(void **state)
 static void warnings_are_shown(void **state)
 {
     struct session s;
-    struct render_control w;
+    struct live_render w;
 
     (void)state;
     open_work(&w, &s);
     put("s.obj", OBJ "usemtl other\nf 1 3 4\n");
-    render_control_reload(&w);
+    live_render_reload(&w);
     end_reload(&w);
     assert_non_null(strstr(w.message.text, "loaded, 1 warning: s.obj:"));
     close_work(&w, &s);
@@ -278,7 +278,7 @@ static void warnings_are_shown(void **state)
 static void watched_files_are_loaded_at_once(void **state)
 {
     struct session s;
-    struct render_control w;
+    struct live_render w;
 
     (void)state;
     options.watch = true;
@@ -287,15 +287,15 @@ static void watched_files_are_loaded_at_once(void **state)
     end_reload(&w);
     check_close(s.engine.world.materials[1].color.x, .25, 0);
     /* A render of normal mode that would be lost prevents it. */
-    render_control_set_live(&w, false);
-    render_control_start_or_halt(&w);
+    live_render_set_live(&w, false);
+    live_render_start_or_halt(&w);
     put("s.mtl", "newmtl m\nKd .5 0 0\n");
     look_now(&w);
     assert_true(w.has_changed_files);
     assert_false(w.reload.loading.is_busy);
-    render_control_reload(&w); /* only a message */
+    live_render_reload(&w); /* only a message */
     assert_false(w.reload.loading.is_busy);
-    render_control_set_live(&w, true);
+    live_render_set_live(&w, true);
     end_reload(&w);
     check_close(s.engine.world.materials[1].color.x, .5, 0);
     close_work(&w, &s);
@@ -306,7 +306,7 @@ static void watched_files_are_loaded_at_once(void **state)
 static void unwatched_files_are_checked_each_second(void **state)
 {
     struct session s;
-    struct render_control w;
+    struct live_render w;
 
     (void)state;
     open_work(&w, &s);
@@ -324,7 +324,7 @@ static void unwatched_files_are_checked_each_second(void **state)
 static void own_views_are_no_change(void **state)
 {
     struct session s;
-    struct render_control w;
+    struct live_render w;
 
     (void)state;
     open_work(&w, &s);
@@ -345,7 +345,7 @@ static void own_views_are_no_change(void **state)
 static void own_materials_are_no_change(void **state)
 {
     struct session s;
-    struct render_control w;
+    struct live_render w;
     struct mtl_source red;
 
     (void)state;
@@ -373,7 +373,7 @@ static void own_materials_are_no_change(void **state)
 static void chosen_skies_are_watched(void **state)
 {
     struct session s;
-    struct render_control w;
+    struct live_render w;
     struct lighting light;
     char path[] = "sky.png";
 
@@ -383,9 +383,9 @@ static void chosen_skies_are_watched(void **state)
     light.sky_path = path;
     edit_lighting(&s.edit, &light);
     put("sky.png", "no image");
-    assert_true(render_control_is_outdated(&w));
-    while (render_control_is_outdated(&w))
-        render_control_update(&w);
+    assert_true(live_render_is_outdated(&w));
+    while (live_render_is_outdated(&w))
+        live_render_update(&w);
     look_now(&w);
     assert_false(w.has_changed_files);
     put("sky.png", "no image either");

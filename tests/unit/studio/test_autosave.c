@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "picture/film_file.h"
+#include "film/film_file.h"
 #include "studio/autosave.h"
 
 #include "tests/unit/files.h"
@@ -17,7 +17,7 @@
 struct work {
     struct options options;
     struct session session;
-    struct render_control control;
+    struct live_render control;
     struct screen screen;
     struct camera_control camera;
     struct autosave autosave;
@@ -36,7 +36,7 @@ static void begin(struct work *w)
     w->options.thread_count = 1;
     check_or_say(session_open(&w->session, &w->options, clock_ns(), &err),
                  err.text);
-    check_or_say(render_control_init(&w->control, &w->session, &err), err.text);
+    check_or_say(live_render_init(&w->control, &w->session, &err), err.text);
     camera_control_init(&w->camera, &w->control, &w->screen);
     autosave_init(&w->autosave, &w->control, &w->camera);
 }
@@ -46,7 +46,7 @@ static void end(struct work *w, bool is_lost)
     render_halt(w->session.engine.render);
     autosave_end(&w->autosave, is_lost);
     autosave_free(&w->autosave);
-    render_control_free(&w->control);
+    live_render_free(&w->control);
     session_close(&w->session);
 }
 
@@ -79,7 +79,7 @@ static void render_a_while(struct work *w)
 {
     do {
         render_wait(w->session.engine.render, 100);
-        render_control_update(&w->control);
+        live_render_update(&w->control);
     } while (w->control.progress.spp_done == 0);
     clock_ahead_ns += UINT64_C(5100000000);
 }

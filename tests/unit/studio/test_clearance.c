@@ -5,7 +5,7 @@
  */
 #include <math.h>
 
-#include "studio/camera_input.h"
+#include "studio/camera/camera_input.h"
 #include "tests/unit/folder.h"
 #include "tests/unit/room.h"
 

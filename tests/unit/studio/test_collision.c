@@ -10,10 +10,10 @@
 #include <string.h>
 
 #include "base/geometry.h"
-#include "studio/camera_input.h"
-#include "studio/camera_moves.h"
-#include "studio/framing.h"
-#include "studio/surfaces.h"
+#include "studio/camera/camera_input.h"
+#include "studio/camera/camera_moves.h"
+#include "studio/camera/framing.h"
+#include "studio/camera/surfaces.h"
 #include "tests/unit/folder.h"
 #include "tests/unit/room.h"
 

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "studio/help.h"
-#include "tests/unit/check.h"
 #include "terminal/tty_input.h"
+#include "tests/unit/check.h"
 
 static struct keymap default_keys(void)
 {

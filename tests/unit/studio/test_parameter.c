@@ -9,7 +9,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "load/scene_load.h"
+#include "engine/scene_load.h"
 #include "studio/material_parameters.h"
 #include "tests/unit/check.h"
 #include "tests/unit/files.h"

@@ -6,13 +6,13 @@
 #include <math.h>
 #include <unistd.h>
 
-#include "bvh/bvh.h"
-#include "scene/world.h"
-#include "load/scene_load.h"
-#include "studio/framing.h"
-#include "studio/pick_cursor.h"
+#include "engine/scene_load.h"
+#include "studio/camera/framing.h"
+#include "studio/camera/pick_cursor.h"
 #include "tests/unit/check.h"
 #include "tests/unit/files.h"
+#include "world/bvh/bvh.h"
+#include "world/world.h"
 #include "kernels/camera_sample.h"
 #include "kernels/traverse.h"
 

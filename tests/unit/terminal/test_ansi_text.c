@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "picture/film.h"
+#include "film/film.h"
 #include "terminal/ansi_text.h"
 
 /* Makes a film of 4x4 pixels: the upper half is red of radiance 1, the lower

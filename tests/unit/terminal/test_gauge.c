@@ -3,8 +3,8 @@
  * test_gauge.c - the ink of a gauge is its fraction, and the handle of a slider
  * is seen on any colour
  */
-#include "tests/unit/check.h"
 #include "terminal/gauge.h"
+#include "tests/unit/check.h"
 
 #define COLS 10
 

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "tests/unit/check.h"
 #include "terminal/theme.h"
+#include "tests/unit/check.h"
 
 static double linear_of(double byte)
 {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+/*
+ * scene_load.h - loads a scene from its files
+ *
+ * Units:     those of the scene file
+ * Ownership: the caller frees scene and world
+ * Threads:   one thread calls; images are decoded by several
+ * Errors:    file and line, what was found and expected
+ */
+#ifndef GLIM_SCENE_LOAD_H
+#define GLIM_SCENE_LOAD_H
+
+#include "engine/scene_format.h"
+#include "world/world.h"
+
+/* How a scene is opened. Zeroed, all is as the files say. */
+struct scene_options {
+    enum scene_up up;
+    int thread_count; /* of loading; at least 1 */
+    /* number or name of the camera; NULL: that of the view, or the first one of
+     * the scene */
+    const char *camera;
+    struct scene_choice choice;
+    const char *view_lines; /* for view_parse_over(); NULL: none */
+};
+
+/* Loads a scene file with its MTL files and finishes the scene. Models with z
+ * up are turned to y up: (x, y, z) becomes (x, z, -y). */
+bool scene_load(struct scene *scene, const char *path, enum scene_up up,
+                struct warnings *report, struct error *err);
+
+/* Reads the view file of a scene: `view_path`, or if that is NULL, STEM.view or
+ * else camera.txt beside the scene. It need not exist. *path is the file to
+ * write the view to, for free(), also after an error. */
+bool view_find(struct view *view, const char *scene_path, const char *view_path,
+               char **path, struct warnings *report, struct error *err);
+
+/* Kind of the warning about a scene whose own light shows little. */
+#define SCENE_LITTLE_LIGHT "scenes with little light"
+
+/* Loads the scene and makes its world with the sky of the view. Completes the
+ * view with what the options say, and with a camera that sees the whole scene.
+ * Adds a soft sky if there is no light, and the light of a studio to a model
+ * whose own light shows little of it. */
+bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
+                const char *path, const struct scene_options *options,
+                struct warnings *report, struct error *err);
+
+/* Returns true if scene_open() has added the soft sky. */
+bool view_has_soft_sky(const struct view *view);
+
+/* Returns the name of a file that the scene or its view comes from, for each
+ * number from 0; NULL after the last. view_path need not exist. */
+const char *scene_file(const struct scene *scene, const struct view *view,
+                       const char *view_path, uint32_t number);
+
+/* Finds the material that the view assigns to each object; NO_INDEX if none. */
+void scene_find_assigned(const struct scene *scene,
+                         const struct assigns *assigns, uint32_t *assigned,
+                         struct warnings *report);
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+/*
+ * film_filter.h - the denoising filter of a film with first surfaces
+ *
+ * Direct and indirect light are filtered apart. Lamps and the sky stay as a
+ * pinhole camera sees them.
+ *
+ * Units:     radiance
+ * Ownership: the film stays the caller's
+ * Threads:   one at a time; the film's rows are locked one by one
+ * Errors:    out of memory
+ */
+#ifndef GLIM_FILM_FILTER_H
+#define GLIM_FILM_FILTER_H
+
+#include "base/thread_pool.h"
+#include "film/film.h"
+
+/* Returns true if the film can be filtered: it has surfaces, and each pixel has
+ * a sample in each half, and features, which a late share of the samples has
+ * not. */
+bool film_filter_applies(struct film *film);
+
+/* Writes the squared relative error that noise leaves in each pixel of one
+ * colour of a chess board after the filter, as film_error_squares() does before
+ * it: only pixels of that colour are filtered, as a picture of half the width.
+ * So the numbers are too high by a factor, which is about the same for all. The
+ * film can be filtered, and has two pixels in a row. *is_known is false after a
+ * cancel, which may be NULL. */
+bool film_filter_squares(struct film *film, float exposure, int colour,
+                         struct pool *pool, const struct cancel *cancel,
+                         float *squares, bool *is_known, struct error *err);
+
+/* Adds the filtered picture to an empty film of the same size, as one sample of
+ * each pixel. The pool may be NULL. Blocks. */
+bool film_filter(struct film *film, struct pool *pool, struct film *filtered,
+                 struct error *err);
+
+/* Makes *filtered, which is uninitialised, the filtered picture, with threads
+ * of its own. It is empty after an error. */
+bool film_filter_copy(struct film *film, int thread_count,
+                      struct film *filtered, struct error *err);
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+/*
+ * screen_filter.h - the denoising filter for the screen of live mode
+ *
+ * The filter works at the size of the draft, which is that of the screen, on
+ * the mean of draft and film over each pixel of the screen. Features are those
+ * of the draft's first surfaces; the film needs none. Direct and indirect light
+ * are filtered together.
+ *
+ * A picture whose film is young is filtered in fewer levels, which is faster.
+ *
+ * A frame of more than SCREEN_FILTER_PIXELS is filtered with about that many
+ * pixels; the film's detail is added to the enlarged result (screen_detail.h).
+ *
+ * Lamps and the sky are shown without the filter, as the draft's pixels see
+ * them. Pixels that the filter hardly changes, with their neighbours, are shown
+ * as film_preview() shows them; so the filter ends as noise vanishes. Without a
+ * film they show the draft.
+ *
+ * Ownership: screen_filter_free() frees; a zeroed struct is empty
+ * Threads:   one at a time; the films' rows are locked one by one
+ * Errors:    out of memory
+ */
+#ifndef GLIM_SCREEN_FILTER_H
+#define GLIM_SCREEN_FILTER_H
+
+#include "film/filter/filter.h"
+#include "film/filter/screen_detail.h"
+#include "film/filter/screen_halves.h"
+
+struct screen_filter {
+    struct filter filter;
+    struct screen_halves halves;
+    struct screen_detail detail;   /* of a frame with more pixels */
+    int width, height;             /* of the draft; 0: no memory yet */
+    int shown_width, shown_height; /* of the frame, or of a smaller film */
+    float *memory;
+    /* for each pixel: the share of light that is seen, and the change by the
+     * filter in steps of 255 */
+    float *seen, *change;
+    float *raw, *rgb; /* 3 numbers for each pixel: unfiltered and filtered */
+    /* the row that is processed */
+    float *rows;
+    float *changes, *shares, *largest;
+    uint8_t *raw_bytes, *filtered_bytes;
+};
+
+/* Most pixels of a draft: it must be ready soon after a move of the camera. */
+#define SCREEN_FILTER_PIXELS (400 * 240)
+
+/* Sets the size of the draft for a frame, which is that of the frame or a
+ * smaller one of nearly its shape. */
+void screen_filter_draft_size(int frame_width, int frame_height, int *width,
+                              int *height);
+
+/* Fills a frame as film_preview() does from film and draft, but filtered.
+ * `surfaces` is the draft with surfaces, each pixel of which has a sample; its
+ * light counts in the filtered picture. `draft` is that or NULL, as for
+ * film_preview(). Returns false and leaves the frame as it is without memory,
+ * or if `surfaces` has not the size of a draft for the frame, or for the film
+ * if the frame enlarges it. Blocks. */
+bool screen_filter_show(struct screen_filter *f, struct film *film,
+                        struct film *draft, struct film *surfaces,
+                        struct develop how, enum filter_form form,
+                        struct frame *frame);
+
+void screen_filter_free(struct screen_filter *f);
+
+#endif

@@ -1,0 +1,557 @@
+// SPDX-License-Identifier: MIT
+#include "read/gltf/gltf_material.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/name_table.h"
+#include "read/gltf/gltf_texture.h"
+#include "read/gltf/gltf_value.h"
+#include "read/mtl.h"
+#include "read/scene_lists.h"
+#include "scene/statement.h"
+
+/* Lines of statements only tell whether a file has them. */
+#define LINE 1
+
+/* Largest ratio of the widths of a highlight, that of aniso 1, and what aniso
+ * multiplies: the inverse of the ratio is 1 - ANISO_SHARE aniso. */
+#define STRETCH_MAX 10
+#define ANISO_SHARE 0.9
+
+/* Memory of a material with its statements; 3,300 were measured. */
+#define MATERIAL_BYTES 4096
+
+/* A material while it is read. */
+struct reader {
+    struct gltf_textures *textures;
+    struct name_table *names; /* of the materials before */
+    struct gltf_value v;      /* the material */
+    struct gltf_value pbr;    /* its pbrMetallicRoughness */
+    struct mtl_source source;
+    struct error *err;
+};
+
+static const struct gltf_texture_use of_color = {false, CHANNEL_DEFAULT, 0};
+static const struct gltf_texture_use of_red = {true, CHANNEL_RED, 0};
+static const struct gltf_texture_use of_green = {true, CHANNEL_GREEN, 0};
+static const struct gltf_texture_use of_blue = {true, CHANNEL_BLUE, 0};
+static const struct gltf_texture_use of_alpha = {true, CHANNEL_ALPHA, 0};
+
+/* ---- statements ---- */
+
+static void set_number(struct mtl_number *to, double value)
+{
+    *to = (struct mtl_number){value, LINE};
+}
+
+static void set_unit(struct mtl_number *to, double value)
+{
+    set_number(to, statement_clamped(value));
+}
+
+static void set_color(struct mtl_color *to, const double rgb[3])
+{
+    to->line = LINE;
+    for (int i = 0; i < 3; i++)
+        to->rgb[i] = statement_clamped(rgb[i]);
+}
+
+static bool is_black(const double rgb[3])
+{
+    return !(rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0);
+}
+
+static bool read_number(struct reader *r, const struct gltf_value *object,
+                        const char *key, double *to)
+{
+    return gltf_number(object, key, -INFINITY, INFINITY, to, r->err);
+}
+
+static bool read_map(struct reader *r, const struct gltf_value *object,
+                     const char *key, struct gltf_texture_use use,
+                     enum mtl_map map)
+{
+    struct gltf_value info;
+
+    return gltf_texture_read(r->textures, object, key, use,
+                             &r->source.maps[map], &info, r->err);
+}
+
+static void warn(struct reader *r, const char *kind, const char *what)
+{
+    warnings_add(r->textures->report, kind, "%s: found %s", r->v.document->path,
+                 what);
+}
+
+/* ---- the core ---- */
+
+/* Reads the base colour. `alpha_flag` is TEXTURE_OPAQUE if its alpha is
+ * ignored. The map of a black colour would be taken as a white one. */
+static bool read_base(struct reader *r, const struct gltf_value *object,
+                      const char *factor, const char *texture,
+                      uint32_t alpha_flag)
+{
+    struct gltf_texture_use use = of_color;
+    double color[4] = {1, 1, 1, 1};
+    struct mtl_source *s = &r->source;
+
+    use.flags = alpha_flag;
+    if (!gltf_numbers(object, factor, 4, color, r->err) ||
+        !read_map(r, object, texture, use, MTL_MAP_KD))
+        return false;
+    set_color(&s->kd, color);
+    if (is_black(color))
+        s->maps[MTL_MAP_KD] = NO_INDEX;
+    if (alpha_flag == 0 && color[3] < 1)
+        set_unit(&s->d, color[3]);
+    return alpha_flag != 0 || !is_black(color) ||
+           read_map(r, object, texture, of_alpha, MTL_MAP_D);
+}
+
+static bool read_metal_and_roughness(struct reader *r)
+{
+    struct mtl_source *s = &r->source;
+    double metal = 1, roughness = 1;
+
+    if (!read_number(r, &r->pbr, "metallicFactor", &metal) ||
+        !read_number(r, &r->pbr, "roughnessFactor", &roughness))
+        return false;
+    set_unit(&s->pm, metal);
+    set_unit(&s->pr, roughness);
+    if (s->pm.value > 0 &&
+        !read_map(r, &r->pbr, "metallicRoughnessTexture", of_blue, MTL_MAP_PM))
+        return false;
+    return !(s->pr.value > 0) ||
+           read_map(r, &r->pbr, "metallicRoughnessTexture", of_green,
+                    MTL_MAP_PR);
+}
+
+/* Reads a map of normals, a member of *v, with its scale. */
+static bool read_normals(struct reader *r, const struct gltf_value *v,
+                         const char *key, enum mtl_map map)
+{
+    struct gltf_value info;
+    double scale = 1;
+
+    if (!gltf_texture_read(r->textures, v, key, of_alpha, &r->source.maps[map],
+                           &info, r->err) ||
+        !read_number(r, &info, "scale", &scale))
+        return false;
+    *mtl_source_map_scale(&r->source, map) = fmin(fmax(scale, -1e3), 1e3);
+    return true;
+}
+
+static bool read_emission(struct reader *r)
+{
+    double color[3] = {0, 0, 0}, strength = 1;
+    struct gltf_value v;
+
+    if (!gltf_numbers(&r->v, "emissiveFactor", 3, color, r->err) ||
+        !gltf_extension(&r->v, "KHR_materials_emissive_strength", &v, r->err) ||
+        !read_number(r, &v, "emissiveStrength", &strength))
+        return false;
+    if (is_black(color) || !(strength > 0))
+        return true;
+    r->source.ke.line = LINE;
+    for (int i = 0; i < 3; i++)
+        r->source.ke.rgb[i] = fmin(fmax(color[i], 0) * strength, 1e30);
+    return read_map(r, &r->v, "emissiveTexture", of_color, MTL_MAP_KE);
+}
+
+/* Reads alphaMode. *flag becomes TEXTURE_OPAQUE if alpha is ignored. A cutoff
+ * of 0 leaves all of the surface, and one above 1 nothing. */
+static bool read_alpha_mode(struct reader *r, uint32_t *flag)
+{
+    const char *mode = "OPAQUE";
+    double cutoff = 0.5;
+
+    if (!gltf_string(&r->v, "alphaMode", &mode, r->err) ||
+        !read_number(r, &r->v, "alphaCutoff", &cutoff))
+        return false;
+    *flag = 0;
+    if (strcmp(mode, "MASK") == 0 && cutoff > 1)
+        set_number(&r->source.d, 0);
+    else if (strcmp(mode, "MASK") == 0 && cutoff > 0)
+        set_number(&r->source.d_cutoff, cutoff);
+    else if (strcmp(mode, "BLEND") != 0)
+        *flag = TEXTURE_OPAQUE;
+    return true;
+}
+
+/* ---- reflectance of dielectrics ---- */
+
+/* Sets Ks and Ks_full for a reflectance at normal incidence. Ks is rounded to
+ * what is worth writing. */
+static void set_specular(struct mtl_source *s, const double f0[3])
+{
+    double top = fmax(f0[0], fmax(f0[1], f0[2]));
+    double full = (double)MATERIAL_SPECULAR;
+
+    if (top > full)
+        set_unit(&s->ks_full, top);
+    if (top > full)
+        full = s->ks_full.value;
+    s->ks.line = LINE;
+    for (int i = 0; i < 3; i++)
+        s->ks.rgb[i] =
+            statement_clamped(round(fmax(f0[i], 0) / full * 1e6) * 1e-6);
+}
+
+/* Reads KHR_materials_ior and KHR_materials_specular. */
+static bool read_specular(struct reader *r)
+{
+    double ior = 1.5, weight = 1, color[3] = {1, 1, 1}, f0[3], r0;
+    struct gltf_value at, specular;
+
+    if (!gltf_extension(&r->v, "KHR_materials_ior", &at, r->err) ||
+        !read_number(r, &at, "ior", &ior) ||
+        !gltf_extension(&r->v, "KHR_materials_specular", &specular, r->err) ||
+        !read_number(r, &specular, "specularFactor", &weight) ||
+        !gltf_numbers(&specular, "specularColorFactor", 3, color, r->err))
+        return false;
+    ior = ior == 0 ? 1e6 : fmin(fmax(ior, 1), 1e6); /* 0 means infinite */
+    if (at.json != NULL)
+        set_number(&r->source.ni, ior);
+    r0 = (ior - 1) / (ior + 1);
+    for (int i = 0; i < 3; i++)
+        f0[i] =
+            fmin(r0 * r0 * fmax(color[i], 0), 1) * statement_clamped(weight);
+    set_specular(&r->source, f0);
+    if (is_black(f0))
+        return true;
+    return read_map(r, &specular, "specularTexture", of_alpha,
+                    MTL_MAP_KS_WEIGHT) &&
+           read_map(r, &specular, "specularColorTexture", of_color, MTL_MAP_KS);
+}
+
+/* Reads KHR_materials_pbrSpecularGlossiness in place of
+ * pbrMetallicRoughness. */
+static bool read_glossiness(struct reader *r, const struct gltf_value *v,
+                            uint32_t alpha_flag)
+{
+    double f0[3] = {1, 1, 1}, gloss = 1;
+    struct gltf_texture_use use = of_color;
+
+    use.flags = TEXTURE_OPAQUE;
+    if (!read_base(r, v, "diffuseFactor", "diffuseTexture", alpha_flag) ||
+        !gltf_numbers(v, "specularFactor", 3, f0, r->err) ||
+        !read_number(r, v, "glossinessFactor", &gloss))
+        return false;
+    set_unit(&r->source.pr, 1 - gloss);
+    set_specular(&r->source, f0);
+    if (is_black(f0))
+        return true;
+    if (!read_map(r, v, "specularGlossinessTexture", use, MTL_MAP_KS))
+        return false;
+    if (r->source.maps[MTL_MAP_KS] != NO_INDEX)
+        warn(r, "maps of glossiness",
+             "KHR_materials_pbrSpecularGlossiness: the alpha channel of its "
+             "texture is not used");
+    return true;
+}
+
+/* ---- layers ---- */
+
+static bool read_transmission(struct reader *r)
+{
+    struct mtl_source *s = &r->source;
+    double weight = 0, thickness = 0, distance = INFINITY, tint[3] = {1, 1, 1};
+    struct gltf_value v, volume;
+
+    if (!gltf_extension(&r->v, "KHR_materials_transmission", &v, r->err) ||
+        !read_number(r, &v, "transmissionFactor", &weight) ||
+        !gltf_extension(&r->v, "KHR_materials_volume", &volume, r->err) ||
+        !read_number(r, &volume, "thicknessFactor", &thickness) ||
+        !read_number(r, &volume, "attenuationDistance", &distance) ||
+        !gltf_numbers(&volume, "attenuationColor", 3, tint, r->err))
+        return false;
+    if (!(weight > 0))
+        return true;
+    set_color(&s->tf, (const double[3]){weight, weight, weight});
+    if (!(thickness > 0))
+        set_number(&s->tf_thin, 1);
+    else if (distance > 0 && distance < (double)INFINITY) {
+        set_number(&s->tf_distance, distance);
+        set_color(&s->tf_attenuation, tint);
+    }
+    return read_map(r, &v, "transmissionTexture", of_red, MTL_MAP_TF);
+}
+
+static bool read_coat(struct reader *r)
+{
+    struct mtl_source *s = &r->source;
+    double weight = 0, roughness = 0;
+    struct gltf_value v;
+
+    if (!gltf_extension(&r->v, "KHR_materials_clearcoat", &v, r->err) ||
+        !read_number(r, &v, "clearcoatFactor", &weight) ||
+        !read_number(r, &v, "clearcoatRoughnessFactor", &roughness))
+        return false;
+    if (!(weight > 0))
+        return true;
+    set_unit(&s->pc, weight);
+    set_unit(&s->pcr, roughness);
+    return read_map(r, &v, "clearcoatTexture", of_red, MTL_MAP_PC) &&
+           (!(roughness > 0) || read_map(r, &v, "clearcoatRoughnessTexture",
+                                         of_green, MTL_MAP_PCR)) &&
+           read_normals(r, &v, "clearcoatNormalTexture", MTL_MAP_PC_NORM);
+}
+
+static bool read_sheen(struct reader *r)
+{
+    struct mtl_source *s = &r->source;
+    double color[3] = {0, 0, 0}, roughness = 0;
+    struct gltf_value v;
+
+    if (!gltf_extension(&r->v, "KHR_materials_sheen", &v, r->err) ||
+        !gltf_numbers(&v, "sheenColorFactor", 3, color, r->err) ||
+        !read_number(r, &v, "sheenRoughnessFactor", &roughness))
+        return false;
+    if (is_black(color))
+        return true;
+    set_number(&s->ps, 1);
+    set_color(&s->ps_color, color);
+    set_unit(&s->ps_roughness, roughness);
+    return read_map(r, &v, "sheenColorTexture", of_color, MTL_MAP_PS_COLOR) &&
+           read_map(r, &v, "sheenRoughnessTexture", of_alpha,
+                    MTL_MAP_PS_ROUGHNESS);
+}
+
+/* glTF widens highlights along the grain from a to a + (1 - a) s^2, up to any
+ * ratio; aniso keeps the geometric mean of the widths, which Pr has. */
+static void stretch(struct mtl_source *s, double strength)
+{
+    double a = s->pr.value * s->pr.value;
+    double along = a + (1 - a) * strength * strength;
+    double across = fmax(a, along / STRETCH_MAX);
+
+    set_unit(&s->pr, sqrt(sqrt(along * across)));
+    set_unit(&s->aniso, (1 - across / along) / ANISO_SHARE);
+}
+
+static bool read_anisotropy(struct reader *r)
+{
+    double strength = 0, angle = 0;
+    struct gltf_value v;
+
+    if (!gltf_extension(&r->v, "KHR_materials_anisotropy", &v, r->err) ||
+        !read_number(r, &v, "anisotropyStrength", &strength) ||
+        !read_number(r, &v, "anisotropyRotation", &angle))
+        return false;
+    if (!(strength > 0))
+        return true;
+    stretch(&r->source, fmin(strength, 1));
+    if (angle != 0)
+        set_number(&r->source.anisor, angle / (2 * M_PI));
+    return read_map(r, &v, "anisotropyTexture", of_alpha, MTL_MAP_GRAIN);
+}
+
+static bool read_film(struct reader *r)
+{
+    struct mtl_source *s = &r->source;
+    double weight = 0, ior = 1.3, least = 100, most = 400;
+    struct gltf_value v;
+
+    if (!gltf_extension(&r->v, "KHR_materials_iridescence", &v, r->err) ||
+        !read_number(r, &v, "iridescenceFactor", &weight) ||
+        !read_number(r, &v, "iridescenceIor", &ior) ||
+        !read_number(r, &v, "iridescenceThicknessMinimum", &least) ||
+        !read_number(r, &v, "iridescenceThicknessMaximum", &most))
+        return false;
+    if (!(weight > 0))
+        return true;
+    set_unit(&s->pf, weight);
+    set_number(&s->pf_ior, fmin(fmax(ior, 1), MATERIAL_FILM_IOR_MAX));
+    set_number(&s->pf_thickness,
+               fmin(fmax(most, 0), MATERIAL_FILM_THICKNESS_MAX));
+    if (!read_map(r, &v, "iridescenceTexture", of_red, MTL_MAP_PF) ||
+        !read_map(r, &v, "iridescenceThicknessTexture", of_green,
+                  MTL_MAP_PF_THICKNESS))
+        return false;
+    if (s->maps[MTL_MAP_PF_THICKNESS] != NO_INDEX)
+        set_number(&s->pf_thinnest,
+                   fmin(fmax(least, 0), MATERIAL_FILM_THICKNESS_MAX));
+    return true;
+}
+
+/* ---- whole materials ---- */
+
+/* Makes a surface without light: it shines with its base colour. Where alpha
+ * counts, map_d has it. */
+static bool make_unlit(struct reader *r, uint32_t alpha_flag)
+{
+    struct mtl_source *s = &r->source;
+
+    s->ke = s->kd;
+    s->maps[MTL_MAP_KE] = s->maps[MTL_MAP_KD];
+    s->maps[MTL_MAP_KD] = NO_INDEX;
+    set_color(&s->kd, (const double[3]){0, 0, 0});
+    return alpha_flag != 0 ||
+           read_map(r, &r->pbr, "baseColorTexture", of_alpha, MTL_MAP_D);
+}
+
+static bool read_layers(struct reader *r)
+{
+    return read_transmission(r) && read_coat(r) && read_sheen(r) &&
+           read_anisotropy(r) && read_film(r);
+}
+
+static bool read_statements(struct reader *r)
+{
+    struct gltf_value unlit, gloss;
+    uint32_t alpha_flag;
+
+    if (!gltf_object(&r->v, "pbrMetallicRoughness", &r->pbr, r->err) ||
+        !gltf_extension(&r->v, "KHR_materials_unlit", &unlit, r->err) ||
+        !gltf_extension(&r->v, "KHR_materials_pbrSpecularGlossiness", &gloss,
+                        r->err) ||
+        !read_alpha_mode(r, &alpha_flag))
+        return false;
+    if (unlit.json != NULL)
+        return read_base(r, &r->pbr, "baseColorFactor", "baseColorTexture",
+                         alpha_flag) &&
+               make_unlit(r, alpha_flag);
+    if (gloss.json != NULL)
+        return read_glossiness(r, &gloss, alpha_flag) &&
+               read_normals(r, &r->v, "normalTexture", MTL_MAP_NORM) &&
+               read_emission(r);
+    return read_base(r, &r->pbr, "baseColorFactor", "baseColorTexture",
+                     alpha_flag) &&
+           read_metal_and_roughness(r) && read_specular(r) &&
+           read_normals(r, &r->v, "normalTexture", MTL_MAP_NORM) &&
+           read_emission(r) && read_layers(r);
+}
+
+/* Returns a name that no material before has, for free(). */
+static char *unique_name(struct name_table *names, const char *name, size_t i)
+{
+    bool is_new = *name != '\0' && name_table_find(names, name) == NO_NAME;
+    char *unique = is_new ? strdup(name) : format_text("%s#%zu", name, i);
+
+    if (unique == NULL || name_table_add(names, unique) != NO_NAME)
+        return unique;
+    free(unique);
+    return NULL;
+}
+
+/* Adds the material that r->v has. */
+static bool add_material(struct reader *r, size_t i, size_t *capacity)
+{
+    struct gltf_textures *t = r->textures;
+    struct material_origin origin = {.file = 0};
+    const char *name = "";
+    struct material m;
+    char *unique;
+    bool ok;
+
+    if (!gltf_string(&r->v, "name", &name, r->err) || !read_statements(r))
+        return false;
+    origin.source = r->source;
+    m = material_from_source(&origin.source, t->document->path, t->report);
+    unique = unique_name(r->names, name, i);
+    ok = unique != NULL &&
+         scene_add_material(t->scene, capacity, unique, &m, &origin);
+    free(unique);
+    return ok || fail(r->err, "%s: out of memory for the materials",
+                      t->document->path);
+}
+
+static bool read_material(struct reader *r, size_t i, size_t *capacity)
+{
+    r->source = mtl_source_empty();
+    return gltf_entry(r->textures->document, "materials", i, &r->v, r->err) &&
+           add_material(r, i, capacity);
+}
+
+/* Returns true if a primitive has no material. */
+static bool needs_default(const struct gltf_document *d)
+{
+    const json_t *meshes = json_object_get(d->root, "meshes");
+    const json_t *mesh, *primitive;
+    size_t i, k;
+
+    json_array_foreach (meshes, i, mesh) {
+        json_array_foreach (json_object_get(mesh, "primitives"), k, primitive) {
+            if (json_object_get(primitive, "material") == NULL)
+                return true;
+        }
+    }
+    return false;
+}
+
+/* Adds the specification's default material, which is that of {}. */
+static bool add_default(struct reader *r, size_t count, size_t *capacity)
+{
+    const struct gltf_document *document = r->textures->document;
+    json_t *empty = json_pack("{ss}", "name", "default");
+    bool ok;
+
+    if (empty == NULL)
+        return fail(r->err, "%s: out of memory for the materials",
+                    document->path);
+    r->source = mtl_source_empty();
+    r->v = gltf_root(document);
+    r->v.json = empty;
+    ok = add_material(r, count, capacity);
+    json_decref(empty);
+    return ok;
+}
+
+void gltf_materials_hint(const struct gltf_document *document,
+                         const struct scene *scene, struct warnings *report)
+{
+    size_t count = gltf_entry_count(document, "materials");
+
+    if (strstr(gltf_generator(document), "Blender") == NULL)
+        return;
+    for (size_t i = 1; i <= count && i < scene->material_count; i++) {
+        const struct mtl_source *s = &scene->material_origins[i].source;
+
+        /* statements of edits are behind the first line of their file */
+        if (s->tf_thin.line == LINE && s->tf_thin.value > 0)
+            warnings_add(report, "materials of thin glass",
+                         "%s: found '%.80s', glass without a volume, which is "
+                         "a thin shell: for solid glass set 'glass is' to "
+                         "glass in the panel (Tf_thin 0), or a Thickness in "
+                         "Blender's glTF Material Output",
+                         document->path, scene->material_names[i]);
+    }
+}
+
+bool gltf_material_has_alpha(const struct gltf_document *document,
+                             uint32_t material, bool *does, struct error *err)
+{
+    const char *mode = "OPAQUE";
+    struct gltf_value v;
+
+    if (!gltf_entry(document, "materials", material, &v, err) ||
+        !gltf_string(&v, "alphaMode", &mode, err))
+        return false;
+    *does = strcmp(mode, "MASK") == 0 || strcmp(mode, "BLEND") == 0;
+    return true;
+}
+
+bool gltf_materials_read(const struct gltf_document *document,
+                         struct scene *scene, struct warnings *report,
+                         struct error *err)
+{
+    struct gltf_textures textures = {.document = document};
+    struct name_table names = {0};
+    struct reader r = {.textures = &textures, .names = &names, .err = err};
+    struct gltf_value root = gltf_root(document);
+    size_t count = gltf_entry_count(document, "materials");
+    size_t capacity = scene->material_count;
+    bool ok = gltf_take(&root, count, MATERIAL_BYTES, "materials", err) &&
+              gltf_textures_begin(&textures, document, scene, report, err);
+
+    for (size_t i = 0; ok && i < count; i++)
+        ok = read_material(&r, i, &capacity);
+    if (ok && needs_default(document))
+        ok = add_default(&r, count, &capacity);
+    name_table_free(&names);
+    gltf_textures_end(&textures);
+    return ok;
+}

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include "read/view_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/decimal.h"
+#include "base/memory.h"
+#include "read/view_light.h"
+#include "world/light/daylight.h"
+
+bool view_read(struct view *view, const char *path, struct warnings *report,
+               struct error *err)
+{
+    char *text;
+    size_t size_bytes;
+    bool ok;
+
+    if (!file_read(path, &text, &size_bytes, err))
+        return false;
+    ok = view_parse(view, text, size_bytes, path, report, err);
+    free(text);
+    return ok;
+}
+
+static void write_numbers(FILE *to, const char *key, const double *values,
+                          int count)
+{
+    fputs(key, to);
+    for (int i = 0; i < count; i++) {
+        char text[DECIMAL_TEXT_BYTES];
+        decimal_format(text, values[i]);
+        fprintf(to, " %s", text);
+    }
+}
+
+static void write_line(FILE *to, const char *key, const double *values,
+                       int count)
+{
+    write_numbers(to, key, values, count);
+    fputc('\n', to);
+}
+
+static void write_shots(FILE *to, const struct view *v)
+{
+    for (int i = 0; i < VIEW_SHOTS; i++) {
+        const struct pose *p = &v->shots[i];
+
+        if (!v->has_shot[i])
+            continue;
+        fprintf(to, "view %d", i + 1);
+        write_numbers(to, " eye", p->eye, 3);
+        write_numbers(to, " at", p->at, 3);
+        write_numbers(to, " up", p->up, 3);
+        write_numbers(to, " fovy", &p->fovy_deg, 1);
+        write_numbers(to, " aperture", &p->aperture, 1);
+        write_numbers(to, " focus", &p->focus, 1);
+        fputc('\n', to);
+    }
+}
+
+/* Writes the line of one key. Most values that equal their default are left
+ * out. */
+static void write_key(FILE *to, const struct view *v, enum view_key_id id,
+                      const char *sky, const char *path)
+{
+    switch (id) {
+    case KEY_EYE:
+        if (v->has_camera)
+            write_line(to, "eye", v->pose.eye, 3);
+        break;
+    case KEY_AT:
+        if (v->has_camera)
+            write_line(to, "at", v->pose.at, 3);
+        break;
+    case KEY_UP: write_line(to, "up", v->pose.up, 3); break;
+    case KEY_FOVY: write_line(to, "fovy", &v->pose.fovy_deg, 1); break;
+    case KEY_RES:
+        if (v->has_size)
+            fprintf(to, "res %d %d\n", v->width_px, v->height_px);
+        break;
+    case KEY_BACKGROUND:
+        if (v->lighting.has_background)
+            write_line(to, "background", v->lighting.background, 3);
+        break;
+    case KEY_MAX_BOUNCES:
+        if (v->max_bounces >= 0)
+            fprintf(to, "max_bounces %d\n", v->max_bounces);
+        break;
+    case KEY_SKY:
+        if (sky)
+            fprintf(to, "sky %s%s\n", sky, lexer_rest_guard(sky));
+        break;
+    case KEY_SKY_STRENGTH:
+        if (v->lighting.sky_strength < 1 || v->lighting.sky_strength > 1)
+            write_line(to, "sky_strength", &v->lighting.sky_strength, 1);
+        break;
+    case KEY_SKY_ROTATION:
+        if (v->lighting.sky_rotation_deg < 0 ||
+            v->lighting.sky_rotation_deg > 0)
+            write_line(to, "sky_rotation", &v->lighting.sky_rotation_deg, 1);
+        break;
+    case KEY_SUN:
+        if (v->lighting.sun.is_on) {
+            double angles[2] = {v->lighting.sun.azimuth_deg,
+                                v->lighting.sun.elevation_deg};
+
+            write_line(to, "sun", angles, 2);
+        }
+        break;
+    case KEY_TURBIDITY:
+        if (v->lighting.sun.turbidity < TURBIDITY_DEFAULT ||
+            v->lighting.sun.turbidity > TURBIDITY_DEFAULT)
+            write_line(to, "turbidity", &v->lighting.sun.turbidity, 1);
+        break;
+    case KEY_APERTURE:
+        if (v->pose.aperture > 0)
+            write_line(to, "aperture", &v->pose.aperture, 1);
+        break;
+    case KEY_FOCUS:
+        if (v->pose.focus > 0)
+            write_line(to, "focus", &v->pose.focus, 1);
+        break;
+    case KEY_EXPOSURE:
+        if (v->lighting.exposure < 0 || v->lighting.exposure > 0)
+            write_line(to, "exposure", &v->lighting.exposure, 1);
+        break;
+    case KEY_TONE:
+        if (v->lighting.tone != TONE_LINEAR)
+            fprintf(to, "tone %s\n", view_tones[v->lighting.tone]);
+        break;
+    case KEY_ASSIGN: assigns_write(&v->assigns, to); break;
+    case KEY_LIGHT_UNIT:
+        if (v->light_unit != LIGHT_UNIT_OF_FILE)
+            fprintf(to, "light_unit %s\n", light_units[v->light_unit]);
+        break;
+    case KEY_LIGHT: view_lights_write(&v->lamps, path, to); break;
+    case KEY_VIEW: write_shots(to, v); break;
+    }
+}
+
+/* State of writing over the lines of the old text. */
+struct writer {
+    FILE *to;
+    const struct view *view;
+    const char *sky; /* NULL if the view has none */
+    bool is_written[VIEW_KEYS];
+    struct view_reader
+        old; /* parses the old lines into a view that is dropped */
+};
+
+/* Copies a line; an unterminated last line gets a line end. A line that ends in
+ * a backslash gets two, for the backslash joins the next line. The same holds
+ * for a backslash and a carriage return, to which the first line feed
+ * belongs. */
+static void keep_line(FILE *to, const char *line, const struct lexer *after,
+                      bool has_end)
+{
+    char last = after->p[-1];
+
+    fwrite(line, 1, (size_t)(after->p - line), to);
+    if (!has_end)
+        fputs(last == '\\' || last == '\r' ? "\n\n" : "\n", to);
+}
+
+/* Writes the current value if the line has a key, otherwise copies the line.
+ * The parser finds the end of the line. */
+static void write_line_over(struct writer *w, struct lexer *lex)
+{
+    const char *line = lex->p;
+    struct lexer start = *lex;
+    const struct view_key *key =
+        lexer_at_line_end(&start) ? NULL : view_find_key(lexer_word(&start));
+    struct error ignored;
+    bool has_end;
+
+    view_parse_line(&w->old, lex, &ignored);
+    has_end = lexer_next_line(lex);
+    if (!key) {
+        keep_line(w->to, line, lex, has_end);
+    } else if (!w->is_written[key - view_keys]) {
+        write_key(w->to, w->view, key->id, w->sky, w->old.path);
+        w->is_written[key - view_keys] = true;
+    }
+}
+
+/* Writes the old text with the current values, then the keys that it did not
+ * have. */
+static void write_over(struct writer *w, const char *text, size_t size_bytes)
+{
+    struct lexer lex;
+
+    lexer_init(&lex, text, size_bytes);
+    while (lex.p < lex.end)
+        write_line_over(w, &lex);
+    for (size_t i = 0; i < VIEW_KEYS; i++) {
+        if (!w->is_written[i])
+            write_key(w->to, w->view, view_keys[i].id, w->sky, w->old.path);
+    }
+}
+
+/* Refuses names that a line cannot hold: with a line end inside or a blank at
+ * the end. `of` is what they are names of. */
+static bool check_name(const char *name, const char *of, const char *path,
+                       struct error *err)
+{
+    size_t length = strlen(name);
+
+    if (strpbrk(name, "\r\n"))
+        return fail(err, "%s: found a line end in the %s name, expected none",
+                    path, of);
+    if (length > 0 && lexer_is_blank(name[length - 1]))
+        return fail(
+            err, "%s: found a blank at the end of the %s name, expected none",
+            path, of);
+    return true;
+}
+
+static bool check_names(const struct view *view, const char *path,
+                        struct error *err)
+{
+    bool ok = view->lighting.sky_path == NULL ||
+              check_name(view->lighting.sky_path, "sky's", path, err);
+
+    for (uint32_t i = 0; i < view->lamps.count && ok; i++) {
+        const struct profile *profile = view->lamps.items[i].profile;
+
+        ok = profile == NULL ||
+             check_name(profile->path, "light's IES", path, err);
+    }
+    return ok;
+}
+
+bool view_format(const struct view *view, const char *path,
+                 const char *old_text, size_t old_bytes, char **text,
+                 size_t *size_bytes, struct error *err)
+{
+    struct warnings ignored = {0};
+    struct view scratch;
+    struct writer w = {.view = view,
+                       .old = {.view = &scratch,
+                               .path = path,
+                               .report = &ignored}};
+    char *sky = NULL;
+
+    if (!check_names(view, path, err))
+        return false;
+    *text = NULL;
+    w.to = open_memstream(text, size_bytes);
+    if (!w.to)
+        return fail(err, "%s: out of memory", path);
+    if (view->lighting.sky_path)
+        sky = view_name(view->lighting.sky_path, path);
+    w.sky = sky;
+    view_init(&scratch);
+    write_over(&w, old_text, old_bytes);
+    view_free(&scratch);
+    warnings_free(&ignored);
+    free(sky);
+    if (fclose(w.to) == 0 && (sky || !view->lighting.sky_path))
+        return true;
+    free(*text);
+    *text = NULL;
+    return fail(err, "%s: out of memory", path);
+}
+
+/* Reads the file that will be replaced; returns the first lines of a new one if
+ * there is none. */
+static bool read_old(const char *path, char **text, size_t *size_bytes,
+                     struct error *err)
+{
+    if (access(path, F_OK) == 0)
+        return file_read(path, text, size_bytes, err);
+    *text = strdup("# a view of a scene: points in the scene's units, angles "
+                   "in degrees,\n# background as radiance, exposure in "
+                   "stops\n");
+    if (!*text)
+        return fail(err, "%s: out of memory", path);
+    *size_bytes = strlen(*text);
+    return true;
+}
+
+/* Writes the old text to the file with a ~ if the new text differs. */
+static bool keep_old(const char *path, const char *old_text, size_t old_bytes,
+                     const char *text, size_t size_bytes,
+                     struct file_change *change, struct error *err)
+{
+    char *name;
+
+    change->is_kept =
+        change->before.exists &&
+        (old_bytes != size_bytes || memcmp(old_text, text, size_bytes) != 0);
+    if (!change->is_kept)
+        return true;
+    name = format_text("%s~", path);
+    if (!name)
+        return fail(err, "%s: out of memory", path);
+    bool ok = file_write(name, old_text, old_bytes, false, NULL, err);
+    free(name);
+    return ok;
+}
+
+bool view_write(const struct view *view, const char *path,
+                struct file_change *change, struct error *err)
+{
+    char *old_text, *text;
+    size_t old_bytes, size_bytes;
+    bool ok;
+
+    change->before = file_identify(path);
+    if (!read_old(path, &old_text, &old_bytes, err))
+        return false;
+    ok = view_format(view, path, old_text, old_bytes, &text, &size_bytes, err);
+    if (ok) {
+        ok = keep_old(path, old_text, old_bytes, text, size_bytes, change,
+                      err) &&
+             file_replace(path, text, size_bytes, change, err);
+        free(text);
+    }
+    free(old_text);
+    return ok;
+}
