@@ -69,7 +69,7 @@ static bool assign(struct glim *g, struct error *err)
 {
     const struct scene *scene = &g->engine.scene;
     uint32_t *assigned = alloc_array(scene->object_count, sizeof *assigned);
-    struct mtl_source *sources =
+    struct material_values *sources =
         alloc_array(scene->material_count, sizeof *sources);
     bool ok = (assigned != NULL && sources != NULL) ||
               fail(err, "%s: out of memory for the materials", scene->path);

@@ -33,7 +33,7 @@ struct parser {
     bool is_made;           /* the text is a reader's, not that of the file */
     uint32_t earlier_count; /* materials of the scene before this text */
     enum mtl_dialect dialect;
-    struct mtl_source source;
+    struct material_values source;
 };
 
 static bool out_of_memory(const struct parser *p)
@@ -45,7 +45,7 @@ static bool out_of_memory(const struct parser *p)
 bool mtl_add_default(struct scene *scene, struct error *err)
 {
     struct material m = material_default();
-    struct material_origin origin = {mtl_source_empty(), NO_INDEX};
+    struct material_origin origin = {material_values_empty(), NO_INDEX};
     size_t capacity = 0;
 
     if (scene->material_count > 0 ||
@@ -109,7 +109,7 @@ static bool read_newmtl(struct parser *p)
     free(p->name);
     p->name_line = p->lex.line;
     p->name = lexer_rest(&p->lex);
-    p->source = mtl_source_empty();
+    p->source = material_values_empty();
     p->source.dialect = p->dialect;
     return p->name != NULL || out_of_memory(p);
 }
@@ -168,7 +168,7 @@ static bool read_color(struct parser *p, struct word key,
  * temperature. The luminance is 1 unless it is given. */
 static bool read_blackbody(struct parser *p, struct word key)
 {
-    struct mtl_source *s = &p->source;
+    struct material_values *s = &p->source;
     double kelvin, scale = 1;
 
     if (lexer_at_line_end(&p->lex) || !lexer_number(&p->lex, &kelvin) ||
@@ -191,11 +191,12 @@ static bool read_blackbody(struct parser *p, struct word key)
 /* Reads Ke. It replaces an earlier Ke_blackbody. */
 static bool read_light(struct parser *p, struct word key)
 {
-    struct mtl_source *s = &p->source;
+    struct material_values *s = &p->source;
 
-    if (!read_color(p, key, &s->ke))
+    if (!read_color(p, key, &s->emission))
         return false;
-    if (s->ke.line == p->lex.line) /* a colour was read, not a spectral one */
+    if (s->emission.line ==
+        p->lex.line) /* a colour was read, not a spectral one */
         s->kelvin = s->luminance = (struct mtl_number){.line = 0};
     return true;
 }
@@ -279,34 +280,34 @@ static const struct mtl_property *find_property(const struct parser *p,
 
 static bool read_property(struct parser *p, struct word key)
 {
-    struct mtl_source *s = &p->source;
+    struct material_values *s = &p->source;
     static const struct {
         const char *key;
         enum mtl_map map;
         bool is_data;
         bool is_of_blender; /* has this meaning in its files only */
     } maps[] = {
-        {"map_Kd", MTL_MAP_KD, false, false},
-        {"map_Ks", MTL_MAP_KS, false, false},
-        {"map_Ke", MTL_MAP_KE, false, false},
-        {"map_Pr", MTL_MAP_PR, true, false},
-        {"map_Ns", MTL_MAP_PR, true, true},
-        {"map_Pm", MTL_MAP_PM, true, false},
-        {"map_refl", MTL_MAP_PM, true, true},
-        {"map_d", MTL_MAP_D, true, false},
-        {"map_Tf", MTL_MAP_TF, true, false},
-        {"map_Pc", MTL_MAP_PC, true, false},
-        {"map_Pcr", MTL_MAP_PCR, true, false},
-        {"map_Ps", MTL_MAP_PS, true, false},
-        {"map_Ps_color", MTL_MAP_PS_COLOR, false, false},
-        {"map_Ps_roughness", MTL_MAP_PS_ROUGHNESS, true, false},
-        {"map_Ks_weight", MTL_MAP_KS_WEIGHT, true, false},
-        {"map_Pf", MTL_MAP_PF, true, false},
-        {"map_Pf_thickness", MTL_MAP_PF_THICKNESS, true, false},
+        {"map_Kd", MTL_MAP_COLOR, false, false},
+        {"map_Ks", MTL_MAP_SPECULAR, false, false},
+        {"map_Ke", MTL_MAP_EMISSION, false, false},
+        {"map_Pr", MTL_MAP_ROUGHNESS, true, false},
+        {"map_Ns", MTL_MAP_ROUGHNESS, true, true},
+        {"map_Pm", MTL_MAP_METALNESS, true, false},
+        {"map_refl", MTL_MAP_METALNESS, true, true},
+        {"map_d", MTL_MAP_OPACITY, true, false},
+        {"map_Tf", MTL_MAP_TRANSMISSION, true, false},
+        {"map_Pc", MTL_MAP_COAT, true, false},
+        {"map_Pcr", MTL_MAP_COAT_ROUGHNESS, true, false},
+        {"map_Ps", MTL_MAP_SHEEN, true, false},
+        {"map_Ps_color", MTL_MAP_SHEEN_COLOR, false, false},
+        {"map_Ps_roughness", MTL_MAP_SHEEN_ROUGHNESS, true, false},
+        {"map_Ks_weight", MTL_MAP_SPECULAR_WEIGHT, true, false},
+        {"map_Pf", MTL_MAP_FILM, true, false},
+        {"map_Pf_thickness", MTL_MAP_FILM_THICKNESS, true, false},
         {"map_grain", MTL_MAP_GRAIN, true, false},
-        {"map_Pc_norm", MTL_MAP_PC_NORM, true, false},
-        {"norm", MTL_MAP_NORM, true, false},
-        {"map_Kn", MTL_MAP_NORM, true, false},
+        {"map_Pc_norm", MTL_MAP_COAT_NORMAL, true, false},
+        {"norm", MTL_MAP_NORMAL, true, false},
+        {"map_Kn", MTL_MAP_NORMAL, true, false},
         {"bump", MTL_MAP_BUMP, true, false},
         {"map_bump", MTL_MAP_BUMP, true, false},
         {"map_Bump", MTL_MAP_BUMP, true, false},
@@ -327,7 +328,7 @@ static bool read_property(struct parser *p, struct word key)
         if (word_is(key, maps[i].key) &&
             (p->dialect != MTL_CLASSIC || !maps[i].is_of_blender))
             return read_map(p, key, maps[i].is_data, &s->maps[maps[i].map],
-                            mtl_source_map_scale(s, maps[i].map));
+                            material_values_map_scale(s, maps[i].map));
     }
     skip_statement(p, key);
     return true;

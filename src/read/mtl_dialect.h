@@ -14,7 +14,7 @@
 #ifndef GLIM_MTL_DIALECT_H
 #define GLIM_MTL_DIALECT_H
 
-#include "scene/mtl_source.h"
+#include "scene/material_values.h"
 
 struct mtl_dialect_found {
     enum mtl_dialect dialect;

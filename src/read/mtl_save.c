@@ -401,11 +401,12 @@ static mtl_aliases roughness_of_blender = {"map_Pr", "map_Ns"};
 static mtl_aliases metal_of_blender = {"map_Pm", "map_refl"};
 
 /* Returns the keys that mean this map in a file of the material's dialect. */
-static const char *const *map_keys(const struct mtl_source *s, enum mtl_map map)
+static const char *const *map_keys(const struct material_values *s,
+                                   enum mtl_map map)
 {
-    if (s->dialect != MTL_CLASSIC && map == MTL_MAP_PR)
+    if (s->dialect != MTL_CLASSIC && map == MTL_MAP_ROUGHNESS)
         return roughness_of_blender;
-    if (s->dialect != MTL_CLASSIC && map == MTL_MAP_PM)
+    if (s->dialect != MTL_CLASSIC && map == MTL_MAP_METALNESS)
         return metal_of_blender;
     return classic_map_keys[map];
 }
@@ -452,13 +453,14 @@ static bool write_number(struct writer *w, const struct mtl_change *c,
 static bool write_light(struct writer *w, const struct mtl_change *c)
 {
     static const struct mtl_color none = {.line = 0};
-    const struct mtl_source *a = c->before, *b = c->after;
+    const struct material_values *a = c->before, *b = c->after;
     char text[2][DECIMAL_TEXT_BYTES], value[2 * DECIMAL_TEXT_BYTES];
 
     if (b->kelvin.line == 0)
         return write_color(w, c, light_keys,
-                           a->kelvin.line == 0 ? &a->ke : &none, &b->ke) &&
-               (a->kelvin.line == 0 || b->ke.line != 0 ||
+                           a->kelvin.line == 0 ? &a->emission : &none,
+                           &b->emission) &&
+               (a->kelvin.line == 0 || b->emission.line != 0 ||
                 mtl_document_remove(&w->text, c->name, light_keys));
     if (mtl_number_equal(&a->kelvin, &b->kelvin) &&
         mtl_number_equal(&a->luminance, &b->luminance))
@@ -561,7 +563,7 @@ static void print_flags(FILE *to, uint32_t flags)
 
 /* Returns the options and the file name of a map statement, for free(). NULL
  * when memory is out. */
-static char *map_value(const struct writer *w, const struct mtl_source *s,
+static char *map_value(const struct writer *w, const struct material_values *s,
                        enum mtl_map map)
 {
     const struct texture *t = &w->scene->textures[s->maps[map]];
@@ -595,8 +597,8 @@ static char *map_value(const struct writer *w, const struct mtl_source *s,
 static bool write_map(struct writer *w, const struct mtl_change *c,
                       enum mtl_map map)
 {
-    bool was_on = mtl_source_map(c->before, map) != NO_INDEX;
-    bool is_on = mtl_source_map(c->after, map) != NO_INDEX;
+    bool was_on = material_values_map(c->before, map) != NO_INDEX;
+    bool is_on = material_values_map(c->after, map) != NO_INDEX;
     const char *const *keys = map_keys(c->after, map);
     struct mtl_block b;
     size_t hash;
@@ -637,7 +639,7 @@ static bool write_properties(struct writer *w, const struct mtl_change *c,
 
 static bool write_change(struct writer *w, const struct mtl_change *c)
 {
-    const struct mtl_source none = mtl_source_empty();
+    const struct material_values none = material_values_empty();
     struct mtl_change whole = {c->name, c->copied_from, &none, c->after};
     struct mtl_block block;
     bool ok = true;

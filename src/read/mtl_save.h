@@ -24,8 +24,8 @@ struct mtl_change {
     /* Name of the material whose block a new material copies; NULL if the
      * material is in the file already. */
     const char *copied_from;
-    const struct mtl_source *before; /* the material as the file has it */
-    const struct mtl_source *after;
+    const struct material_values *before; /* the material as the file has it */
+    const struct material_values *after;
 };
 
 /* Makes the text of the MTL file `path` with the changes. The scene's textures

@@ -91,22 +91,22 @@ void material_maps(const struct material *material,
         maps[i] = *material_map(&m, i);
 }
 
-static bool is_of_blender(const struct mtl_source *s)
+static bool is_of_blender(const struct material_values *s)
 {
     return s->dialect != MTL_CLASSIC;
 }
 
-static double alpha(const struct mtl_source *s,
+static double alpha(const struct material_values *s,
                     const struct statement_place *at)
 {
-    double ns = statement_within(&s->ns, "Ns", 0, DBL_MAX, 0, at);
+    double ns = statement_within(&s->shininess, "Ns", 0, DBL_MAX, 0, at);
 
-    if (s->pr.line != 0) {
-        double pr = statement_unit(&s->pr, "Pr", at);
+    if (s->roughness.line != 0) {
+        double pr = statement_unit(&s->roughness, "Pr", at);
 
         return pr * pr;
     }
-    if (is_of_blender(s) && s->ns.line != 0) {
+    if (is_of_blender(s) && s->shininess.line != 0) {
         double roughness = 1 - sqrt(fmin(ns, NS_SMOOTH) / NS_SMOOTH);
 
         return roughness * roughness;
@@ -114,35 +114,35 @@ static double alpha(const struct mtl_source *s,
     return ns == 0 || ns >= NS_SMOOTH ? 0 : sqrt(2 / (ns + 2));
 }
 
-static void roughen(struct material *m, const struct mtl_source *s,
+static void roughen(struct material *m, const struct material_values *s,
                     const struct statement_place *at)
 {
     m->alpha = (float)alpha(s, at);
-    m->alpha_texture = mtl_source_map(s, MTL_MAP_PR);
+    m->alpha_texture = material_values_map(s, MTL_MAP_ROUGHNESS);
 }
 
 /* Returns the opacity of d, or without d that of Tr. A file that says Tr 1
  * alone means what MeshLab did, an opaque surface, and no one draws a scene
  * that is not to be seen: Blender does not read Tr. */
-static double opacity(const struct mtl_source *s,
+static double opacity(const struct material_values *s,
                       const struct statement_place *at)
 {
-    if (s->d.line != 0)
-        return statement_within(&s->d, "d", 0, 1,
-                                isnan(s->d.value)
+    if (s->opacity.line != 0)
+        return statement_within(&s->opacity, "d", 0, 1,
+                                isnan(s->opacity.value)
                                     ? 1
-                                    : statement_clamped(s->d.value),
+                                    : statement_clamped(s->opacity.value),
                                 at);
-    if (s->tr.value < 1)
-        return 1 - statement_unit(&s->tr, "Tr", at);
+    if (s->transparency.value < 1)
+        return 1 - statement_unit(&s->transparency, "Tr", at);
     warnings_add(at->report, "transparencies of 1",
                  "%s:%" PRIu64 ": found Tr %g without d, expected d 0 for an "
                  "invisible surface: read as opaque",
-                 at->path, s->tr.line, s->tr.value);
+                 at->path, s->transparency.line, s->transparency.value);
     return 1;
 }
 
-static int illumination(const struct mtl_source *s,
+static int illumination(const struct material_values *s,
                         const struct statement_place *at)
 {
     double illum = statement_within(&s->illum, "illum", 0, 10, 2, at);
@@ -150,10 +150,10 @@ static int illumination(const struct mtl_source *s,
     return (int)illum;
 }
 
-static float index_of(const struct mtl_source *s,
+static float index_of(const struct material_values *s,
                       const struct statement_place *at)
 {
-    return (float)statement_within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX,
+    return (float)statement_within(&s->ior, "Ni", 1 / IOR_MAX, IOR_MAX,
                                    IOR_DEFAULT, at);
 }
 
@@ -170,26 +170,26 @@ static float absorption(float share, double d)
 }
 
 /* Returns true if the glass of a mixture is a thin sheet. */
-static bool is_thin(const struct mtl_source *s,
+static bool is_thin(const struct material_values *s,
                     const struct statement_place *at)
 {
-    return statement_unit(&s->tf_thin, "Tf_thin", at) > 0;
+    return statement_unit(&s->thinness, "Tf_thin", at) > 0;
 }
 
 /* Sets the absorption of a solid with the colour tf, or Tf_attenuation if that
  * is present, after Tf_distance. Returns false if the distance is absent or
  * 0. */
 static bool attenuate(struct material *m, struct vec3 tf,
-                      const struct mtl_source *s,
+                      const struct material_values *s,
                       const struct statement_place *at)
 {
-    double d =
-        statement_within(&s->tf_distance, "Tf_distance", 0, DBL_MAX, 0, at);
+    double d = statement_within(&s->attenuation_distance, "Tf_distance", 0,
+                                DBL_MAX, 0, at);
 
     if (d == 0)
         return false;
-    if (s->tf_attenuation.line != 0)
-        tf = statement_reflectance(&s->tf_attenuation, "Tf_attenuation", 1, at);
+    if (s->attenuation.line != 0)
+        tf = statement_reflectance(&s->attenuation, "Tf_attenuation", 1, at);
     m->attenuation = (struct vec3){absorption(tf.x, d), absorption(tf.y, d),
                                    absorption(tf.z, d)};
     return true;
@@ -201,29 +201,30 @@ static bool is_black(const struct vec3 *c)
 }
 
 static void make_glass(struct material *m, uint32_t kind,
-                       const struct mtl_source *s,
+                       const struct material_values *s,
                        const struct statement_place *at)
 {
     m->kind = kind;
-    m->color = statement_reflectance(&s->tf, "Tf", 1, at);
-    m->color_texture = mtl_source_map(s, MTL_MAP_KD);
+    m->color = statement_reflectance(&s->transmission, "Tf", 1, at);
+    m->color_texture = material_values_map(s, MTL_MAP_COLOR);
     if (kind == MATERIAL_GLASS && attenuate(m, m->color, s, at) &&
-        s->tf_attenuation.line == 0)
+        s->attenuation.line == 0)
         m->color = (struct vec3){1, 1, 1};
     if (is_black(&m->color) && m->color_texture != NO_INDEX)
         m->color = (struct vec3){1, 1, 1}; /* a factor of map_Kd, as Kd is */
-    if (kind == MATERIAL_GLASS || s->pr.line != 0)
+    if (kind == MATERIAL_GLASS || s->roughness.line != 0)
         roughen(m, s, at);
     m->ior = index_of(s, at);
 }
 
 /* Returns true if the statements ask for partial opacity. */
-static bool is_partial(const struct mtl_source *s)
+static bool is_partial(const struct material_values *s)
 {
-    double d = s->d.line != 0 ? s->d.value : 1 - s->tr.value;
+    double d =
+        s->opacity.line != 0 ? s->opacity.value : 1 - s->transparency.value;
 
     /* other programs write d 0 beside illum 4 for clear glass */
-    return mtl_source_map(s, MTL_MAP_D) != NO_INDEX ||
+    return material_values_map(s, MTL_MAP_OPACITY) != NO_INDEX ||
            (d < 1 && (d > 0 || is_of_blender(s)));
 }
 
@@ -236,41 +237,42 @@ static bool is_white_or_absent(const struct mtl_color *c)
  * nor refraction it would be invisible: then they mean an opaque surface, as
  * Maya writes it, or one of partial opacity. Blender writes illum 9 for all
  * materials of partial opacity. */
-static bool is_sheet(const struct mtl_source *s, int illum)
+static bool is_sheet(const struct material_values *s, int illum)
 {
-    bool has_surface = s->tf.line != 0 || s->kd.line != 0 || s->ks.line != 0;
+    bool has_surface = s->transmission.line != 0 || s->base_color.line != 0 ||
+                       s->specular_color.line != 0;
 
     if (illum != 4 && illum != 9)
         return false;
     if (is_of_blender(s) && illum == 9)
         return !is_partial(s);
-    return !is_white_or_absent(&s->tf) ||
+    return !is_white_or_absent(&s->transmission) ||
            !(is_partial(s) ||
-             (s->ni.line != 0 && s->ni.value == 1 && has_surface));
+             (s->ior.line != 0 && s->ior.value == 1 && has_surface));
 }
 
 /* Returns true for illum 6 and 7 that mean solid glass. Blender writes 6 for
  * metals of partial opacity. */
-static bool is_solid_glass(const struct mtl_source *s, int illum)
+static bool is_solid_glass(const struct material_values *s, int illum)
 {
     return illum == 7 || (illum == 6 && !(is_of_blender(s) && is_partial(s)));
 }
 
 /* Returns the reflectance of plastic whose Ks is 1. From Blender 4.0 on, Ks 0.5
  * is the Fresnel reflectance of Ni. */
-static float full_specular(const struct mtl_source *s,
+static float full_specular(const struct material_values *s,
                            const struct statement_place *at)
 {
     float ni = index_of(s, at);
     float r = (ni - 1) / (ni + 1);
 
-    if (s->ks_full.line != 0)
-        return (float)statement_unit(&s->ks_full, "Ks_full", at);
+    if (s->specular_scale.line != 0)
+        return (float)statement_unit(&s->specular_scale, "Ks_full", at);
     return s->dialect == MTL_BLENDER_4 ? 2 * r * r : MATERIAL_SPECULAR;
 }
 
 static void make_plastic(struct material *m, const struct vec3 *ks,
-                         const struct mtl_source *s,
+                         const struct material_values *s,
                          const struct statement_place *at)
 {
     float full = full_specular(s, at);
@@ -278,15 +280,16 @@ static void make_plastic(struct material *m, const struct vec3 *ks,
     m->kind = MATERIAL_PLASTIC;
     m->specular = (struct vec3){fminf(ks->x * full, 1), fminf(ks->y * full, 1),
                                 fminf(ks->z * full, 1)};
-    m->specular_texture = mtl_source_map(s, MTL_MAP_KS);
-    m->specular_weight_texture = mtl_source_map(s, MTL_MAP_KS_WEIGHT);
+    m->specular_texture = material_values_map(s, MTL_MAP_SPECULAR);
+    m->specular_weight_texture =
+        material_values_map(s, MTL_MAP_SPECULAR_WEIGHT);
     roughen(m, s, at);
 }
 
-static void make_diffuse(struct material *m, const struct mtl_source *s,
+static void make_diffuse(struct material *m, const struct material_values *s,
                          const struct statement_place *at)
 {
-    double r = statement_unit(&s->kd_roughness, "Kd_roughness", at);
+    double r = statement_unit(&s->diffuse_roughness, "Kd_roughness", at);
 
     if (r < ROUGH_LEAST)
         return;
@@ -296,36 +299,35 @@ static void make_diffuse(struct material *m, const struct mtl_source *s,
 
 /* Returns the weight of transmission, which Blender writes as a grey Tf. With
  * Tf_distance, it is the largest channel, and the rest is absorption. */
-static double transmission(struct material *m, const struct mtl_source *s,
+static double transmission(struct material *m, const struct material_values *s,
                            int illum, const struct statement_place *at)
 {
     struct vec3 tf;
     float top;
 
-    if (s->tf.line == 0 || s->pr.line == 0 ||
+    if (s->transmission.line == 0 || s->roughness.line == 0 ||
         (!is_of_blender(s) &&
-         (s->pr.line == MTL_IMPLIED || (illum != 2 && illum != 3))))
+         (s->roughness.line == MTL_IMPLIED || (illum != 2 && illum != 3))))
         return 0;
-    m->transmission_texture = mtl_source_map(s, MTL_MAP_TF);
-    tf = statement_reflectance(&s->tf, "Tf", 1, at);
+    m->transmission_texture = material_values_map(s, MTL_MAP_TRANSMISSION);
+    tf = statement_reflectance(&s->transmission, "Tf", 1, at);
     top = v3_max_component(tf);
     m->is_thin = top > 0 && is_thin(s, at);
     if (top > 0 && m->is_thin == 0 &&
-        attenuate(m, v3_scale(tf, 1 / top), s, at) &&
-        s->tf_attenuation.line == 0)
+        attenuate(m, v3_scale(tf, 1 / top), s, at) && s->attenuation.line == 0)
         return (double)top;
     return (double)(tf.x + tf.y + tf.z) / 3;
 }
 
 /* Returns the weight of metal. Without the extension, Blender writes it as Ka,
  * which is 1 for other materials. */
-static double metalness(const struct mtl_source *s, int illum,
+static double metalness(const struct material_values *s, int illum,
                         const struct statement_place *at)
 {
-    double ka = s->ka.line != 0 ? statement_clamped(s->ka.rgb[0]) : 1;
+    double ka = s->ambient.line != 0 ? statement_clamped(s->ambient.rgb[0]) : 1;
 
-    if (s->pm.line != 0 || !is_of_blender(s))
-        return statement_unit(&s->pm, "Pm", at);
+    if (s->metalness.line != 0 || !is_of_blender(s))
+        return statement_unit(&s->metalness, "Pm", at);
     if (illum == 3 || illum == 6)
         return ka;
     return illum == 1 && ka < 1 ? ka : 0; /* Ks is 0 */
@@ -334,13 +336,13 @@ static double metalness(const struct mtl_source *s, int illum,
 /* Sets the film. One without thickness, or without a surface that reflects, has
  * no effect. */
 static void set_film(struct material *m, bool has_facets,
-                     const struct mtl_source *s,
+                     const struct material_values *s,
                      const struct statement_place *at)
 {
-    double weight = statement_unit(&s->pf, "Pf", at);
-    double ior = statement_within(&s->pf_ior, "Pf_ior", 1,
+    double weight = statement_unit(&s->film, "Pf", at);
+    double ior = statement_within(&s->film_ior, "Pf_ior", 1,
                                   MATERIAL_FILM_IOR_MAX, MATERIAL_FILM_IOR, at);
-    double thickness = statement_within(&s->pf_thickness, "Pf_thickness", 0,
+    double thickness = statement_within(&s->film_thickness, "Pf_thickness", 0,
                                         MATERIAL_FILM_THICKNESS_MAX,
                                         MATERIAL_FILM_THICKNESS, at);
 
@@ -349,43 +351,47 @@ static void set_film(struct material *m, bool has_facets,
     m->film = (float)weight;
     m->film_ior = (float)ior;
     m->film_thickness = (float)thickness;
-    m->film_texture = mtl_source_map(s, MTL_MAP_PF);
-    m->film_thickness_texture = mtl_source_map(s, MTL_MAP_PF_THICKNESS);
+    m->film_texture = material_values_map(s, MTL_MAP_FILM);
+    m->film_thickness_texture = material_values_map(s, MTL_MAP_FILM_THICKNESS);
     if (m->film_thickness_texture != NO_INDEX)
         m->film_thinnest =
-            (float)statement_within(&s->pf_thinnest, "Pf_thinnest", 0,
+            (float)statement_within(&s->film_thinnest, "Pf_thinnest", 0,
                                     MATERIAL_FILM_THICKNESS_MAX, 0, at);
 }
 
 /* Returns the map of sheen. Colours come before weights. */
-static uint32_t sheen_map(const struct mtl_source *s)
+static uint32_t sheen_map(const struct material_values *s)
 {
-    uint32_t colors = mtl_source_map(s, MTL_MAP_PS_COLOR);
+    uint32_t colors = material_values_map(s, MTL_MAP_SHEEN_COLOR);
 
-    return colors != NO_INDEX ? colors : mtl_source_map(s, MTL_MAP_PS);
+    return colors != NO_INDEX ? colors : material_values_map(s, MTL_MAP_SHEEN);
 }
 
-static void set_sheen_and_grain(struct material *m, const struct mtl_source *s,
+static void set_sheen_and_grain(struct material *m,
+                                const struct material_values *s,
                                 const struct statement_place *at)
 {
     uint32_t map = sheen_map(s);
-    float ps = (float)statement_unit(&s->ps, "Ps", at);
-    struct vec3 color = statement_reflectance(&s->ps_color, "Ps_color", 1, at);
+    float ps = (float)statement_unit(&s->sheen, "Ps", at);
+    struct vec3 color =
+        statement_reflectance(&s->sheen_color, "Ps_color", 1, at);
     double roughness =
-        s->ps_roughness.line != 0
-            ? statement_unit(&s->ps_roughness, "Ps_roughness", at)
+        s->sheen_roughness.line != 0
+            ? statement_unit(&s->sheen_roughness, "Ps_roughness", at)
             : MATERIAL_SHEEN_ROUGHNESS;
-    double turn = s->anisor.line != 0 ? s->anisor.value : 0;
+    double turn =
+        s->anisotropy_rotation.line != 0 ? s->anisotropy_rotation.value : 0;
 
     m->sheen = (struct vec3){ps * color.x, ps * color.y, ps * color.z};
     m->sheen_texture = map;
     if (ps > 0)
-        m->sheen_alpha_texture = mtl_source_map(s, MTL_MAP_PS_ROUGHNESS);
+        m->sheen_alpha_texture =
+            material_values_map(s, MTL_MAP_SHEEN_ROUGHNESS);
     if (ps > 0)
         m->sheen_alpha = fmaxf((float)(roughness * roughness), SHEEN_ALPHA_MIN);
-    m->anisotropy = (float)statement_unit(&s->aniso, "aniso", at);
+    m->anisotropy = (float)statement_unit(&s->anisotropy, "aniso", at);
     if (m->anisotropy > 0)
-        m->grain_texture = mtl_source_map(s, MTL_MAP_GRAIN);
+        m->grain_texture = material_values_map(s, MTL_MAP_GRAIN);
     if (m->anisotropy > 0 && isfinite(turn)) {
         turn = 2 * M_PI * (turn - floor(turn));
         m->grain = (struct vec2){(float)cos(turn), (float)sin(turn)};
@@ -395,24 +401,25 @@ static void set_sheen_and_grain(struct material *m, const struct mtl_source *s,
 /* Sets the weights of a mixture. Returns false, and leaves the material, if it
  * is not one. A grain needs highlights: metal, or Ks (has_ks). */
 static bool make_principled(struct material *m, int illum, bool has_ks,
-                            const struct mtl_source *s,
+                            const struct material_values *s,
                             const struct statement_place *at)
 {
-    struct mtl_number pc = {s->pc.value / mtl_source_full_coat(s), s->pc.line};
-    double pcr = statement_unit(&s->pcr, "Pcr", at);
+    struct mtl_number pc = {s->coat.value / material_values_full_coat(s),
+                            s->coat.line};
+    double pcr = statement_unit(&s->coat_roughness, "Pcr", at);
 
-    m->metal_texture = mtl_source_map(s, MTL_MAP_PM);
+    m->metal_texture = material_values_map(s, MTL_MAP_METALNESS);
     m->metalness = (float)metalness(s, illum, at);
     m->transmission = (float)transmission(m, s, illum, at);
     m->coat = (float)statement_unit(&pc, "Pc", at);
-    m->coat_texture = mtl_source_map(s, MTL_MAP_PC);
+    m->coat_texture = material_values_map(s, MTL_MAP_COAT);
     if (m->coat > 0) {
         m->coat_alpha = (float)(pcr * pcr);
-        m->coat_alpha_texture = mtl_source_map(s, MTL_MAP_PCR);
-        m->coat_normal_texture = mtl_source_map(s, MTL_MAP_PC_NORM);
+        m->coat_alpha_texture = material_values_map(s, MTL_MAP_COAT_ROUGHNESS);
+        m->coat_normal_texture = material_values_map(s, MTL_MAP_COAT_NORMAL);
     }
     if (m->coat_normal_texture != NO_INDEX)
-        m->coat_normal_strength = (float)s->map_scales[MTL_MAP_PC_NORM];
+        m->coat_normal_strength = (float)s->map_scales[MTL_MAP_COAT_NORMAL];
     set_sheen_and_grain(m, s, at);
     if (m->metalness == 0 && !has_ks)
         m->anisotropy = 0;
@@ -423,11 +430,11 @@ static bool make_principled(struct material *m, int illum, bool has_ks,
 }
 
 static void make_opaque(struct material *m, int illum,
-                        const struct mtl_source *s,
+                        const struct material_values *s,
                         const struct statement_place *at)
 {
-    uint32_t map_ks = mtl_source_map(s, MTL_MAP_KS);
-    struct vec3 ks = statement_reflectance(&s->ks, "Ks", 0, at);
+    uint32_t map_ks = material_values_map(s, MTL_MAP_SPECULAR);
+    struct vec3 ks = statement_reflectance(&s->specular_color, "Ks", 0, at);
     bool has_ks = !is_black(&ks) || map_ks != NO_INDEX;
     bool is_principled = make_principled(m, illum, has_ks, s, at);
 
@@ -436,15 +443,15 @@ static void make_opaque(struct material *m, int illum,
         warnings_add(at->report, "invisible materials",
                      "%s:%" PRIu64
                      ": found d %g: surfaces with this material are invisible",
-                     at->path, s->d.line, s->d.value);
-    m->opacity_texture = mtl_source_map(s, MTL_MAP_D);
-    m->cutoff = (float)statement_unit(&s->d_cutoff, "d_cutoff", at);
-    m->color = statement_reflectance(&s->kd, "Kd", MATERIAL_GREY, at);
-    m->color_texture = mtl_source_map(s, MTL_MAP_KD);
+                     at->path, s->opacity.line, s->opacity.value);
+    m->opacity_texture = material_values_map(s, MTL_MAP_OPACITY);
+    m->cutoff = (float)statement_unit(&s->cutoff, "d_cutoff", at);
+    m->color = statement_reflectance(&s->base_color, "Kd", MATERIAL_GREY, at);
+    m->color_texture = material_values_map(s, MTL_MAP_COLOR);
     if (m->metalness == 1 && !is_principled) {
         m->kind = MATERIAL_METAL;
         roughen(m, s, at);
-    } else if (has_ks && mtl_source_is_mirror(s)) {
+    } else if (has_ks && material_values_is_mirror(s)) {
         m->kind = MATERIAL_METAL;
         m->metalness = 1;
         m->color = ks;
@@ -462,11 +469,11 @@ static void make_opaque(struct material *m, int illum,
 }
 
 /* Reports a map that this kind of material does not use. */
-static void check_map(const struct mtl_source *s, enum mtl_map which,
+static void check_map(const struct material_values *s, enum mtl_map which,
                       const struct material *m,
                       const struct statement_place *at)
 {
-    uint32_t map = mtl_source_map(s, which);
+    uint32_t map = material_values_map(s, which);
     uint32_t used[MATERIAL_MAPS];
 
     material_maps(m, used);
@@ -479,30 +486,21 @@ static void check_map(const struct mtl_source *s, enum mtl_map which,
                      at->path, mtl_map_keys[which]);
 }
 
-struct material material_from_source(const struct mtl_source *source,
+struct material material_from_source(const struct material_values *source,
                                      const char *path, struct warnings *report)
 {
-    static const enum mtl_map kind_maps[] = {MTL_MAP_KD,
-                                             MTL_MAP_KS,
-                                             MTL_MAP_PR,
-                                             MTL_MAP_PM,
-                                             MTL_MAP_D,
-                                             MTL_MAP_TF,
-                                             MTL_MAP_PC,
-                                             MTL_MAP_PCR,
-                                             MTL_MAP_PS,
-                                             MTL_MAP_PS_COLOR,
-                                             MTL_MAP_PS_ROUGHNESS,
-                                             MTL_MAP_KS_WEIGHT,
-                                             MTL_MAP_PF,
-                                             MTL_MAP_PF_THICKNESS,
-                                             MTL_MAP_GRAIN,
-                                             MTL_MAP_PC_NORM};
+    static const enum mtl_map kind_maps[] = {
+        MTL_MAP_COLOR,       MTL_MAP_SPECULAR,        MTL_MAP_ROUGHNESS,
+        MTL_MAP_METALNESS,   MTL_MAP_OPACITY,         MTL_MAP_TRANSMISSION,
+        MTL_MAP_COAT,        MTL_MAP_COAT_ROUGHNESS,  MTL_MAP_SHEEN,
+        MTL_MAP_SHEEN_COLOR, MTL_MAP_SHEEN_ROUGHNESS, MTL_MAP_SPECULAR_WEIGHT,
+        MTL_MAP_FILM,        MTL_MAP_FILM_THICKNESS,  MTL_MAP_GRAIN,
+        MTL_MAP_COAT_NORMAL};
     struct statement_place at = {path, report};
     struct material m = material_default();
-    const struct mtl_source factors = mtl_source_with_factors(source);
-    const struct mtl_source *s = &factors;
-    struct mtl_color light = mtl_source_light(s);
+    const struct material_values factors = material_values_with_factors(source);
+    const struct material_values *s = &factors;
+    struct mtl_color light = material_values_light(s);
     int illum = illumination(s, &at);
 
     if (is_solid_glass(s, illum))
@@ -514,30 +512,30 @@ struct material material_from_source(const struct mtl_source *source,
     for (size_t i = 0; i < sizeof kind_maps / sizeof kind_maps[0]; i++)
         check_map(s, kind_maps[i], &m, &at);
     if (m.kind == MATERIAL_THIN_GLASS && m.ior == 1 &&
-        is_white_or_absent(&s->tf) && m.color_texture == NO_INDEX)
+        is_white_or_absent(&s->transmission) && m.color_texture == NO_INDEX)
         warnings_add(report, "invisible materials",
                      "%s:%" PRIu64 ": found glass of Ni 1 without a tint: "
                      "surfaces with this material are invisible",
                      path, s->illum.line);
-    if (s->tf_distance.value > 0 && m.kind != MATERIAL_GLASS &&
+    if (s->attenuation_distance.value > 0 && m.kind != MATERIAL_GLASS &&
         (m.transmission == 0 || m.is_thin != 0))
         warnings_add(report, "statements without effect",
                      "%s:%" PRIu64 ": found Tf_distance, which solid glass "
                      "uses: ignored",
-                     path, s->tf_distance.line);
-    m.normal_texture = mtl_source_map(s, MTL_MAP_NORM);
+                     path, s->attenuation_distance.line);
+    m.normal_texture = material_values_map(s, MTL_MAP_NORMAL);
     if (m.normal_texture != NO_INDEX)
-        m.normal_strength = (float)s->map_scales[MTL_MAP_NORM];
-    m.bump_texture = mtl_source_map(s, MTL_MAP_BUMP);
+        m.normal_strength = (float)s->map_scales[MTL_MAP_NORMAL];
+    m.bump_texture = material_values_map(s, MTL_MAP_BUMP);
     m.bump_scale = (float)s->map_scales[MTL_MAP_BUMP];
     m.emission = statement_radiance(&light, &at);
-    m.emission_texture = mtl_source_map(s, MTL_MAP_KE);
+    m.emission_texture = material_values_map(s, MTL_MAP_EMISSION);
     return m;
 }
 
 /* Replaces *s by the candidate if both give the same material. */
-static void take_if_same(struct mtl_source *s,
-                         const struct mtl_source *candidate)
+static void take_if_same(struct material_values *s,
+                         const struct material_values *candidate)
 {
     struct warnings ignored = {0};
     struct material a = material_from_source(s, "", &ignored);
@@ -548,11 +546,12 @@ static void take_if_same(struct mtl_source *s,
     warnings_free(&ignored);
 }
 
-struct mtl_source mtl_source_needed(const struct mtl_source *file,
-                                    const struct mtl_source *wanted)
+struct material_values
+material_values_needed(const struct material_values *file,
+                       const struct material_values *wanted)
 {
-    struct mtl_source s = *wanted;
-    struct mtl_source candidate;
+    struct material_values s = *wanted;
+    struct material_values candidate;
 
     /* colours first, so that Pm makes the metal and not the Ks of plastic */
     for (int i = 0; i < MTL_PROPERTIES; i++) {
@@ -560,11 +559,11 @@ struct mtl_source mtl_source_needed(const struct mtl_source *file,
 
         candidate = s;
         memcpy((char *)&candidate + p->member, (const char *)file + p->member,
-               p->is_color ? sizeof file->kd : sizeof file->illum);
+               p->is_color ? sizeof file->base_color : sizeof file->illum);
         take_if_same(&s, &candidate);
     }
     candidate = s;
-    candidate.ke = file->ke;
+    candidate.emission = file->emission;
     candidate.kelvin = file->kelvin;
     candidate.luminance = file->luminance;
     take_if_same(&s, &candidate);

@@ -21,19 +21,19 @@
  * sheen (weight Ps, roughness Ps_roughness). aniso stretches highlights along
  * u, turned by anisor of a turn. With d_cutoff coverage is 0 or 1.
  *
- * A map multiplies its statement, which mtl_source_with_factors() completes.
- * Roughness alpha is Pr squared; without Pr it is sqrt(2 / (Ns + 2)), or 0 if
- * Ns is absent, 0, or at least 1000. With Tf_distance, solid glass has no tint
- * of Tf: Tf is what it leaves of light after this distance. Thin glass is rough
- * with Pr or map_Pr only. In a mixture, Tf_thin above 0 makes its glass a thin
- * sheet; else, with Tf_distance, the weight of glass is the largest channel of
- * Tf, and absorption has the hue of Tf. Tf_attenuation, if present, is what is
- * left of light after Tf_distance, in place of Tf. Ks_full is used in place of
- * MATERIAL_SPECULAR. Ps_color, or map_Ps_color, colours sheen. map_Ks_weight,
- * map_Ps_roughness and map_Pf multiply Ks, Ps_roughness and Pf;
- * map_Pf_thickness goes from Pf_thinnest to Pf_thickness. map_grain turns the
- * grain and reduces aniso. map_Pc_norm bends the normal of the coat, which norm
- * and map_Bump do not.
+ * A map multiplies its statement, which material_values_with_factors()
+ * completes. Roughness alpha is Pr squared; without Pr it is sqrt(2 / (Ns +
+ * 2)), or 0 if Ns is absent, 0, or at least 1000. With Tf_distance, solid glass
+ * has no tint of Tf: Tf is what it leaves of light after this distance. Thin
+ * glass is rough with Pr or map_Pr only. In a mixture, Tf_thin above 0 makes
+ * its glass a thin sheet; else, with Tf_distance, the weight of glass is the
+ * largest channel of Tf, and absorption has the hue of Tf. Tf_attenuation, if
+ * present, is what is left of light after Tf_distance, in place of Tf. Ks_full
+ * is used in place of MATERIAL_SPECULAR. Ps_color, or map_Ps_color, colours
+ * sheen. map_Ks_weight, map_Ps_roughness and map_Pf multiply Ks, Ps_roughness
+ * and Pf; map_Pf_thickness goes from Pf_thinnest to Pf_thickness. map_grain
+ * turns the grain and reduces aniso. map_Pc_norm bends the normal of the coat,
+ * which norm and map_Bump do not.
  *
  * In files of Blender (enum mtl_dialect), Ks never is a colour of metal; Pm is
  * Ka with illum 3 and 6 if there is no Pm; roughness is 1 - sqrt(Ns / 1000);
@@ -48,7 +48,7 @@
 #define GLIM_MATERIAL_H
 
 #include "base/warnings.h"
-#include "scene/mtl_source.h"
+#include "scene/material_values.h"
 #include "kernels/types.h"
 
 /* Reflectance of plastic whose Ks is 1. Exporters write Ks 0.5 for ordinary
@@ -82,12 +82,13 @@ void material_maps(const struct material *material,
 
 /* Makes the material that the statements describe. `path` is the MTL file, for
  * warnings. */
-struct material material_from_source(const struct mtl_source *source,
+struct material material_from_source(const struct material_values *source,
                                      const char *path, struct warnings *report);
 
 /* Returns `wanted` with as many statements as possible replaced by those of
  * `file`, such that the material stays the same. Used to save only changes. */
-struct mtl_source mtl_source_needed(const struct mtl_source *file,
-                                    const struct mtl_source *wanted);
+struct material_values
+material_values_needed(const struct material_values *file,
+                       const struct material_values *wanted);
 
 #endif

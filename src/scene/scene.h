@@ -35,7 +35,7 @@ struct texture_origin {
 
 /* Statements that a material was made from. */
 struct material_origin {
-    struct mtl_source source;
+    struct material_values source;
     uint32_t file; /* index into mtl_paths; NO_INDEX for the default */
 };
 

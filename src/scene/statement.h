@@ -9,7 +9,7 @@
 #define GLIM_STATEMENT_H
 
 #include "base/warnings.h"
-#include "scene/mtl_source.h"
+#include "scene/material_values.h"
 #include "kernels/types.h"
 
 /* Where warnings go. */

@@ -49,7 +49,8 @@ static char *add_lines(char *text, const struct edit *e, uint32_t material)
 }
 
 /* Copies the maps of a material with their scales, and its dialect. */
-static void copy_maps(struct mtl_source *to, const struct mtl_source *from)
+static void copy_maps(struct material_values *to,
+                      const struct material_values *from)
 {
     memcpy(to->maps, from->maps, sizeof to->maps);
     memcpy(to->map_scales, from->map_scales, sizeof to->map_scales);
@@ -57,9 +58,9 @@ static void copy_maps(struct mtl_source *to, const struct mtl_source *from)
 }
 
 /* Returns a material with the maps of another one and no other statements. */
-static struct mtl_source maps_of(const struct mtl_source *s)
+static struct material_values maps_of(const struct material_values *s)
 {
-    struct mtl_source maps = mtl_source_empty();
+    struct material_values maps = material_values_empty();
 
     copy_maps(&maps, s);
     maps.maps_off = s->maps_off;
@@ -77,7 +78,7 @@ static bool take_materials(struct autosave_file *k, const struct session *s,
     const char *dialect = mtl_dialect_line(MTL_BLENDER_4);
     char *head = xformat("%s\n", dialect);
     struct mtl_change *changes = xcalloc(e->material_count, sizeof *changes);
-    struct mtl_source *maps = xcalloc(e->material_count, sizeof *maps);
+    struct material_values *maps = xcalloc(e->material_count, sizeof *maps);
     char(*names)[NAME_BYTES] = xcalloc(e->material_count, sizeof *names);
     char *list = xstrdup("");
     size_t count = 0;
@@ -142,11 +143,11 @@ static uint32_t find_or_duplicate(struct edit *e, const char *name,
 }
 
 static void restore_material(struct edit *e, uint32_t material,
-                             const struct mtl_source *statements,
+                             const struct material_values *statements,
                              uint32_t maps_off)
 {
-    const struct mtl_source *before = &e->now.sources[material];
-    struct mtl_source source = *statements;
+    const struct material_values *before = &e->now.sources[material];
+    struct material_values source = *statements;
 
     copy_maps(&source, before);
     source.maps_off = maps_off & ((1u << MTL_MAPS) - 1);

@@ -256,7 +256,7 @@ static bool is_now(const struct edit *e, const struct edit_step *s)
 
     switch (s->kind) {
     case STEP_MATERIAL:
-        return mtl_source_equal(s->value.source, &now->sources[s->index]);
+        return material_values_equal(s->value.source, &now->sources[s->index]);
     case STEP_ASSIGN: return s->value.material == now->assigned[s->index];
     case STEP_DUPLICATE: return s->value.is_there == now->is_there[s->index];
     case STEP_LIGHTING:
@@ -298,7 +298,8 @@ static void exchange(struct edit *e, struct edit_step *s)
 
     switch (s->kind) {
     case STEP_MATERIAL:
-        EXCHANGE(struct mtl_source, &now->sources[s->index], s->value.source);
+        EXCHANGE(struct material_values, &now->sources[s->index],
+                 s->value.source);
         break;
     case STEP_ASSIGN:
         EXCHANGE(uint32_t, &now->assigned[s->index], &s->value.material);
@@ -350,11 +351,11 @@ bool edit_begin_gesture(struct edit *e, uint32_t gesture, uint64_t now_ns)
 }
 
 void edit_material(struct edit *e, uint32_t material,
-                   const struct mtl_source *source)
+                   const struct material_values *source)
 {
     struct edit_step step = {.kind = STEP_MATERIAL, .index = material};
 
-    if (mtl_source_equal(source, &e->now.sources[material]))
+    if (material_values_equal(source, &e->now.sources[material]))
         return;
     step.value.source = xmalloc(sizeof *source);
     *step.value.source = *source;
@@ -479,7 +480,7 @@ uint32_t edit_duplicate_as(struct edit *e, uint32_t material, const char *name)
     add_material(e, name, material);
     e->now.sources[step.index] = e->now.sources[material];
     e->now.is_there[step.index] = false;
-    e->saved.sources[step.index] = mtl_source_empty();
+    e->saved.sources[step.index] = material_values_empty();
     e->saved.is_there[step.index] = false;
     change(e, step);
     return step.index;
@@ -617,19 +618,19 @@ bool edit_has_saved_statements(const struct edit *e, uint32_t i)
     /* an undone duplicate that was saved stays in its file */
     return !e->now.is_there[i] ||
            (e->saved.is_there[i] &&
-            mtl_source_equal(&e->now.sources[i], &e->saved.sources[i]));
+            material_values_equal(&e->now.sources[i], &e->saved.sources[i]));
 }
 
 bool edit_is_saved(const struct edit *e, uint32_t i)
 {
-    struct mtl_source needed;
+    struct material_values needed;
 
     if (edit_has_saved_statements(e, i))
         return true;
     if (!e->saved.is_there[i])
         return false;
-    needed = mtl_source_needed(&e->saved.sources[i], &e->now.sources[i]);
-    return mtl_source_equal(&needed, &e->saved.sources[i]);
+    needed = material_values_needed(&e->saved.sources[i], &e->now.sources[i]);
+    return material_values_equal(&needed, &e->saved.sources[i]);
 }
 
 bool edit_has_unsaved_materials(const struct edit *e)
@@ -651,8 +652,9 @@ bool edit_simplify_material(struct edit *e, uint32_t material, uint32_t pattern)
 {
     if (edit_is_saved(e, material))
         return false;
-    e->now.sources[material] = mtl_source_needed(&e->saved.sources[pattern],
-                                                 &e->now.sources[material]);
+    e->now.sources[material] =
+        material_values_needed(&e->saved.sources[pattern],
+                               &e->now.sources[material]);
     return !edit_is_saved(e, material);
 }
 

@@ -55,8 +55,8 @@ struct edit_step {
     uint32_t index; /* of the material, object, lamp or numbered view */
     uint32_t group;
     union {
-        struct mtl_source *source; /* the step's own; it is larger than other
-                                      values, and most steps are poses */
+        struct material_values *source; /* the step's own; it is larger than
+                                      other values, and most steps are poses */
         uint32_t material;
         bool is_there;
         struct lighting lighting; /* its sky_path is borrowed from the edit */
@@ -115,7 +115,7 @@ void edit_history_free(struct edit_history *history);
 /* ---- edits ---- */
 
 struct edit_state {
-    struct mtl_source *sources; /* for each material */
+    struct material_values *sources; /* for each material */
     bool *is_there; /* for each material; false for an undone duplicate */
     /* for each object the assigned material, or NO_INDEX for that of the OBJ
      * file */
@@ -156,7 +156,7 @@ bool edit_begin_gesture(struct edit *edit, uint32_t gesture, uint64_t now_ns);
 /* Change one value. An equal value is not a change, and a step that comes back
  * to the value before it is dropped. */
 void edit_material(struct edit *edit, uint32_t material,
-                   const struct mtl_source *source);
+                   const struct material_values *source);
 void edit_assign(struct edit *edit, uint32_t object, uint32_t material);
 void edit_lighting(struct edit *edit, const struct lighting *lighting);
 void edit_lamp(struct edit *edit, uint32_t number, const struct lamp *lamp);

@@ -38,7 +38,7 @@ static void put_grey(struct mtl_color *c, double value)
     put_color(c, (const double[3]){value, value, value});
 }
 
-/* Black beside a map would be white (mtl_source_with_factors()). */
+/* Black beside a map would be white (material_values_with_factors()). */
 #define FACTOR_LEAST 1e-6
 
 /* Sets a colour that multiplies a map. */
@@ -46,7 +46,8 @@ static void put_factor(struct owner *o, struct mtl_color *c, enum mtl_map map,
                        const double rgb[3])
 {
     put_color(c, rgb);
-    if (mtl_source_map(&o->source, map) != NO_INDEX && mtl_color_is_black(c))
+    if (material_values_map(&o->source, map) != NO_INDEX &&
+        mtl_color_is_black(c))
         put_grey(c, FACTOR_LEAST);
 }
 
@@ -98,15 +99,16 @@ static const char *const kind_names[] = {"diffuse", "plastic",    "metal",
 static const uint32_t kind_bits[] = {DIFFUSE, PLASTIC, METAL,
                                      GLASS,   THIN,    MIXED};
 
-void material_parameters_open(struct owner *o, const struct mtl_source *source,
+void material_parameters_open(struct owner *o,
+                              const struct material_values *source,
                               const struct host_world *world)
 {
     struct warnings ignored = {0};
-    struct mtl_source found =
+    struct material_values found =
         world != NULL ? textures_found(world, source) : *source;
 
     o->source = *source;
-    o->factors = mtl_source_with_factors(&found);
+    o->factors = material_values_with_factors(&found);
     o->material = material_from_source(&found, "", &ignored);
     o->kind = o->material.kind;
     warnings_free(&ignored);
@@ -129,11 +131,12 @@ static bool get_kind(const struct owner *o, struct value *v)
 static size_t color_member(const struct owner *o)
 {
     if (!is_kind(o, OPAQUE))
-        return offsetof(struct mtl_source, tf);
-    return is_kind(o, METAL | MIXED) && mtl_source_is_mirror(&o->factors) &&
+        return offsetof(struct material_values, transmission);
+    return is_kind(o, METAL | MIXED) &&
+                   material_values_is_mirror(&o->factors) &&
                    o->material.metalness == 1
-               ? offsetof(struct mtl_source, ks)
-               : offsetof(struct mtl_source, kd);
+               ? offsetof(struct material_values, specular_color)
+               : offsetof(struct material_values, base_color);
 }
 
 static bool get_color(const struct owner *o, struct value *v)
@@ -156,42 +159,47 @@ static void set_color(struct owner *o, const struct value *v)
     void *color = (char *)&o->source + member;
 
     put_factor(o, color,
-               member == offsetof(struct mtl_source, ks) ? MTL_MAP_KS
-                                                         : MTL_MAP_KD,
+               member == offsetof(struct material_values, specular_color)
+                   ? MTL_MAP_SPECULAR
+                   : MTL_MAP_COLOR,
                v->rgb);
 }
 
-static void set_opaque(struct mtl_source *s, uint32_t bits, const double rgb[3])
+static void set_opaque(struct material_values *s, uint32_t bits,
+                       const double rgb[3])
 {
-    struct mtl_number *const layers[] = {&s->pc, &s->ps, &s->pf, &s->aniso};
+    struct mtl_number *const layers[] = {&s->coat, &s->sheen, &s->film,
+                                         &s->anisotropy};
 
     put_number(&s->illum, bits == METAL ? 3 : 2);
-    put_color(&s->kd, rgb);
-    if (bits == METAL || bits == MIXED || s->pm.line != 0)
-        put_number(&s->pm, bits == METAL ? 1 : bits == MIXED ? PM_DEFAULT : 0);
+    put_color(&s->base_color, rgb);
+    if (bits == METAL || bits == MIXED || s->metalness.line != 0)
+        put_number(&s->metalness, bits == METAL   ? 1
+                                  : bits == MIXED ? PM_DEFAULT
+                                                  : 0);
     for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
         if (layers[i]->line != 0)
             put_number(layers[i], 0);
-    if (s->tf.line != 0)
-        put_grey(&s->tf, 0);
-    if (bits == PLASTIC && s->ks.rgb[0] == 0 && s->ks.rgb[1] == 0 &&
-        s->ks.rgb[2] == 0)
-        put_grey(&s->ks, KS_DEFAULT);
-    if (bits == DIFFUSE && s->ks.line != 0)
-        put_grey(&s->ks, 0);
+    if (s->transmission.line != 0)
+        put_grey(&s->transmission, 0);
+    if (bits == PLASTIC && s->specular_color.rgb[0] == 0 &&
+        s->specular_color.rgb[1] == 0 && s->specular_color.rgb[2] == 0)
+        put_grey(&s->specular_color, KS_DEFAULT);
+    if (bits == DIFFUSE && s->specular_color.line != 0)
+        put_grey(&s->specular_color, 0);
 }
 
 /* Removes what would make an untinted sheet of glass an opaque surface. */
-static void keep_sheet(struct mtl_source *s)
+static void keep_sheet(struct material_values *s)
 {
-    if (s->d.line != 0)
-        put_number(&s->d, 1);
-    if (s->tr.line != 0)
-        put_number(&s->tr, 0);
-    if (s->maps[MTL_MAP_D] != NO_INDEX)
-        s->maps_off |= 1u << MTL_MAP_D;
-    if (s->ni.line != 0 && s->ni.value == 1)
-        put_number(&s->ni, NI_DEFAULT);
+    if (s->opacity.line != 0)
+        put_number(&s->opacity, 1);
+    if (s->transparency.line != 0)
+        put_number(&s->transparency, 0);
+    if (s->maps[MTL_MAP_OPACITY] != NO_INDEX)
+        s->maps_off |= 1u << MTL_MAP_OPACITY;
+    if (s->ior.line != 0 && s->ior.value == 1)
+        put_number(&s->ior, NI_DEFAULT);
 }
 
 /* Changes the kind of the material and keeps its colour. Maps that would make
@@ -199,11 +207,11 @@ static void keep_sheet(struct mtl_source *s)
 static void set_kind(struct owner *o, const struct value *v)
 {
     uint32_t bits = kind_bits[(size_t)v->number];
-    static const enum mtl_map kind_maps[] = {MTL_MAP_KS, MTL_MAP_PM,
-                                             MTL_MAP_TF, MTL_MAP_PC,
-                                             MTL_MAP_PS, MTL_MAP_PS_COLOR,
-                                             MTL_MAP_PF};
-    struct mtl_source *s = &o->source;
+    static const enum mtl_map kind_maps[] = {
+        MTL_MAP_SPECULAR, MTL_MAP_METALNESS, MTL_MAP_TRANSMISSION,
+        MTL_MAP_COAT,     MTL_MAP_SHEEN,     MTL_MAP_SHEEN_COLOR,
+        MTL_MAP_FILM};
+    struct material_values *s = &o->source;
     struct value color;
 
     get_color(o, &color);
@@ -215,7 +223,7 @@ static void set_kind(struct owner *o, const struct value *v)
         return;
     }
     put_number(&s->illum, bits == GLASS ? 7 : 4);
-    put_color(&s->tf, color.rgb);
+    put_color(&s->transmission, color.rgb);
     if (bits == THIN)
         keep_sheet(s);
 }
@@ -224,19 +232,20 @@ static void set_kind(struct owner *o, const struct value *v)
 
 static bool get_roughness(const struct owner *o, struct value *v)
 {
-    const struct mtl_source *s = &o->factors;
+    const struct material_values *s = &o->factors;
 
     if (is_kind(o, DIFFUSE))
-        v->number = s->kd_roughness.value;
+        v->number = s->diffuse_roughness.value;
     else
-        v->number =
-            s->pr.line != 0 ? s->pr.value : sqrt((double)o->material.alpha);
+        v->number = s->roughness.line != 0 ? s->roughness.value
+                                           : sqrt((double)o->material.alpha);
     return true;
 }
 
 static void set_roughness(struct owner *o, const struct value *v)
 {
-    put_number(is_kind(o, DIFFUSE) ? &o->source.kd_roughness : &o->source.pr,
+    put_number(is_kind(o, DIFFUSE) ? &o->source.diffuse_roughness
+                                   : &o->source.roughness,
                v->number);
 }
 
@@ -250,18 +259,19 @@ static bool get_transmission(const struct owner *o, struct value *v)
 
 static void set_transmission(struct owner *o, const struct value *v)
 {
-    struct mtl_source *s = &o->source;
-    double top = color_largest(s->tf.rgb);
+    struct material_values *s = &o->source;
+    double top = color_largest(s->transmission.rgb);
 
-    if (s->pr.line == 0)
-        put_number(&s->pr, sqrt((double)o->material.alpha));
+    if (s->roughness.line == 0)
+        put_number(&s->roughness, sqrt((double)o->material.alpha));
     if (s->dialect == MTL_CLASSIC && s->illum.line != 0 && s->illum.value != 3)
         put_number(&s->illum, 2);
-    if (s->tf_distance.value > 0 && top > 0)
+    if (s->attenuation_distance.value > 0 && top > 0)
         for (int i = 0; i < 3; i++)
-            s->tf.rgb[i] = decimal_shortened(s->tf.rgb[i] / top * v->number);
+            s->transmission.rgb[i] =
+                decimal_shortened(s->transmission.rgb[i] / top * v->number);
     else
-        put_grey(&s->tf, v->number);
+        put_grey(&s->transmission, v->number);
 }
 
 static const char *const body_names[] = {"solid", "sheet"};
@@ -275,7 +285,7 @@ static bool get_body(const struct owner *o, struct value *v)
 /* Reads the distance after which light in a solid has the tint. */
 static bool get_distance(const struct owner *o, struct value *v)
 {
-    v->number = o->source.tf_distance.value;
+    v->number = o->source.attenuation_distance.value;
     return is_kind(o, GLASS) ||
            (o->material.transmission > 0 && o->material.is_thin == 0);
 }
@@ -283,15 +293,15 @@ static bool get_distance(const struct owner *o, struct value *v)
 /* Reads the colour of a solid after the distance, if it is not the tint. */
 static bool get_attenuation(const struct owner *o, struct value *v)
 {
-    memcpy(v->rgb, o->source.tf_attenuation.rgb, sizeof v->rgb);
-    return o->source.tf_attenuation.line != 0 && get_distance(o, v) &&
+    memcpy(v->rgb, o->source.attenuation.rgb, sizeof v->rgb);
+    return o->source.attenuation.line != 0 && get_distance(o, v) &&
            v->number > 0;
 }
 
 /* Reads the weight of sheen, which is multiplied by its colour. */
 static bool get_sheen(const struct owner *o, struct value *v)
 {
-    const struct mtl_color *color = &o->factors.ps_color;
+    const struct mtl_color *color = &o->factors.sheen_color;
     struct vec3 sheen = o->material.sheen;
     double top = color->line != 0 ? fmin(color_largest(color->rgb), 1) : 1;
 
@@ -301,7 +311,7 @@ static bool get_sheen(const struct owner *o, struct value *v)
 
 static bool get_sheen_color(const struct owner *o, struct value *v)
 {
-    const struct mtl_color *color = &o->source.ps_color;
+    const struct mtl_color *color = &o->source.sheen_color;
 
     for (int i = 0; i < 3; i++)
         v->rgb[i] = color->line != 0 ? color->rgb[i] : 1;
@@ -312,26 +322,26 @@ static bool get_sheen_color(const struct owner *o, struct value *v)
 static bool get_film_thinnest(const struct owner *o, struct value *v)
 {
     return get_statement(o, v) &&
-           o->source.maps[MTL_MAP_PF_THICKNESS] != NO_INDEX;
+           o->source.maps[MTL_MAP_FILM_THICKNESS] != NO_INDEX;
 }
 
 /* Reads the coverage from which a surface is whole. */
 static bool get_cutoff(const struct owner *o, struct value *v)
 {
     get_statement(o, v);
-    return o->source.d_cutoff.line != 0 ||
-           o->source.maps[MTL_MAP_D] != NO_INDEX;
+    return o->source.cutoff.line != 0 ||
+           o->source.maps[MTL_MAP_OPACITY] != NO_INDEX;
 }
 
 static bool get_specular(const struct owner *o, struct value *v)
 {
-    v->number = color_largest(o->factors.ks.rgb);
+    v->number = color_largest(o->factors.specular_color.rgb);
     return true;
 }
 
 static void set_specular(struct owner *o, const struct value *v)
 {
-    put_factor(o, &o->source.ks, MTL_MAP_KS,
+    put_factor(o, &o->source.specular_color, MTL_MAP_SPECULAR,
                (const double[]){v->number, v->number, v->number});
 }
 
@@ -343,7 +353,8 @@ static bool get_coat(const struct owner *o, struct value *v)
 
 static void set_coat(struct owner *o, const struct value *v)
 {
-    put_number(&o->source.pc, v->number * mtl_source_full_coat(&o->source));
+    put_number(&o->source.coat,
+               v->number * material_values_full_coat(&o->source));
 }
 
 static bool get_map(const struct owner *o, struct value *v)
@@ -366,9 +377,10 @@ static void set_map(struct owner *o, const struct value *v)
 /* ---- emission of a material ---- */
 
 /* Returns the luminance of a black body, or the largest channel of Ke. */
-static double strength_of(const struct mtl_source *s)
+static double strength_of(const struct material_values *s)
 {
-    return s->kelvin.line != 0 ? s->luminance.value : color_largest(s->ke.rgb);
+    return s->kelvin.line != 0 ? s->luminance.value
+                               : color_largest(s->emission.rgb);
 }
 
 static bool get_emission(const struct owner *o, struct value *v)
@@ -379,9 +391,9 @@ static bool get_emission(const struct owner *o, struct value *v)
 
 static void set_emission(struct owner *o, const struct value *v)
 {
-    struct mtl_source *s = &o->source;
-    const double *ke = o->factors.ke.rgb;
-    bool has_map = mtl_source_map(s, MTL_MAP_KE) != NO_INDEX;
+    struct material_values *s = &o->source;
+    const double *ke = o->factors.emission.rgb;
+    bool has_map = material_values_map(s, MTL_MAP_EMISSION) != NO_INDEX;
     double most = color_largest(ke);
     double rgb[3];
 
@@ -392,13 +404,13 @@ static void set_emission(struct owner *o, const struct value *v)
     }
     for (int i = 0; i < 3; i++)
         rgb[i] = most > 0 ? ke[i] / most * v->number : v->number;
-    put_factor(o, &s->ke, MTL_MAP_KE, rgb);
+    put_factor(o, &s->emission, MTL_MAP_EMISSION, rgb);
 }
 
 /* Reads the colour of the emission, which is white if there is none. */
 static bool get_emission_color(const struct owner *o, struct value *v)
 {
-    struct mtl_color light = mtl_source_light(&o->factors);
+    struct mtl_color light = material_values_light(&o->factors);
     double most = color_largest(light.rgb);
 
     v->number = o->factors.kelvin.line != 0 ? o->factors.kelvin.value : 0;
@@ -411,18 +423,19 @@ static bool get_emission_color(const struct owner *o, struct value *v)
  * colour the largest channel. */
 static void set_emission_color(struct owner *o, const struct value *v)
 {
-    struct mtl_source *s = &o->source;
-    const struct mtl_source *f = &o->factors;
-    double strength = color_largest(mtl_source_light(f).rgb);
+    struct material_values *s = &o->source;
+    const struct material_values *f = &o->factors;
+    double strength = color_largest(material_values_light(f).rgb);
     double most = color_largest(v->rgb);
     double luminance = f->luminance.value;
     double rgb[3];
 
     if (v->number > 0) {
         if (f->kelvin.line == 0) /* luminance of Rec.709 */
-            luminance = 0.2126 * f->ke.rgb[0] + 0.7152 * f->ke.rgb[1] +
-                        0.0722 * f->ke.rgb[2];
-        s->ke = (struct mtl_color){.line = 0};
+            luminance = 0.2126 * f->emission.rgb[0] +
+                        0.7152 * f->emission.rgb[1] +
+                        0.0722 * f->emission.rgb[2];
+        s->emission = (struct mtl_color){.line = 0};
         put_number(&s->kelvin, v->number);
         put_number(&s->luminance, luminance);
         return;
@@ -430,16 +443,16 @@ static void set_emission_color(struct owner *o, const struct value *v)
     for (int i = 0; i < 3; i++)
         rgb[i] = most > 0 ? v->rgb[i] / most * strength : 0;
     s->kelvin = s->luminance = (struct mtl_number){.line = 0};
-    put_factor(o, &s->ke, MTL_MAP_KE, rgb);
+    put_factor(o, &s->emission, MTL_MAP_EMISSION, rgb);
 }
 
 /* ---- table ---- */
 
 #define WRITES(name) \
-    .set = set_statement, .member = offsetof(struct mtl_source, name)
+    .set = set_statement, .member = offsetof(struct material_values, name)
 
 #define WRITES_COLOR(name) \
-    .set = set_color_statement, .member = offsetof(struct mtl_source, name)
+    .set = set_color_statement, .member = offsetof(struct material_values, name)
 
 /* Found in the material, or else in the statement itself. */
 #define STATEMENT(name, found)          \
@@ -470,45 +483,48 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
      .set = set_specular},
     {"specular", MIXED, VALUE_NUMBER, &scale_unit, .get = get_specular,
      .set = set_specular},
-    {"metal", MIXED, VALUE_NUMBER, &scale_unit, STATEMENT(pm, metalness)},
+    {"metal", MIXED, VALUE_NUMBER, &scale_unit,
+     STATEMENT(metalness, metalness)},
     {"transmits", MIXED, VALUE_NUMBER, &scale_unit, .get = get_transmission,
      .set = set_transmission},
-    {"index", CLEAR | MIXED, VALUE_NUMBER, &scale_ior, STATEMENT(ni, ior)},
-    {"glass is", MIXED, VALUE_CHOICE, NULL, .get = get_body, WRITES(tf_thin),
+    {"index", CLEAR | MIXED, VALUE_NUMBER, &scale_ior, STATEMENT(ior, ior)},
+    {"glass is", MIXED, VALUE_CHOICE, NULL, .get = get_body, WRITES(thinness),
      CHOICES(body_names)},
     {"tint after", GLASS | MIXED, VALUE_NUMBER, &scale_emission,
-     .get = get_distance, WRITES(tf_distance)},
+     .get = get_distance, WRITES(attenuation_distance)},
     {"then", GLASS | MIXED, VALUE_COLOR, &scale_unit, .get = get_attenuation,
-     WRITES_COLOR(tf_attenuation)},
+     WRITES_COLOR(attenuation)},
     {"coat", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      .get = get_coat, .set = set_coat},
-    {"coat rough", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(pcr)},
+    {"coat rough", MIXED, VALUE_NUMBER, &scale_unit,
+     SOURCE_NUMBER(coat_roughness)},
     {"sheen", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
-     .get = get_sheen, WRITES(ps)},
+     .get = get_sheen, WRITES(sheen)},
     {"sheen tint", MIXED, VALUE_COLOR, &scale_unit, .get = get_sheen_color,
-     WRITES_COLOR(ps_color)},
+     WRITES_COLOR(sheen_color)},
     {"sheen rough", MIXED, VALUE_NUMBER, &scale_unit,
-     SOURCE_NUMBER(ps_roughness), .absent = MATERIAL_SHEEN_ROUGHNESS},
-    {"film", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(pf)},
-    {"film index", MIXED, VALUE_NUMBER, &scale_film_ior, SOURCE_NUMBER(pf_ior),
-     .absent = MATERIAL_FILM_IOR},
+     SOURCE_NUMBER(sheen_roughness), .absent = MATERIAL_SHEEN_ROUGHNESS},
+    {"film", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(film)},
+    {"film index", MIXED, VALUE_NUMBER, &scale_film_ior,
+     SOURCE_NUMBER(film_ior), .absent = MATERIAL_FILM_IOR},
     {"film nm", MIXED, VALUE_NUMBER, &scale_film_thickness,
-     SOURCE_NUMBER(pf_thickness), .absent = MATERIAL_FILM_THICKNESS},
+     SOURCE_NUMBER(film_thickness), .absent = MATERIAL_FILM_THICKNESS},
     {"film from", MIXED, VALUE_NUMBER, &scale_film_thickness,
-     .get = get_film_thinnest, WRITES(pf_thinnest)},
+     .get = get_film_thinnest, WRITES(film_thinnest)},
     {"grain", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
-     STATEMENT(aniso, anisotropy)},
-    {"grain turn", MIXED, VALUE_NUMBER, &scale_unit, SOURCE_NUMBER(anisor)},
-    {"cover", OPAQUE, VALUE_NUMBER, &scale_unit, STATEMENT(d, opacity)},
+     STATEMENT(anisotropy, anisotropy)},
+    {"grain turn", MIXED, VALUE_NUMBER, &scale_unit,
+     SOURCE_NUMBER(anisotropy_rotation)},
+    {"cover", OPAQUE, VALUE_NUMBER, &scale_unit, STATEMENT(opacity, opacity)},
     {"cut at", OPAQUE, VALUE_NUMBER, &scale_unit, .get = get_cutoff,
-     WRITES(d_cutoff)},
+     WRITES(cutoff)},
     {"light", ALL, VALUE_NUMBER, &scale_emission, .get = get_emission,
      .set = set_emission},
     {"of colour", ALL, VALUE_LIGHT_COLOR, &scale_kelvin,
      .get = get_emission_color, .set = set_emission_color},
 };
 
-const char *material_parameters_summary(const struct mtl_source *source,
+const char *material_parameters_summary(const struct material_values *source,
                                         const struct host_world *world,
                                         double swatch[3])
 {
@@ -517,7 +533,7 @@ const char *material_parameters_summary(const struct mtl_source *source,
 
     material_parameters_open(&o, source, world);
     get_kind(&o, &kind);
-    if (color_largest(mtl_source_light(&o.factors).rgb) > 0)
+    if (color_largest(material_values_light(&o.factors).rgb) > 0)
         get_emission_color(&o, &color);
     else
         get_color(&o, &color);

@@ -25,12 +25,12 @@ extern const struct parameter_row map_parameter;
 /* Fills the owner with the material of these statements, as the world renders
  * it. Without a world (NULL), all images are there. */
 void material_parameters_open(struct owner *owner,
-                              const struct mtl_source *source,
+                              const struct material_values *source,
                               const struct host_world *world);
 
 /* Returns the name of the material's kind. The swatch is the colour of its
  * emission if it emits light, else the colour of the material. */
-const char *material_parameters_summary(const struct mtl_source *source,
+const char *material_parameters_summary(const struct material_values *source,
                                         const struct host_world *world,
                                         double swatch[3]);
 

@@ -114,7 +114,8 @@ static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
     bool is_object = sel->page == PAGE_OBJECTS;
     bool is_selected = i == sel->index[sel->page];
     uint32_t material = is_object ? selection_material_of(sel, i) : i;
-    const struct mtl_source *source = &edit_shown(sel->edit)->sources[material];
+    const struct material_values *source =
+        &edit_shown(sel->edit)->sources[material];
     char text[LINE_BYTES], name[NAME_BYTES], other[NAME_BYTES];
     const char *kind;
     double rgb[3];

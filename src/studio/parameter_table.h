@@ -51,14 +51,15 @@ enum sky_kind { SKY_CONSTANT, SKY_IMAGE, SKY_SUN };
 struct owner {
     const struct selection *selection;
     const struct parameter_row *row;
-    struct mtl_source source;  /* statements of a material, which are edited */
-    struct mtl_source factors; /* what is rendered of them, and shown */
-    struct material material;  /* material made from that */
-    enum mtl_map map;          /* of the row */
-    uint32_t assigned;         /* material of an object, or NO_INDEX */
-    struct lighting lighting;  /* values of the light; sky_path is lent */
-    const struct lamps *lamps; /* all lamps of the light, lent */
-    uint32_t lamp_number;      /* of the row's lamp; NO_INDEX: none */
+    struct material_values
+        source; /* statements of a material, which are edited */
+    struct material_values factors; /* what is rendered of them, and shown */
+    struct material material;       /* material made from that */
+    enum mtl_map map;               /* of the row */
+    uint32_t assigned;              /* material of an object, or NO_INDEX */
+    struct lighting lighting;       /* values of the light; sky_path is lent */
+    const struct lamps *lamps;      /* all lamps of the light, lent */
+    uint32_t lamp_number;           /* of the row's lamp; NO_INDEX: none */
     struct lamp lamp;
     struct value_scale place; /* of coordinates: depends on the scene's size */
     uint32_t kind; /* enum material_kind; for the light enum sky_kind */
@@ -93,7 +94,7 @@ struct parameter_row {
     /* Returns false if the owner has no such parameter now. */
     bool (*get)(const struct owner *owner, struct value *value);
     void (*set)(struct owner *owner, const struct value *value);
-    size_t member; /* offset in mtl_source, lighting or lamp */
+    size_t member; /* offset in material_values, lighting or lamp */
     size_t result; /* offset of a float in struct material, for get */
     double absent; /* value of a statement that the file does not have */
 

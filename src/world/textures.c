@@ -316,17 +316,18 @@ static bool is_lost(const struct host_world *host, uint32_t texture)
            host->textures[texture].width == 0;
 }
 
-struct mtl_source textures_found(const struct host_world *host,
-                                 const struct mtl_source *source)
+struct material_values textures_found(const struct host_world *host,
+                                      const struct material_values *source)
 {
-    struct mtl_source s = *source;
+    struct material_values s = *source;
 
-    if (is_lost(host, mtl_source_map(&s, MTL_MAP_KD)) &&
-        mtl_color_is_black(&s.kd)) /* black that stood beside the map */
-        s.kd = (struct mtl_color){{MATERIAL_GREY, MATERIAL_GREY, MATERIAL_GREY},
-                                  MTL_IMPLIED};
+    if (is_lost(host, material_values_map(&s, MTL_MAP_COLOR)) &&
+        mtl_color_is_black(&s.base_color)) /* black that stood beside the map */
+        s.base_color =
+            (struct mtl_color){{MATERIAL_GREY, MATERIAL_GREY, MATERIAL_GREY},
+                               MTL_IMPLIED};
     for (int i = 0; i < MTL_MAPS; i++)
-        if (i != MTL_MAP_D && is_lost(host, s.maps[i]))
+        if (i != MTL_MAP_OPACITY && is_lost(host, s.maps[i]))
             s.maps[i] = NO_INDEX;
     return s;
 }
@@ -395,10 +396,10 @@ bool textures_are_tried(const struct host_world *host, const struct material *m)
 }
 
 bool textures_load_for(struct host_world *host, const struct scene *scene,
-                       const struct mtl_source *source, struct material *m,
+                       const struct material_values *source, struct material *m,
                        struct warnings *report, struct error *err)
 {
-    struct mtl_source found;
+    struct material_values found;
     uint32_t maps[MATERIAL_MAPS];
 
     material_maps(m, maps);
@@ -419,7 +420,7 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
             return false;
     }
     found = textures_found(host, source);
-    if (!mtl_source_equal(&found, source))
+    if (!material_values_equal(&found, source))
         *m = world_material(scene, &found);
     if (is_lost(host, m->opacity_texture))
         m->opacity_texture = NO_INDEX;

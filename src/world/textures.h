@@ -22,14 +22,14 @@ bool textures_load(struct host_world *host, const struct scene *scene,
 /* Loads the images of one material that came into use after textures_load(), in
  * the same way. `source` has its statements. */
 bool textures_load_for(struct host_world *host, const struct scene *scene,
-                       const struct mtl_source *source,
+                       const struct material_values *source,
                        struct material *material, struct warnings *report,
                        struct error *err);
 
 /* Returns the statements without the maps whose images could not be read: those
  * of the material that is rendered. */
-struct mtl_source textures_found(const struct host_world *host,
-                                 const struct mtl_source *source);
+struct material_values textures_found(const struct host_world *host,
+                                      const struct material_values *source);
 
 /* Returns the memory of the world's images in bytes: texels, and the sky image
  * with its table. */

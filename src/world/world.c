@@ -102,7 +102,7 @@ static struct material in_world(const struct scene *scene, struct material m)
 }
 
 struct material world_material(const struct scene *scene,
-                               const struct mtl_source *source)
+                               const struct material_values *source)
 {
     struct warnings ignored = {0};
     struct material m = material_from_source(source, scene->path, &ignored);

@@ -61,8 +61,8 @@ struct host_world {
     uint32_t *assigned;
 
     struct material *materials;
-    struct mtl_source *sources; /* statements of the materials */
-    bool *material_is_used;     /* true if a triangle uses the material */
+    struct material_values *sources; /* statements of the materials */
+    bool *material_is_used;          /* true if a triangle uses the material */
     bool has_vertex_colors, has_vertex_alphas, has_tangents;
     bool has_instances;
     uint32_t material_count; /* materials of the scene and of edits */
@@ -146,7 +146,7 @@ void world_renew(struct host_world *host, enum world_part part);
 /* Returns the material that the statements describe, with lengths in normalised
  * units. Its warnings were reported when the file was read. */
 struct material world_material(const struct scene *scene,
-                               const struct mtl_source *source);
+                               const struct material_values *source);
 
 /* Returns the triangles with the materials that are rendered. */
 const struct tri *world_tris(const struct host_world *host,

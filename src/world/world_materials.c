@@ -13,7 +13,7 @@ struct new_arrays {
     struct instance *instances;
     uint32_t *assigned;
     struct material *materials;
-    struct mtl_source *sources;
+    struct material_values *sources;
     bool *material_is_used;
     struct texture *textures;
     struct lights lights;
@@ -25,7 +25,7 @@ struct material_change {
     struct host_world *host;
     const struct scene *scene;
     uint32_t count; /* as in world_set_materials() */
-    const struct mtl_source *sources;
+    const struct material_values *sources;
     const uint32_t *assigned;
     struct new_arrays next;
 };
@@ -112,7 +112,7 @@ static bool is_as_before(const struct material_change *c, uint32_t i)
 
     return i < host->material_count &&
            (host->material_is_used[i] || !c->next.material_is_used[i]) &&
-           mtl_source_equal(&host->sources[i], &c->sources[i]);
+           material_values_equal(&host->sources[i], &c->sources[i]);
 }
 
 /* Loads the images of material i that comes into use, into a copy of the
@@ -292,19 +292,19 @@ static void free_arrays(struct new_arrays *next)
 /* Returns true if the world has these already. */
 static bool has_materials(const struct host_world *host,
                           const struct scene *scene, uint32_t count,
-                          const struct mtl_source *sources,
+                          const struct material_values *sources,
                           const uint32_t *assigned)
 {
     if (host->material_count != count || needs_tris(host, scene, assigned))
         return false;
     for (uint32_t i = 0; i < count; i++)
-        if (!mtl_source_equal(&host->sources[i], &sources[i]))
+        if (!material_values_equal(&host->sources[i], &sources[i]))
             return false;
     return true;
 }
 
 bool world_set_materials(struct host_world *host, const struct scene *scene,
-                         uint32_t count, const struct mtl_source *sources,
+                         uint32_t count, const struct material_values *sources,
                          const uint32_t *assigned, struct error *err)
 {
     struct material_change c = {.host = host,

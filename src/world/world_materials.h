@@ -22,7 +22,7 @@
  * or NO_INDEX for that of the file. `count` is the number of sources: the
  * scene's materials, then those of edits. */
 bool world_set_materials(struct host_world *host, const struct scene *scene,
-                         uint32_t count, const struct mtl_source *sources,
+                         uint32_t count, const struct material_values *sources,
                          const uint32_t *assigned, struct error *err);
 
 #endif

@@ -64,10 +64,10 @@ static inline void put_eye(struct edit *e, double x)
 
 static inline void put_kd(struct edit *e, uint32_t material, double red)
 {
-    struct mtl_source source = e->now.sources[material];
+    struct material_values source = e->now.sources[material];
 
-    source.kd.rgb[0] = red;
-    source.kd.line = 1;
+    source.base_color.rgb[0] = red;
+    source.base_color.line = 1;
     edit_material(e, material, &source);
 }
 

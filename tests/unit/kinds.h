@@ -10,7 +10,7 @@
 #include "studio/material_parameters.h"
 
 /* Steps forward by this many kinds, or back. */
-static inline void step_kind(struct mtl_source *source, int steps)
+static inline void step_kind(struct material_values *source, int steps)
 {
     struct owner o = {.row = &material_parameters[0]};
     struct value v;

@@ -30,7 +30,7 @@ struct reader {
     struct name_table *names; /* of the materials before */
     struct gltf_value v;      /* the material */
     struct gltf_value pbr;    /* its pbrMetallicRoughness */
-    struct mtl_source source;
+    struct material_values source;
     struct error *err;
 };
 
@@ -96,37 +96,38 @@ static bool read_base(struct reader *r, const struct gltf_value *object,
 {
     struct gltf_texture_use use = of_color;
     double color[4] = {1, 1, 1, 1};
-    struct mtl_source *s = &r->source;
+    struct material_values *s = &r->source;
 
     use.flags = alpha_flag;
     if (!gltf_numbers(object, factor, 4, color, r->err) ||
-        !read_map(r, object, texture, use, MTL_MAP_KD))
+        !read_map(r, object, texture, use, MTL_MAP_COLOR))
         return false;
-    set_color(&s->kd, color);
+    set_color(&s->base_color, color);
     if (is_black(color))
-        s->maps[MTL_MAP_KD] = NO_INDEX;
+        s->maps[MTL_MAP_COLOR] = NO_INDEX;
     if (alpha_flag == 0 && color[3] < 1)
-        set_unit(&s->d, color[3]);
+        set_unit(&s->opacity, color[3]);
     return alpha_flag != 0 || !is_black(color) ||
-           read_map(r, object, texture, of_alpha, MTL_MAP_D);
+           read_map(r, object, texture, of_alpha, MTL_MAP_OPACITY);
 }
 
 static bool read_metal_and_roughness(struct reader *r)
 {
-    struct mtl_source *s = &r->source;
+    struct material_values *s = &r->source;
     double metal = 1, roughness = 1;
 
     if (!read_number(r, &r->pbr, "metallicFactor", &metal) ||
         !read_number(r, &r->pbr, "roughnessFactor", &roughness))
         return false;
-    set_unit(&s->pm, metal);
-    set_unit(&s->pr, roughness);
-    if (s->pm.value > 0 &&
-        !read_map(r, &r->pbr, "metallicRoughnessTexture", of_blue, MTL_MAP_PM))
+    set_unit(&s->metalness, metal);
+    set_unit(&s->roughness, roughness);
+    if (s->metalness.value > 0 &&
+        !read_map(r, &r->pbr, "metallicRoughnessTexture", of_blue,
+                  MTL_MAP_METALNESS))
         return false;
-    return !(s->pr.value > 0) ||
+    return !(s->roughness.value > 0) ||
            read_map(r, &r->pbr, "metallicRoughnessTexture", of_green,
-                    MTL_MAP_PR);
+                    MTL_MAP_ROUGHNESS);
 }
 
 /* Reads a map of normals, a member of *v, with its scale. */
@@ -140,7 +141,7 @@ static bool read_normals(struct reader *r, const struct gltf_value *v,
                            &info, r->err) ||
         !read_number(r, &info, "scale", &scale))
         return false;
-    *mtl_source_map_scale(&r->source, map) = fmin(fmax(scale, -1e3), 1e3);
+    *material_values_map_scale(&r->source, map) = fmin(fmax(scale, -1e3), 1e3);
     return true;
 }
 
@@ -155,10 +156,10 @@ static bool read_emission(struct reader *r)
         return false;
     if (is_black(color) || !(strength > 0))
         return true;
-    r->source.ke.line = LINE;
+    r->source.emission.line = LINE;
     for (int i = 0; i < 3; i++)
-        r->source.ke.rgb[i] = fmin(fmax(color[i], 0) * strength, 1e30);
-    return read_map(r, &r->v, "emissiveTexture", of_color, MTL_MAP_KE);
+        r->source.emission.rgb[i] = fmin(fmax(color[i], 0) * strength, 1e30);
+    return read_map(r, &r->v, "emissiveTexture", of_color, MTL_MAP_EMISSION);
 }
 
 /* Reads alphaMode. *flag becomes TEXTURE_OPAQUE if alpha is ignored. A cutoff
@@ -173,9 +174,9 @@ static bool read_alpha_mode(struct reader *r, uint32_t *flag)
         return false;
     *flag = 0;
     if (strcmp(mode, "MASK") == 0 && cutoff > 1)
-        set_number(&r->source.d, 0);
+        set_number(&r->source.opacity, 0);
     else if (strcmp(mode, "MASK") == 0 && cutoff > 0)
-        set_number(&r->source.d_cutoff, cutoff);
+        set_number(&r->source.cutoff, cutoff);
     else if (strcmp(mode, "BLEND") != 0)
         *flag = TEXTURE_OPAQUE;
     return true;
@@ -185,18 +186,18 @@ static bool read_alpha_mode(struct reader *r, uint32_t *flag)
 
 /* Sets Ks and Ks_full for a reflectance at normal incidence. Ks is rounded to
  * what is worth writing. */
-static void set_specular(struct mtl_source *s, const double f0[3])
+static void set_specular(struct material_values *s, const double f0[3])
 {
     double top = fmax(f0[0], fmax(f0[1], f0[2]));
     double full = (double)MATERIAL_SPECULAR;
 
     if (top > full)
-        set_unit(&s->ks_full, top);
+        set_unit(&s->specular_scale, top);
     if (top > full)
-        full = s->ks_full.value;
-    s->ks.line = LINE;
+        full = s->specular_scale.value;
+    s->specular_color.line = LINE;
     for (int i = 0; i < 3; i++)
-        s->ks.rgb[i] =
+        s->specular_color.rgb[i] =
             statement_clamped(round(fmax(f0[i], 0) / full * 1e6) * 1e-6);
 }
 
@@ -214,7 +215,7 @@ static bool read_specular(struct reader *r)
         return false;
     ior = ior == 0 ? 1e6 : fmin(fmax(ior, 1), 1e6); /* 0 means infinite */
     if (at.json != NULL)
-        set_number(&r->source.ni, ior);
+        set_number(&r->source.ior, ior);
     r0 = (ior - 1) / (ior + 1);
     for (int i = 0; i < 3; i++)
         f0[i] =
@@ -223,8 +224,9 @@ static bool read_specular(struct reader *r)
     if (is_black(f0))
         return true;
     return read_map(r, &specular, "specularTexture", of_alpha,
-                    MTL_MAP_KS_WEIGHT) &&
-           read_map(r, &specular, "specularColorTexture", of_color, MTL_MAP_KS);
+                    MTL_MAP_SPECULAR_WEIGHT) &&
+           read_map(r, &specular, "specularColorTexture", of_color,
+                    MTL_MAP_SPECULAR);
 }
 
 /* Reads KHR_materials_pbrSpecularGlossiness in place of
@@ -240,13 +242,13 @@ static bool read_glossiness(struct reader *r, const struct gltf_value *v,
         !gltf_numbers(v, "specularFactor", 3, f0, r->err) ||
         !read_number(r, v, "glossinessFactor", &gloss))
         return false;
-    set_unit(&r->source.pr, 1 - gloss);
+    set_unit(&r->source.roughness, 1 - gloss);
     set_specular(&r->source, f0);
     if (is_black(f0))
         return true;
-    if (!read_map(r, v, "specularGlossinessTexture", use, MTL_MAP_KS))
+    if (!read_map(r, v, "specularGlossinessTexture", use, MTL_MAP_SPECULAR))
         return false;
-    if (r->source.maps[MTL_MAP_KS] != NO_INDEX)
+    if (r->source.maps[MTL_MAP_SPECULAR] != NO_INDEX)
         warn(r, "maps of glossiness",
              "KHR_materials_pbrSpecularGlossiness: the alpha channel of its "
              "texture is not used");
@@ -257,7 +259,7 @@ static bool read_glossiness(struct reader *r, const struct gltf_value *v,
 
 static bool read_transmission(struct reader *r)
 {
-    struct mtl_source *s = &r->source;
+    struct material_values *s = &r->source;
     double weight = 0, thickness = 0, distance = INFINITY, tint[3] = {1, 1, 1};
     struct gltf_value v, volume;
 
@@ -270,19 +272,19 @@ static bool read_transmission(struct reader *r)
         return false;
     if (!(weight > 0))
         return true;
-    set_color(&s->tf, (const double[3]){weight, weight, weight});
+    set_color(&s->transmission, (const double[3]){weight, weight, weight});
     if (!(thickness > 0))
-        set_number(&s->tf_thin, 1);
+        set_number(&s->thinness, 1);
     else if (distance > 0 && distance < (double)INFINITY) {
-        set_number(&s->tf_distance, distance);
-        set_color(&s->tf_attenuation, tint);
+        set_number(&s->attenuation_distance, distance);
+        set_color(&s->attenuation, tint);
     }
-    return read_map(r, &v, "transmissionTexture", of_red, MTL_MAP_TF);
+    return read_map(r, &v, "transmissionTexture", of_red, MTL_MAP_TRANSMISSION);
 }
 
 static bool read_coat(struct reader *r)
 {
-    struct mtl_source *s = &r->source;
+    struct material_values *s = &r->source;
     double weight = 0, roughness = 0;
     struct gltf_value v;
 
@@ -292,17 +294,17 @@ static bool read_coat(struct reader *r)
         return false;
     if (!(weight > 0))
         return true;
-    set_unit(&s->pc, weight);
-    set_unit(&s->pcr, roughness);
-    return read_map(r, &v, "clearcoatTexture", of_red, MTL_MAP_PC) &&
+    set_unit(&s->coat, weight);
+    set_unit(&s->coat_roughness, roughness);
+    return read_map(r, &v, "clearcoatTexture", of_red, MTL_MAP_COAT) &&
            (!(roughness > 0) || read_map(r, &v, "clearcoatRoughnessTexture",
-                                         of_green, MTL_MAP_PCR)) &&
-           read_normals(r, &v, "clearcoatNormalTexture", MTL_MAP_PC_NORM);
+                                         of_green, MTL_MAP_COAT_ROUGHNESS)) &&
+           read_normals(r, &v, "clearcoatNormalTexture", MTL_MAP_COAT_NORMAL);
 }
 
 static bool read_sheen(struct reader *r)
 {
-    struct mtl_source *s = &r->source;
+    struct material_values *s = &r->source;
     double color[3] = {0, 0, 0}, roughness = 0;
     struct gltf_value v;
 
@@ -312,24 +314,25 @@ static bool read_sheen(struct reader *r)
         return false;
     if (is_black(color))
         return true;
-    set_number(&s->ps, 1);
-    set_color(&s->ps_color, color);
-    set_unit(&s->ps_roughness, roughness);
-    return read_map(r, &v, "sheenColorTexture", of_color, MTL_MAP_PS_COLOR) &&
+    set_number(&s->sheen, 1);
+    set_color(&s->sheen_color, color);
+    set_unit(&s->sheen_roughness, roughness);
+    return read_map(r, &v, "sheenColorTexture", of_color,
+                    MTL_MAP_SHEEN_COLOR) &&
            read_map(r, &v, "sheenRoughnessTexture", of_alpha,
-                    MTL_MAP_PS_ROUGHNESS);
+                    MTL_MAP_SHEEN_ROUGHNESS);
 }
 
 /* glTF widens highlights along the grain from a to a + (1 - a) s^2, up to any
  * ratio; aniso keeps the geometric mean of the widths, which Pr has. */
-static void stretch(struct mtl_source *s, double strength)
+static void stretch(struct material_values *s, double strength)
 {
-    double a = s->pr.value * s->pr.value;
+    double a = s->roughness.value * s->roughness.value;
     double along = a + (1 - a) * strength * strength;
     double across = fmax(a, along / STRETCH_MAX);
 
-    set_unit(&s->pr, sqrt(sqrt(along * across)));
-    set_unit(&s->aniso, (1 - across / along) / ANISO_SHARE);
+    set_unit(&s->roughness, sqrt(sqrt(along * across)));
+    set_unit(&s->anisotropy, (1 - across / along) / ANISO_SHARE);
 }
 
 static bool read_anisotropy(struct reader *r)
@@ -345,13 +348,13 @@ static bool read_anisotropy(struct reader *r)
         return true;
     stretch(&r->source, fmin(strength, 1));
     if (angle != 0)
-        set_number(&r->source.anisor, angle / (2 * M_PI));
+        set_number(&r->source.anisotropy_rotation, angle / (2 * M_PI));
     return read_map(r, &v, "anisotropyTexture", of_alpha, MTL_MAP_GRAIN);
 }
 
 static bool read_film(struct reader *r)
 {
-    struct mtl_source *s = &r->source;
+    struct material_values *s = &r->source;
     double weight = 0, ior = 1.3, least = 100, most = 400;
     struct gltf_value v;
 
@@ -363,16 +366,16 @@ static bool read_film(struct reader *r)
         return false;
     if (!(weight > 0))
         return true;
-    set_unit(&s->pf, weight);
-    set_number(&s->pf_ior, fmin(fmax(ior, 1), MATERIAL_FILM_IOR_MAX));
-    set_number(&s->pf_thickness,
+    set_unit(&s->film, weight);
+    set_number(&s->film_ior, fmin(fmax(ior, 1), MATERIAL_FILM_IOR_MAX));
+    set_number(&s->film_thickness,
                fmin(fmax(most, 0), MATERIAL_FILM_THICKNESS_MAX));
-    if (!read_map(r, &v, "iridescenceTexture", of_red, MTL_MAP_PF) ||
+    if (!read_map(r, &v, "iridescenceTexture", of_red, MTL_MAP_FILM) ||
         !read_map(r, &v, "iridescenceThicknessTexture", of_green,
-                  MTL_MAP_PF_THICKNESS))
+                  MTL_MAP_FILM_THICKNESS))
         return false;
-    if (s->maps[MTL_MAP_PF_THICKNESS] != NO_INDEX)
-        set_number(&s->pf_thinnest,
+    if (s->maps[MTL_MAP_FILM_THICKNESS] != NO_INDEX)
+        set_number(&s->film_thinnest,
                    fmin(fmax(least, 0), MATERIAL_FILM_THICKNESS_MAX));
     return true;
 }
@@ -383,14 +386,14 @@ static bool read_film(struct reader *r)
  * counts, map_d has it. */
 static bool make_unlit(struct reader *r, uint32_t alpha_flag)
 {
-    struct mtl_source *s = &r->source;
+    struct material_values *s = &r->source;
 
-    s->ke = s->kd;
-    s->maps[MTL_MAP_KE] = s->maps[MTL_MAP_KD];
-    s->maps[MTL_MAP_KD] = NO_INDEX;
-    set_color(&s->kd, (const double[3]){0, 0, 0});
+    s->emission = s->base_color;
+    s->maps[MTL_MAP_EMISSION] = s->maps[MTL_MAP_COLOR];
+    s->maps[MTL_MAP_COLOR] = NO_INDEX;
+    set_color(&s->base_color, (const double[3]){0, 0, 0});
     return alpha_flag != 0 ||
-           read_map(r, &r->pbr, "baseColorTexture", of_alpha, MTL_MAP_D);
+           read_map(r, &r->pbr, "baseColorTexture", of_alpha, MTL_MAP_OPACITY);
 }
 
 static bool read_layers(struct reader *r)
@@ -416,12 +419,12 @@ static bool read_statements(struct reader *r)
                make_unlit(r, alpha_flag);
     if (gloss.json != NULL)
         return read_glossiness(r, &gloss, alpha_flag) &&
-               read_normals(r, &r->v, "normalTexture", MTL_MAP_NORM) &&
+               read_normals(r, &r->v, "normalTexture", MTL_MAP_NORMAL) &&
                read_emission(r);
     return read_base(r, &r->pbr, "baseColorFactor", "baseColorTexture",
                      alpha_flag) &&
            read_metal_and_roughness(r) && read_specular(r) &&
-           read_normals(r, &r->v, "normalTexture", MTL_MAP_NORM) &&
+           read_normals(r, &r->v, "normalTexture", MTL_MAP_NORMAL) &&
            read_emission(r) && read_layers(r);
 }
 
@@ -461,7 +464,7 @@ static bool add_material(struct reader *r, size_t i, size_t *capacity)
 
 static bool read_material(struct reader *r, size_t i, size_t *capacity)
 {
-    r->source = mtl_source_empty();
+    r->source = material_values_empty();
     return gltf_entry(r->textures->document, "materials", i, &r->v, r->err) &&
            add_material(r, i, capacity);
 }
@@ -492,7 +495,7 @@ static bool add_default(struct reader *r, size_t count, size_t *capacity)
     if (empty == NULL)
         return fail(r->err, "%s: out of memory for the materials",
                     document->path);
-    r->source = mtl_source_empty();
+    r->source = material_values_empty();
     r->v = gltf_root(document);
     r->v.json = empty;
     ok = add_material(r, count, capacity);
@@ -508,10 +511,10 @@ void gltf_materials_hint(const struct gltf_document *document,
     if (strstr(gltf_generator(document), "Blender") == NULL)
         return;
     for (size_t i = 1; i <= count && i < scene->material_count; i++) {
-        const struct mtl_source *s = &scene->material_origins[i].source;
+        const struct material_values *s = &scene->material_origins[i].source;
 
         /* statements of edits are behind the first line of their file */
-        if (s->tf_thin.line == LINE && s->tf_thin.value > 0)
+        if (s->thinness.line == LINE && s->thinness.value > 0)
             warnings_add(report, "materials of thin glass",
                          "%s: found '%.80s', glass without a volume, which is "
                          "a thin shell: for solid glass set 'glass is' to "

@@ -283,7 +283,7 @@ static uint64_t uploads(struct pair *p)
 
 static void paint(struct pair *p, uint32_t material, double red, double light)
 {
-    struct mtl_source sources[32];
+    struct material_values sources[32];
     uint32_t assigned[64];
     struct error err;
 
@@ -293,9 +293,9 @@ static void paint(struct pair *p, uint32_t material, double red, double light)
            p->world.material_count * sizeof *sources);
     for (uint32_t i = 0; i < p->scene.object_count; i++)
         assigned[i] = NO_INDEX;
-    sources[material].kd = (struct mtl_color){{red, .5, .5}, 1};
+    sources[material].base_color = (struct mtl_color){{red, .5, .5}, 1};
     if (light > 0)
-        sources[material].ke = (struct mtl_color){{light, 1, 1}, 1};
+        sources[material].emission = (struct mtl_color){{light, 1, 1}, 1};
     check_or_say(world_set_materials(&p->world, &p->scene,
                                      p->world.material_count, sources, assigned,
                                      &err),

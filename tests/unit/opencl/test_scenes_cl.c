@@ -36,7 +36,7 @@ static void shipped_scenes_are_equal(void **state)
  * the device sees each change. */
 static void edited_worlds_are_equal(void **state)
 {
-    struct mtl_source sources[32];
+    struct material_values sources[32];
     uint32_t assigned[64];
     struct pair p;
     uint64_t seed = 9;
@@ -58,9 +58,10 @@ static void edited_worlds_are_equal(void **state)
         uint32_t o = (uint32_t)(check_random(&seed) * p.scene.object_count);
         struct error err;
 
-        sources[m].kd = (struct mtl_color){{check_random(&seed), 0.5, 0.5}, 1};
+        sources[m].base_color =
+            (struct mtl_color){{check_random(&seed), 0.5, 0.5}, 1};
         if (round % 3 == 1)
-            sources[m].ke =
+            sources[m].emission =
                 (struct mtl_color){{3 * check_random(&seed), 1, 1}, 1};
         if (round % 3 == 2)
             assigned[o] = m;

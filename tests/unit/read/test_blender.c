@@ -341,7 +341,7 @@ static void statements_mean_what_the_exporter_writes(void **state)
 /* Rewrites material m of `text` with another roughness and its Ke as it is. */
 static char *rough(const char *text)
 {
-    struct mtl_source after;
+    struct material_values after;
     struct mtl_change change = {.name = "m", .after = &after};
     struct loaded l;
     size_t size_bytes;
@@ -350,7 +350,7 @@ static char *rough(const char *text)
     load(&l, "a.mtl", text, strlen(text));
     after = l.scene.material_origins[mtl_find(&l.scene, "m")].source;
     change.before = &l.scene.material_origins[mtl_find(&l.scene, "m")].source;
-    after.pr = number(.3);
+    after.roughness = number(.3);
     got =
         rewrite(&l.scene, "a.mtl", text, strlen(text), &change, 1, &size_bytes);
     unload(&l);
@@ -377,7 +377,7 @@ static void saved_files_keep_their_dialect(void **state)
 static void classic_files_stay_classic(void **state)
 {
     static const char text[] = BLOCK "Tr 0.000000\n";
-    struct mtl_source after;
+    struct material_values after;
     struct mtl_change change = {.name = "m", .after = &after};
     struct loaded l;
     size_t size_bytes;
@@ -388,7 +388,7 @@ static void classic_files_stay_classic(void **state)
     assert_int_equal(l.report.entry_count, 0);
     after = l.scene.material_origins[1].source;
     change.before = &l.scene.material_origins[1].source;
-    after.tr.line = 0;
+    after.transparency.line = 0;
     got =
         rewrite(&l.scene, "a.mtl", text, strlen(text), &change, 1, &size_bytes);
     assert_string_equal(got, "# Wavefront MTL File\n" BLOCK);
@@ -403,7 +403,7 @@ static void maps_of_blender_are_switched(void **state)
                              "map_Ns r.png\nmap_refl m.png\n";
     static const char off[] = "# Blender 5.0.0 MTL File\nnewmtl m\n"
                               "#map_Ns r.png\n#map_refl m.png\n";
-    struct mtl_source after;
+    struct material_values after;
     struct mtl_change change = {.name = "m", .after = &after};
     struct loaded l;
     size_t size_bytes;
@@ -413,7 +413,7 @@ static void maps_of_blender_are_switched(void **state)
     load(&l, "a.mtl", on, strlen(on));
     after = l.scene.material_origins[1].source;
     change.before = &l.scene.material_origins[1].source;
-    after.maps_off = 1u << MTL_MAP_PR | 1u << MTL_MAP_PM;
+    after.maps_off = 1u << MTL_MAP_ROUGHNESS | 1u << MTL_MAP_METALNESS;
     got = rewrite(&l.scene, "a.mtl", on, strlen(on), &change, 1, &size_bytes);
     assert_string_equal(got, off);
     free(got);

@@ -58,14 +58,14 @@ static double mean(const double rgb[3])
 static void models_are_of_clay(void **state)
 {
     struct opened o;
-    const struct mtl_source *clay;
+    const struct material_values *clay;
 
     (void)state;
     open_model(&o, "m.ply", NULL);
     assert_int_equal(mtl_find(&o.scene, "clay"), o.scene.tris[0].material);
     clay = &o.scene.material_origins[o.scene.tris[0].material].source;
-    check_close(mean(clay->kd.rgb), .6, .01);
-    assert_true(clay->kd.rgb[0] > clay->kd.rgb[2]); /* warm */
+    check_close(mean(clay->base_color.rgb), .6, .01);
+    assert_true(clay->base_color.rgb[0] > clay->base_color.rgb[2]); /* warm */
     assert_string_equal(o.scene.mtl_paths[0], "m.ply.mtl");
     assert_int_equal(o.report.entry_count, 0);
     close_model(&o);
@@ -74,14 +74,14 @@ static void models_are_of_clay(void **state)
 static void a_file_beside_the_model_replaces_clay(void **state)
 {
     struct opened o;
-    struct mtl_source *clay;
+    struct material_values *clay;
 
     (void)state;
     put("m.ply.mtl", "newmtl other\nKd 1 0 0\nnewmtl clay\nKd 0 1 0\n");
     open_model(&o, "m.ply", NULL);
     clay = &o.scene.material_origins[o.scene.tris[0].material].source;
-    check_close(clay->kd.rgb[0], 0, 0);
-    check_close(clay->kd.rgb[1], 1, 0);
+    check_close(clay->base_color.rgb[0], 0, 0);
+    check_close(clay->base_color.rgb[1], 1, 0);
     assert_int_equal(o.scene.mtl_path_count, 1);
     assert_int_not_equal(mtl_find(&o.scene, "other"), NO_INDEX);
     assert_int_equal(o.report.entry_count, 0);
@@ -94,7 +94,7 @@ static void a_file_beside_the_model_replaces_clay(void **state)
 static void edits_are_saved_beside_the_model(void **state)
 {
     struct opened o;
-    struct mtl_source clay, copy;
+    struct material_values clay, copy;
     struct file_change change;
     struct error err;
 
@@ -102,7 +102,7 @@ static void edits_are_saved_beside_the_model(void **state)
     open_model(&o, "m.ply", NULL);
     clay = o.scene.material_origins[MESH_MATERIAL].source;
     copy = clay;
-    copy.kd = (struct mtl_color){{.25, .5, .75}, 1};
+    copy.base_color = (struct mtl_color){{.25, .5, .75}, 1};
     check_or_say(mtl_save(&o.scene, "m.ply.mtl",
                           &(struct mtl_change){"clay.2", "clay", &clay, &copy},
                           1, &change, &err),
@@ -111,8 +111,8 @@ static void edits_are_saved_beside_the_model(void **state)
     has("m.ply.mtl", "\nnewmtl clay.2\nKd 0.25 0.5 0.75\nKd_roughness 0.5\n");
     open_model(&o, "m.ply", NULL);
     copy = o.scene.material_origins[MESH_MATERIAL].source;
-    assert_true(mtl_source_equal(&copy, &clay));
-    copy.kd_roughness.value = .25;
+    assert_true(material_values_equal(&copy, &clay));
+    copy.diffuse_roughness.value = .25;
     check_or_say(mtl_save(&o.scene, "m.ply.mtl",
                           &(struct mtl_change){"clay", NULL, &clay, &copy}, 1,
                           &change, &err),
@@ -120,8 +120,8 @@ static void edits_are_saved_beside_the_model(void **state)
     close_model(&o);
     open_model(&o, "m.ply", NULL);
     assert_true(
-        mtl_source_equal(&o.scene.material_origins[MESH_MATERIAL].source,
-                         &copy));
+        material_values_equal(&o.scene.material_origins[MESH_MATERIAL].source,
+                              &copy));
     assert_int_not_equal(mtl_find(&o.scene, "clay.2"), NO_INDEX);
     close_model(&o);
     has("m.ply", model);

@@ -11,68 +11,68 @@
 #include "base/file.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/folder.h"
-#include "tests/unit/read/mtl_texts.h"
 #include "tests/unit/kinds.h"
+#include "tests/unit/read/mtl_texts.h"
 
-static void redden(struct mtl_source *s)
+static void redden(struct material_values *s)
 {
-    s->kd = color(1, .5, .25);
+    s->base_color = color(1, .5, .25);
 }
 
-static void roughen(struct mtl_source *s)
+static void roughen(struct material_values *s)
 {
-    s->pr = number(.5);
+    s->roughness = number(.5);
 }
 
-static void fade(struct mtl_source *s)
+static void fade(struct material_values *s)
 {
-    s->d = number(.25);
+    s->opacity = number(.25);
 }
 
-static void shine(struct mtl_source *s)
+static void shine(struct material_values *s)
 {
     s->kelvin.line = s->luminance.line = 0;
-    s->ke = color(1, 2, 3);
+    s->emission = color(1, 2, 3);
 }
 
-static void glow(struct mtl_source *s)
+static void glow(struct material_values *s)
 {
     s->kelvin = number(3000);
     s->luminance = number(5);
 }
 
-static void darken(struct mtl_source *s)
+static void darken(struct material_values *s)
 {
-    s->kelvin.line = s->luminance.line = s->ke.line = 0;
+    s->kelvin.line = s->luminance.line = s->emission.line = 0;
 }
 
-static void switch_map(struct mtl_source *s)
+static void switch_map(struct material_values *s)
 {
-    s->maps_off ^= 1u << MTL_MAP_KD;
+    s->maps_off ^= 1u << MTL_MAP_COLOR;
 }
 
-static void switch_bumps(struct mtl_source *s)
+static void switch_bumps(struct material_values *s)
 {
     s->maps_off ^= 1u << MTL_MAP_BUMP;
 }
 
-static void absorb(struct mtl_source *s)
+static void absorb(struct material_values *s)
 {
-    s->tf_distance = number(2.5);
-    s->tf_thin = number(0);
-    s->maps_off ^= 1u << MTL_MAP_PC;
+    s->attenuation_distance = number(2.5);
+    s->thinness = number(0);
+    s->maps_off ^= 1u << MTL_MAP_COAT;
 }
 
-static void layer(struct mtl_source *s)
+static void layer(struct material_values *s)
 {
-    s->ps_roughness = number(0.25);
-    s->pf = number(1);
-    s->pf_ior = number(1.5);
-    s->pf_thickness = number(300);
-    s->d_cutoff = number(0.5);
+    s->sheen_roughness = number(0.25);
+    s->film = number(1);
+    s->film_ior = number(1.5);
+    s->film_thickness = number(300);
+    s->cutoff = number(0.5);
 }
 
-static void keep(struct mtl_source *s)
+static void keep(struct material_values *s)
 {
     (void)s;
 }
@@ -81,7 +81,7 @@ static void only_changed_statements_are_written(void **state)
 {
     static const struct {
         const char *text;
-        void (*edit)(struct mtl_source *);
+        void (*edit)(struct material_values *);
         const char *want;
     } cases[] = {
         {"newmtl m\nKd 0 0 0\n", redden, "newmtl m\nKd 1 0.5 0.25\n"},
@@ -136,7 +136,7 @@ static void only_changed_statements_are_written(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const char *text = cases[i].text;
         struct loaded l;
-        struct mtl_source after;
+        struct material_values after;
         struct mtl_change change;
         size_t size_bytes;
         uint32_t m;
@@ -164,7 +164,7 @@ static void maps_switched_on_again_are_as_before(void **state)
 {
     static const char text[] = "newmtl m\nmap_Kd -s 2 2 2 a.png\nNi 1\n"
                                "#map_Kd old.png\n# map_Kd a.png\n";
-    struct mtl_source off;
+    struct material_values off;
     struct mtl_change change;
     struct loaded l;
     size_t size_bytes, back_bytes;
@@ -208,7 +208,7 @@ static void file_names_may_end_in_backslashes(void **state)
 {
     static const char on[] = "newmtl m\nmap_Kd a.png\\ \nNi 1\n";
     static const char off[] = "newmtl m\n#map_Kd a.png\\ \nNi 1\n";
-    struct mtl_source without;
+    struct material_values without;
     struct mtl_change change;
     struct loaded l;
     size_t size_bytes;
@@ -243,7 +243,7 @@ static void file_names_may_end_in_backslashes(void **state)
 
 /* Checks what is written into a file that lacks the material. */
 static void check_written_whole(const struct loaded *l, const char *name,
-                                const struct mtl_source *after,
+                                const struct material_values *after,
                                 const char *expected)
 {
     struct mtl_change change = {name, NULL,
@@ -260,7 +260,7 @@ static void duplicates_come_last(void **state)
 {
     static const char text[] =
         "newmtl m\nKd 0 0 0\nsharpness 60 # x\n\n# end\nnewmtl n\nKd 1 1 1";
-    struct mtl_source after;
+    struct material_values after;
     struct mtl_change change;
     struct loaded l;
     size_t size_bytes;
@@ -288,7 +288,7 @@ static void duplicates_come_last(void **state)
 static void material_names_may_end_in_backslashes(void **state)
 {
     static const char text[] = "newmtl m\\ \nKd 0 0 0\n";
-    struct mtl_source after;
+    struct material_values after;
     struct loaded l;
 
     (void)state;
@@ -323,8 +323,8 @@ static void kinds_write_only_the_needed_statements(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const char *text = cases[i].text;
-        const struct mtl_source *before;
-        struct mtl_source after, needed;
+        const struct material_values *before;
+        struct material_values after, needed;
         struct mtl_change change;
         struct loaded l;
         size_t size_bytes;
@@ -334,7 +334,7 @@ static void kinds_write_only_the_needed_statements(void **state)
         before = &l.scene.material_origins[1].source;
         after = *before;
         step_kind(&after, cases[i].steps);
-        needed = mtl_source_needed(before, &after);
+        needed = material_values_needed(before, &after);
         change = (struct mtl_change){"m", NULL, before, &needed};
         got = rewrite(&l.scene, "a.mtl", text, strlen(text), &change, 1,
                       &size_bytes);
@@ -348,7 +348,7 @@ static void kinds_write_only_the_needed_statements(void **state)
 static void saved_files_keep_their_permissions(void **state)
 {
     char *path = xformat("%s/s.mtl", folder);
-    struct mtl_source after;
+    struct material_values after;
     struct mtl_change change;
     struct file_change written;
     struct loaded l;

@@ -45,37 +45,37 @@ static void change_number(struct mtl_number *n, double most)
         *n = (struct mtl_number){.line = 0};
 }
 
-static struct mtl_source changed(const struct mtl_source *from)
+static struct material_values changed(const struct material_values *from)
 {
-    struct mtl_source s = *from;
+    struct material_values s = *from;
 
-    change_color(&s.kd);
-    change_color(&s.ks);
-    change_color(&s.ke);
-    change_color(&s.tf);
+    change_color(&s.base_color);
+    change_color(&s.specular_color);
+    change_color(&s.emission);
+    change_color(&s.transmission);
     change_number(&s.illum, 10);
-    change_number(&s.ns, 900);
-    change_number(&s.ni, 3);
-    change_number(&s.d, 1);
-    change_number(&s.tr, 1);
-    change_number(&s.pr, 1);
-    change_number(&s.pm, 1);
-    change_number(&s.pc, 1);
-    change_number(&s.pcr, 1);
-    change_number(&s.kd_roughness, 1);
-    change_number(&s.tf_distance, 9);
-    change_number(&s.tf_thin, 1);
-    change_number(&s.ps_roughness, 1);
-    change_number(&s.pf, 1);
-    change_number(&s.pf_ior, 3);
-    change_number(&s.pf_thickness, 1000);
-    change_number(&s.d_cutoff, 1);
+    change_number(&s.shininess, 900);
+    change_number(&s.ior, 3);
+    change_number(&s.opacity, 1);
+    change_number(&s.transparency, 1);
+    change_number(&s.roughness, 1);
+    change_number(&s.metalness, 1);
+    change_number(&s.coat, 1);
+    change_number(&s.coat_roughness, 1);
+    change_number(&s.diffuse_roughness, 1);
+    change_number(&s.attenuation_distance, 9);
+    change_number(&s.thinness, 1);
+    change_number(&s.sheen_roughness, 1);
+    change_number(&s.film, 1);
+    change_number(&s.film_ior, 3);
+    change_number(&s.film_thickness, 1000);
+    change_number(&s.cutoff, 1);
     change_number(&s.kelvin, 9000);
     s.luminance = s.kelvin.line != 0 ? number(random_unit() * 50)
                                      : (struct mtl_number){.line = 0};
     if (s.kelvin.line != 0)
         /* Glim writes only one of the two. */
-        s.ke = (struct mtl_color){.line = 0};
+        s.emission = (struct mtl_color){.line = 0};
     for (int i = 0; i < MTL_MAPS; i++)
         if (s.maps[i] != NO_INDEX && check_random(&seed) < .3)
             s.maps_off ^= 1u << i;
@@ -113,14 +113,14 @@ static char *foreign_lines(const char *text, size_t size_bytes)
 /* Compares materials, except for textures that are off, which the reader does
  * not see. */
 static void check_same(const struct scene *got, uint32_t g,
-                       const struct mtl_source *want, const char *path)
+                       const struct material_values *want, const char *path)
 {
     struct warnings none = {.entries = NULL};
-    struct mtl_source there = *want;
+    struct material_values there = *want;
     struct material a, b;
 
     for (int i = 0; i < MTL_MAPS; i++) {
-        there.maps[i] = mtl_source_map(want, (enum mtl_map)i);
+        there.maps[i] = material_values_map(want, (enum mtl_map)i);
         if (there.maps[i] == NO_INDEX)
             there.map_scales[i] = 1;
     }
@@ -160,7 +160,7 @@ static void check_file(const char *path)
     load(&l, path, text, size_bytes);
     for (int round = 0; round < ROUNDS; round++) {
         uint32_t count = l.scene.material_count - 1;
-        struct mtl_source *after = alloc_array(count, sizeof *after);
+        struct material_values *after = alloc_array(count, sizeof *after);
         struct mtl_change *changes = alloc_array(count, sizeof *changes);
         char *before_rest = foreign_lines(text, size_bytes);
         size_t new_bytes;
@@ -168,7 +168,7 @@ static void check_file(const char *path)
         char *got, *got_rest;
 
         for (uint32_t i = 0; i < count; i++) {
-            const struct mtl_source *s =
+            const struct material_values *s =
                 &l.scene.material_origins[i + 1].source;
 
             after[i] = round == 0 ? *s : changed(s);

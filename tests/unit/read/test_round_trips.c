@@ -232,14 +232,14 @@ static void unload(struct loaded *l)
     warnings_free(&l->report);
 }
 
-static void change(struct mtl_source *s)
+static void change(struct material_values *s)
 {
     for (int i = 0; i < 3; i++)
-        s->kd.rgb[i] = check_random(&seed);
-    s->kd.line = 1;
-    s->ns = (struct mtl_number){check_random(&seed) * 900, 1};
+        s->base_color.rgb[i] = check_random(&seed);
+    s->base_color.line = 1;
+    s->shininess = (struct mtl_number){check_random(&seed) * 900, 1};
     if (check_random(&seed) < .3)
-        s->d = (struct mtl_number){.line = 0};
+        s->opacity = (struct mtl_number){.line = 0};
     for (int i = 0; i < MTL_MAPS; i++)
         if (s->maps[i] != NO_INDEX && check_random(&seed) < .3)
             s->maps_off ^= 1u << i;
@@ -257,10 +257,11 @@ static bool maps_are_equal(const struct scene *a, uint32_t map,
 
 /* Returns whether the file has the material with the wanted values. */
 static bool is_written(const struct scene *got, const char *name,
-                       const struct scene *from, const struct mtl_source *want)
+                       const struct scene *from,
+                       const struct material_values *want)
 {
     uint32_t m = mtl_find(got, name);
-    struct mtl_source a, b = *want;
+    struct material_values a, b = *want;
     bool ok = m != NO_INDEX;
 
     if (!ok)
@@ -268,13 +269,13 @@ static bool is_written(const struct scene *got, const char *name,
     a = got->material_origins[m].source;
     for (int i = 0; i < MTL_MAPS; i++) {
         ok &= maps_are_equal(got, a.maps[i], from,
-                             mtl_source_map(want, (enum mtl_map)i));
+                             material_values_map(want, (enum mtl_map)i));
         a.maps[i] = b.maps[i] = NO_INDEX;
-        if (mtl_source_map(want, (enum mtl_map)i) == NO_INDEX)
+        if (material_values_map(want, (enum mtl_map)i) == NO_INDEX)
             b.map_scales[i] = a.map_scales[i];
     }
     b.maps_off = 0;
-    return ok && mtl_source_equal(&a, &b);
+    return ok && material_values_equal(&a, &b);
 }
 
 /* Changes and copies every material. Returns false if the text is not MTL text
@@ -282,7 +283,7 @@ static bool is_written(const struct scene *got, const char *name,
 static bool check_mtl(const char *bytes, size_t size)
 {
     struct loaded l, again;
-    struct mtl_source *after;
+    struct material_values *after;
     struct mtl_change *changes;
     struct error err;
     uint32_t count;
@@ -300,7 +301,7 @@ static bool check_mtl(const char *bytes, size_t size)
     copies = alloc_array(count, sizeof *copies);
     for (uint32_t i = 0; i < 2 * count; i++) {
         uint32_t m = i % count + 1;
-        const struct mtl_source *s = &l.scene.material_origins[m].source;
+        const struct material_values *s = &l.scene.material_origins[m].source;
         const char *name = l.scene.material_names[m];
 
         after[i] = *s;
@@ -368,7 +369,7 @@ static void copies_keep_what_follows_a_nul(void **state)
 
     (void)state;
     assert_true(load(&l, bytes, sizeof bytes - 1));
-    const struct mtl_source *s = &l.scene.material_origins[1].source;
+    const struct material_values *s = &l.scene.material_origins[1].source;
     struct mtl_change c = {"b", "a", s, s};
     check_or_say(mtl_rewrite(&l.scene, "t.mtl", bytes, sizeof bytes - 1, &c, 1,
                              &text, &size, &err),
@@ -386,7 +387,7 @@ static void copies_keep_what_follows_a_nul(void **state)
 static void copies_of_the_default_are_of_no_block(void **state)
 {
     static const char bytes[] = "newmtl\nKd 1 0 0\nnewmtl a\nNi 3\n";
-    struct mtl_source none = mtl_source_empty();
+    struct material_values none = material_values_empty();
     struct mtl_change c = {"b", "", &none, &none};
     struct loaded l;
     struct error err;

@@ -229,7 +229,7 @@ static void set_material(struct host_world *host, const struct scene *s,
                          const struct scene *from)
 {
     const uint32_t none[3] = {NO_INDEX, NO_INDEX, NO_INDEX};
-    struct mtl_source sources[2];
+    struct material_values sources[2];
     struct error err;
 
     assert_int_equal(s->material_count, 2);

@@ -38,14 +38,14 @@ static void set_opacity(struct host_world *host, const struct scene *s,
                         double opacity)
 {
     uint32_t assigned[4] = {NO_INDEX, NO_INDEX, NO_INDEX, NO_INDEX};
-    struct mtl_source sources[4];
+    struct material_values sources[4];
     struct error err;
 
     assert_in_range(s->material_count, 1, 4);
     assert_in_range(s->object_count, 0, 4);
     for (uint32_t i = 0; i < s->material_count; i++)
         sources[i] = s->material_origins[i].source;
-    sources[s->material_count - 1].d = (struct mtl_number){opacity, 1};
+    sources[s->material_count - 1].opacity = (struct mtl_number){opacity, 1};
     check_or_say(world_set_materials(host, s, s->material_count, sources,
                                      assigned, &err),
                  err.text);

@@ -71,13 +71,14 @@ static void add_or_move_lamp(struct edit *e)
 static void change_anything(struct edit *e, bool may_duplicate)
 {
     uint32_t m = any_material(e), object = random_below(e->object_count);
-    struct mtl_source source = e->now.sources[m];
+    struct material_values source = e->now.sources[m];
     struct lighting light = e->now.view.lighting;
     struct pose pose = e->now.view.pose;
 
     switch (random_below(may_duplicate ? 8 : 7)) {
     case 0:
-        source.kd = (struct mtl_color){{check_random(&seed), 0.5, 0}, 1};
+        source.base_color =
+            (struct mtl_color){{check_random(&seed), 0.5, 0}, 1};
         edit_material(e, m, &source);
         break;
     case 1:
@@ -116,7 +117,8 @@ static void check_same_materials(const struct edit *a, const struct edit *b)
             continue;
         assert_int_not_equal(k, NO_INDEX);
         assert_true(b->now.is_there[k]);
-        assert_true(mtl_source_equal(&a->now.sources[i], &b->now.sources[k]));
+        assert_true(
+            material_values_equal(&a->now.sources[i], &b->now.sources[k]));
         assert_int_equal(edit_is_saved(a, i), edit_is_saved(b, k));
     }
 }

@@ -46,8 +46,8 @@ static void steps_have_names_in_order_of_time(void **state)
         assert_null(edit_redo(&e));
         assert_true(e.now.view.pose.eye[0] == count);
         assert_true(e.now.view.shots[2].eye[0] == 3);
-        assert_true(e.now.sources[WALL].kd.rgb[0] == .25);
-        assert_true(e.now.sources[3].kd.rgb[0] == .25);
+        assert_true(e.now.sources[WALL].base_color.rgb[0] == .25);
+        assert_true(e.now.sources[3].base_color.rgb[0] == .25);
         assert_int_equal(e.now.assigned[BALL_OBJECT], LAMP);
         assert_true(e.now.view.lighting.background[0] == .25);
     }
@@ -99,7 +99,7 @@ static void a_gesture_is_one_step(void **state)
     put_kd(&e, LAMP, .75);
     assert_string_equal(edit_undo(&e), "material lamp");
     assert_string_equal(edit_undo(&e), "material wall");
-    assert_true(e.now.sources[WALL].kd.rgb[0] == .5);
+    assert_true(e.now.sources[WALL].base_color.rgb[0] == .5);
     assert_string_equal(edit_undo(&e), "camera");
     assert_true(e.now.view.pose.eye[0] == 4);
     assert_string_equal(edit_undo(&e), "camera");

@@ -13,7 +13,7 @@
 /* A copy of the whole present state, and the name of the step that made it. */
 struct snapshot {
     uint32_t material_count;
-    struct mtl_source sources[MATERIALS_MAX];
+    struct material_values sources[MATERIALS_MAX];
     bool is_there[MATERIALS_MAX];
     uint32_t assigned[8];
     struct lighting light;
@@ -61,7 +61,7 @@ static bool has_same_sources(const struct snapshot *a, const struct snapshot *b)
         bool b_has = i < b->material_count && b->is_there[i];
 
         if (a_has != b_has ||
-            (a_has && !mtl_source_equal(&a->sources[i], &b->sources[i])))
+            (a_has && !material_values_equal(&a->sources[i], &b->sources[i])))
             return false;
     }
     return true;
@@ -93,11 +93,11 @@ static bool is_same_picture(const struct edit *e, const struct snapshot *a,
 
         if (m != b->assigned[i] ||
             (m != NO_INDEX &&
-             !mtl_source_equal(&a->sources[m], &b->sources[m])))
+             !material_values_equal(&a->sources[m], &b->sources[m])))
             return false;
     }
     for (uint32_t i = 0; i < scene.material_count; i++)
-        if (!mtl_source_equal(&a->sources[i], &b->sources[i]))
+        if (!material_values_equal(&a->sources[i], &b->sources[i]))
             return false;
     return a->sky == b->sky && lighting_is_same_light(&a->light, &b->light) &&
            memcmp(&a->lamp, &b->lamp, sizeof a->lamp) == 0 &&

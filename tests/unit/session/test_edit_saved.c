@@ -23,7 +23,7 @@ static void comparing_shows_saved_values_and_the_present_camera(void **state)
     put_background(&e, 1);
     COUNTS(edit_compare(&e, true), 1);
     COUNTS(edit_compare(&e, true), 0);
-    assert_true(edit_shown(&e)->sources[WALL].kd.rgb[0] == .5);
+    assert_true(edit_shown(&e)->sources[WALL].base_color.rgb[0] == .5);
     assert_int_equal(edit_shown(&e)->assigned[BALL_OBJECT], NO_INDEX);
     view = edit_view(&e);
     assert_true(view.lighting.background[0] == 0);
@@ -37,7 +37,7 @@ static void comparing_shows_saved_values_and_the_present_camera(void **state)
     assert_true(e.is_comparing);
     assert_true(edit_view(&e).pose.eye[0] == 1);
     COUNTS(edit_compare(&e, false), 1);
-    assert_true(edit_shown(&e)->sources[WALL].kd.rgb[0] == .25);
+    assert_true(edit_shown(&e)->sources[WALL].base_color.rgb[0] == .25);
     assert_true(edit_view(&e).lighting.background[0] == 1);
     edit_free(&e);
 }
@@ -126,7 +126,7 @@ static void a_reload_keeps_camera_steps(void **state)
     assert_true(e.version != version);
     assert_true(e.now.view.pose.eye[0] == 2);
     assert_true(e.now.view.shots[0].eye[0] == 2);
-    assert_true(e.now.sources[WALL].kd.rgb[0] == .5);
+    assert_true(e.now.sources[WALL].base_color.rgb[0] == .5);
     assert_true(e.now.view.lighting.background[0] == 0);
     put_eye(&e, 3); /* a step of its own */
     assert_string_equal(edit_undo(&e), "camera");
@@ -168,7 +168,7 @@ static void the_camera_of_a_changed_file_is_a_step(void **state)
 static void equal_materials_are_saved(void **state)
 {
     struct edit e;
-    struct mtl_source source;
+    struct material_values source;
 
     (void)state;
     open_edit(&e);

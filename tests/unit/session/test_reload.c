@@ -346,12 +346,12 @@ static void own_materials_are_no_change(void **state)
 {
     struct session s;
     struct live_render w;
-    struct mtl_source red;
+    struct material_values red;
 
     (void)state;
     open_work(&w, &s);
     red = s.edit.now.sources[1];
-    red.kd.rgb[0] = .125;
+    red.base_color.rgb[0] = .125;
     edit_material(&s.edit, 1, &red);
     assert_true(save_edit(&w));
     look_now(&w);
@@ -360,7 +360,7 @@ static void own_materials_are_no_change(void **state)
     look_now(&w);
     assert_true(w.has_changed_files);
     /* It remains one when the next save overwrites it. */
-    red.kd.rgb[0] = .25;
+    red.base_color.rgb[0] = .25;
     edit_material(&s.edit, 1, &red);
     assert_true(save_edit(&w));
     look_now(&w);

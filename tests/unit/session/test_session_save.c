@@ -125,7 +125,7 @@ static uint32_t random_below(uint32_t count)
 static void edit_anything(struct edit *e)
 {
     uint32_t material = 1 + random_below(e->material_count - 1);
-    struct mtl_source source = e->now.sources[material];
+    struct material_values source = e->now.sources[material];
     struct lighting light = e->now.view.lighting;
 
     while (!e->now.is_there[material])
@@ -135,15 +135,15 @@ static void edit_anything(struct edit *e)
         edit_end_step(e);
     switch (random_below(8)) {
     case 0:
-        source.kd = (struct mtl_color){{check_random(&seed), .5, 0}, 1};
+        source.base_color = (struct mtl_color){{check_random(&seed), .5, 0}, 1};
         edit_material(e, material, &source);
         break;
     case 1:
-        source.ke = (struct mtl_color){{check_random(&seed), 1, 2}, 1};
+        source.emission = (struct mtl_color){{check_random(&seed), 1, 2}, 1};
         edit_material(e, material, &source);
         break;
     case 2:
-        source.ke = (struct mtl_color){.line = 0};
+        source.emission = (struct mtl_color){.line = 0};
         edit_material(e, material, &source);
         break;
     case 3:
@@ -159,7 +159,7 @@ static void edit_anything(struct edit *e)
                     edit_duplicate(e, material));
         break;
     case 6:
-        source.pr = (struct mtl_number){check_random(&seed), 1};
+        source.roughness = (struct mtl_number){check_random(&seed), 1};
         edit_material(e, material, &source);
         break;
     case 7:
@@ -175,7 +175,7 @@ static void edit_anything(struct edit *e)
 static void edit_the_rest(struct edit *e)
 {
     struct pose pose = e->now.view.pose;
-    struct mtl_source source = e->now.sources[1];
+    struct material_values source = e->now.sources[1];
     struct lamp lamp;
 
     pose.eye[0] = 1 / 3.0;
@@ -186,7 +186,7 @@ static void edit_the_rest(struct edit *e)
     lamp_init(&lamp, LAMP_POINT);
     lamp.position[2] = 3;
     edit_add_lamp(e, &lamp);
-    source.maps_off ^= 1u << MTL_MAP_KD;
+    source.maps_off ^= 1u << MTL_MAP_COLOR;
     edit_material(e, 1, &source);
 }
 
@@ -237,8 +237,8 @@ static void kept_edits_are_restored(void **state)
         check_same_world(&again, &s);
         check_same_picture(&again, &s);
         for (uint32_t i = 0; i < s.edit.material_count; i++) {
-            assert_true(mtl_source_equal(&s.edit.now.sources[i],
-                                         &again.edit.now.sources[i]));
+            assert_true(material_values_equal(&s.edit.now.sources[i],
+                                              &again.edit.now.sources[i]));
             assert_string_equal(s.edit.names[i], again.edit.names[i]);
         }
         for (int i = 0; i < VIEW_SHOTS; i++)
@@ -262,7 +262,7 @@ static void kept_edits_of_lost_materials_are_counted(void **state)
 {
     struct session s;
     struct autosave_file kept = {.scene = NULL};
-    struct mtl_source source;
+    struct material_values source;
     struct error err;
     uint32_t missing;
 
@@ -271,7 +271,7 @@ static void kept_edits_of_lost_materials_are_counted(void **state)
     open_session(&s);
     for (uint32_t i = 1; i < 3; i++) {
         source = s.edit.now.sources[i];
-        source.kd = (struct mtl_color){{.25, .5, 1}, 1};
+        source.base_color = (struct mtl_color){{.25, .5, 1}, 1};
         edit_material(&s.edit, i, &source);
     }
     check_or_say(autosave_edit_take(&kept, &s, "/tmp/k", &err), err.text);
@@ -282,7 +282,7 @@ static void kept_edits_of_lost_materials_are_counted(void **state)
                  err.text);
     assert_int_equal(missing, 1);
     source = s.edit.now.sources[mtl_find(&s.engine.scene, "wall")];
-    assert_true(source.kd.rgb[0] == .25);
+    assert_true(source.base_color.rgb[0] == .25);
     session_close(&s);
     autosave_file_free(&kept);
 }
@@ -343,7 +343,7 @@ static void copies_of_copies_keep_implied_factors(void **state)
     (void)state;
     for (int saves_first = 0; saves_first < 2; saves_first++) {
         struct session s, again;
-        struct mtl_source source;
+        struct material_values source;
         uint32_t copy, second;
 
         put_scene();
@@ -363,7 +363,7 @@ static void copies_of_copies_keep_implied_factors(void **state)
         step_kind(&source, 2);
         edit_material(&s.edit, second, &source);
         source = s.edit.now.sources[copy];
-        source.kd_roughness = (struct mtl_number){.5, 1};
+        source.diffuse_roughness = (struct mtl_number){.5, 1};
         edit_material(&s.edit, copy, &source);
         restart(&s);
         check_close((double)s.engine.world.materials[copy].color.x, 1, 0);
@@ -399,7 +399,7 @@ static void changed_arrays_have_new_versions(void **state)
     const unsigned materials = 1u << WORLD_MATERIALS;
     const unsigned lights = 1u << WORLD_LIGHTS;
     const unsigned guide = 1u << WORLD_GUIDE;
-    struct mtl_source source;
+    struct material_values source;
     struct host_world before = {.versions = {0}};
     struct session s;
 
@@ -413,14 +413,14 @@ static void changed_arrays_have_new_versions(void **state)
     restart(&s);
     assert_int_equal(new_parts(&s, &before), 0);
     source = s.edit.now.sources[2];
-    source.kd.rgb[0] = 1;
+    source.base_color.rgb[0] = 1;
     edit_material(&s.edit, 2, &source);
     assert_true(session_is_outdated(&s));
     restart(&s);
     assert_false(session_is_outdated(&s));
     assert_int_equal(new_parts(&s, &before), materials);
     source = s.edit.now.sources[1];
-    source.ke.rgb[0] = 1;
+    source.emission.rgb[0] = 1;
     edit_material(&s.edit, 1, &source);
     restart(&s);
     assert_int_equal(new_parts(&s, &before) & ~guide, materials | lights);
@@ -434,7 +434,7 @@ static void changed_arrays_have_new_versions(void **state)
 /* Only changes are written, each into its file. */
 static void only_changes_are_saved(void **state)
 {
-    struct mtl_source source;
+    struct material_values source;
     struct session s;
     struct error err;
     char *text;
@@ -448,10 +448,10 @@ static void only_changes_are_saved(void **state)
     copy = edit_duplicate(&s.edit, 1);
     edit_assign(&s.edit, 3, copy);
     source = s.edit.now.sources[copy];
-    source.ke.rgb[0] = 9;
+    source.emission.rgb[0] = 9;
     edit_material(&s.edit, copy, &source);
     source = s.edit.now.sources[3];
-    source.ni.value = 1.25;
+    source.ior.value = 1.25;
     edit_material(&s.edit, 3, &source);
     save(&s);
     assert_true(file_read("a.mtl", &text, &size_bytes, &err));
@@ -488,11 +488,12 @@ static void message_names_the_saved_files(void **state)
 
         for (size_t k = 0; i < 2 && k <= i; k++) {
             uint32_t material = mtl_find(&s.engine.scene, names[k]);
-            struct mtl_source source = s.edit.now.sources[material];
+            struct material_values source = s.edit.now.sources[material];
 
             /* One of them is the colour of a lamp, the other that of glass. */
-            source.kd = (struct mtl_color){{.25 * (double)(1 + i), 0, 0}, 1};
-            source.tf = source.kd;
+            source.base_color =
+                (struct mtl_color){{.25 * (double)(1 + i), 0, 0}, 1};
+            source.transmission = source.base_color;
             edit_material(&s.edit, material, &source);
         }
         what = saved(&s);
@@ -524,7 +525,7 @@ static void kinds_leave_nothing_in_files(void **state)
     open_session(&s);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         uint32_t wall = mtl_find(&s.engine.scene, "wall");
-        struct mtl_source source = s.edit.now.sources[wall];
+        struct material_values source = s.edit.now.sources[wall];
         size_t size_bytes;
         char *text;
 
@@ -610,7 +611,7 @@ static void wrong_lines_have_their_message(void **state)
 static void textures_are_read_when_used(void **state)
 {
     struct session s, again;
-    struct mtl_source source;
+    struct material_values source;
     const struct texture *textures;
     struct material before;
     char *text = xformat("newmtl lamp\nKe 1 1 1\nnewmtl wall\nillum 7\nKd .5\n"
@@ -641,7 +642,7 @@ static void textures_are_read_when_used(void **state)
     /* Without the texture the colour is used; the next step copies no
      * textures. */
     textures = s.engine.world.textures;
-    source.maps_off = 1u << MTL_MAP_KS;
+    source.maps_off = 1u << MTL_MAP_SPECULAR;
     edit_end_step(&s.edit);
     edit_material(&s.edit, 2, &source);
     restart(&s);

@@ -34,36 +34,36 @@ static struct mtl_color maybe_color(void)
     return c;
 }
 
-static struct mtl_source any_source(void)
+static struct material_values any_source(void)
 {
-    struct mtl_source s = mtl_source_empty();
+    struct material_values s = material_values_empty();
 
     s.illum = maybe(floor(check_random(&seed) * 11));
-    s.kd = maybe_color();
-    s.ks = maybe_color();
-    s.ke = maybe_color();
-    s.tf = maybe_color();
-    s.ns = maybe(check_random(&seed) * 1200);
-    s.ni = maybe(1 + check_random(&seed));
-    s.d = maybe(check_random(&seed));
-    s.tr = maybe(check_random(&seed));
-    s.pr = maybe(check_random(&seed));
-    s.pm = maybe(check_random(&seed));
-    s.pc = maybe(check_random(&seed));
-    s.pcr = maybe(check_random(&seed));
-    s.ps = maybe(check_random(&seed));
-    s.aniso = maybe(check_random(&seed));
-    s.anisor = maybe(check_random(&seed));
-    s.kd_roughness = maybe(check_random(&seed));
-    s.ps_roughness = maybe(check_random(&seed));
-    s.pf = maybe(check_random(&seed));
-    s.pf_ior = maybe(1 + check_random(&seed));
-    s.pf_thickness = maybe(1000 * check_random(&seed));
-    s.d_cutoff = maybe(check_random(&seed));
+    s.base_color = maybe_color();
+    s.specular_color = maybe_color();
+    s.emission = maybe_color();
+    s.transmission = maybe_color();
+    s.shininess = maybe(check_random(&seed) * 1200);
+    s.ior = maybe(1 + check_random(&seed));
+    s.opacity = maybe(check_random(&seed));
+    s.transparency = maybe(check_random(&seed));
+    s.roughness = maybe(check_random(&seed));
+    s.metalness = maybe(check_random(&seed));
+    s.coat = maybe(check_random(&seed));
+    s.coat_roughness = maybe(check_random(&seed));
+    s.sheen = maybe(check_random(&seed));
+    s.anisotropy = maybe(check_random(&seed));
+    s.anisotropy_rotation = maybe(check_random(&seed));
+    s.diffuse_roughness = maybe(check_random(&seed));
+    s.sheen_roughness = maybe(check_random(&seed));
+    s.film = maybe(check_random(&seed));
+    s.film_ior = maybe(1 + check_random(&seed));
+    s.film_thickness = maybe(1000 * check_random(&seed));
+    s.cutoff = maybe(check_random(&seed));
     s.kelvin = maybe(1000 + 8000 * check_random(&seed));
     if (s.kelvin.line != 0) {
         s.luminance = (struct mtl_number){20 * check_random(&seed), 7};
-        s.ke = (struct mtl_color){.line = 0};
+        s.emission = (struct mtl_color){.line = 0};
     }
     for (int i = 0; i < MTL_MAPS; i++)
         if (check_random(&seed) < .2)
@@ -84,7 +84,7 @@ static double luminance(struct vec3 c)
 }
 
 /* Opens the parameter of this name of a material with these statements. */
-static struct owner open_source(const struct mtl_source *source,
+static struct owner open_source(const struct material_values *source,
                                 const char *label)
 {
     struct owner o = {.selection = NULL};
@@ -100,7 +100,7 @@ static struct owner open_source(const struct mtl_source *source,
 }
 
 /* Returns false if the material lacks the parameter. */
-static bool get(const struct mtl_source *source, const char *label,
+static bool get(const struct material_values *source, const char *label,
                 struct value *value)
 {
     struct owner o = open_source(source, label);
@@ -108,7 +108,7 @@ static bool get(const struct mtl_source *source, const char *label,
     return o.row != NULL && parameter_read(&o, value);
 }
 
-static void set(struct mtl_source *source, const char *label,
+static void set(struct material_values *source, const char *label,
                 const struct value *value)
 {
     struct owner o = open_source(source, label);
@@ -119,7 +119,7 @@ static void set(struct mtl_source *source, const char *label,
     *source = o.source;
 }
 
-static struct value get_color(const struct mtl_source *source)
+static struct value get_color(const struct material_values *source)
 {
     struct value value;
 
@@ -127,7 +127,7 @@ static struct value get_color(const struct mtl_source *source)
     return value;
 }
 
-static struct material material_of(const struct mtl_source *source)
+static struct material material_of(const struct material_values *source)
 {
     return open_source(source, "").material;
 }
@@ -140,7 +140,7 @@ static void kinds_keep_the_color(void **state)
 
     (void)state;
     for (int round = 0; round < 2000; round++) {
-        struct mtl_source s = any_source();
+        struct material_values s = any_source();
         struct value before = get_color(&s), kind;
         double swatch[3];
         int first;
@@ -168,7 +168,7 @@ static void set_values_reach_the_material(void **state)
 {
     (void)state;
     for (int round = 0; round < 2000; round++) {
-        struct mtl_source s = any_source();
+        struct material_values s = any_source();
         struct value color = {.rgb = {.01 + check_random(&seed),
                                       check_random(&seed),
                                       check_random(&seed)}};
@@ -231,14 +231,14 @@ static void set_values_reach_the_material(void **state)
  * thickness where it is black. */
 static void values_of_gltf_are_edited(void **state)
 {
-    struct mtl_source s = mtl_source_empty();
+    struct material_values s = material_values_empty();
     const struct value blue = {.rgb = {.1, .2, .8}};
     struct value found = {.number = 0};
     struct material m;
 
     (void)state;
-    s.pr = s.ps = s.pf = (struct mtl_number){.5, 1};
-    s.pm = (struct mtl_number){.25, 1};
+    s.roughness = s.sheen = s.film = (struct mtl_number){.5, 1};
+    s.metalness = (struct mtl_number){.25, 1};
     assert_false(get(&s, "then", &found) || get(&s, "film from", &found));
     set(&s, "sheen tint", &blue);
     set(&s, "sheen", &(struct value){.number = .25});
@@ -250,14 +250,14 @@ static void values_of_gltf_are_edited(void **state)
     set(&s, "sheen", &(struct value){.number = 0});
     assert_false(get(&s, "sheen tint", &found));
 
-    s.maps[MTL_MAP_PF_THICKNESS] = 3;
+    s.maps[MTL_MAP_FILM_THICKNESS] = 3;
     set(&s, "film from", &(struct value){.number = 120});
     check_close((double)material_of(&s).film_thinnest, 120, 0);
 
     s.illum = (struct mtl_number){7, 1};
-    s.tf_distance = (struct mtl_number){2, 1};
+    s.attenuation_distance = (struct mtl_number){2, 1};
     assert_false(get(&s, "then", &found));
-    s.tf_attenuation = (struct mtl_color){{1, 1, 1}, 1};
+    s.attenuation = (struct mtl_color){{1, 1, 1}, 1};
     set(&s, "then", &blue);
     assert_true(get(&s, "then", &found));
     check_close(material_of(&s).attenuation.y, -log(.2) / 2, 1e-5);
@@ -267,7 +267,7 @@ static void values_of_gltf_are_edited(void **state)
  * and the weight of transmission keeps its hue. */
 static void tints_take_a_distance(void **state)
 {
-    struct mtl_source s = mtl_source_empty();
+    struct material_values s = material_values_empty();
     const struct value red = {.rgb = {.8, .4, .2}};
 
     (void)state;
@@ -280,7 +280,7 @@ static void tints_take_a_distance(void **state)
     s.illum.value = 2;
     set(&s, "type", &(struct value){.number = 5});
     set(&s, "transmits", &(struct value){.number = .5});
-    s.tf = (struct mtl_color){{.8, .4, .2}, 1};
+    s.transmission = (struct mtl_color){{.8, .4, .2}, 1};
     set(&s, "transmits", &(struct value){.number = .4});
     check_close((double)material_of(&s).transmission, .4, 1e-7);
     check_close((double)material_of(&s).attenuation.y, -log(.5) / 2, 1e-6);
@@ -293,14 +293,14 @@ static void tints_take_a_distance(void **state)
 static void absent_factors_are_1(void **state)
 {
     const struct mtl_number one = {1, 1};
-    struct mtl_source s = mtl_source_empty();
+    struct material_values s = material_values_empty();
     struct value v;
     struct material m;
 
     (void)state;
     for (int i = 0; i < MTL_MAPS; i++)
         s.maps[i] = (uint32_t)i;
-    s.maps[MTL_MAP_PS] = NO_INDEX;
+    s.maps[MTL_MAP_SHEEN] = NO_INDEX;
     m = material_of(&s); /* map_Pm makes it a mixture */
     assert_int_equal(m.kind, MATERIAL_PRINCIPLED);
     v = get_color(&s);
@@ -325,7 +325,7 @@ static void absent_factors_are_1(void **state)
         check_close(v.number, 1, 0);
         check_close((double)made[i], 1, 0);
     }
-    s.pr = one; /* transmission counts beside Pr */
+    s.roughness = one; /* transmission counts beside Pr */
     assert_true(get(&s, "transmits", &v));
     check_close(v.number, 1, 0);
     check_close((double)material_of(&s).transmission, 1, 0);
@@ -335,13 +335,15 @@ static void absent_factors_are_1(void **state)
 static void factors_go_down_to_black(void **state)
 {
     const struct value black = {.rgb = {0, 0, 0}};
-    struct mtl_source s = mtl_source_empty();
+    struct material_values s = material_values_empty();
     struct material m;
     struct value v;
 
     (void)state;
-    s.maps[MTL_MAP_KD] = s.maps[MTL_MAP_KS] = s.maps[MTL_MAP_KE] = 0;
-    s.kd = s.ks = s.ke = (struct mtl_color){{0, 0, 0}, 1};
+    s.maps[MTL_MAP_COLOR] = s.maps[MTL_MAP_SPECULAR] =
+        s.maps[MTL_MAP_EMISSION] = 0;
+    s.base_color = s.specular_color = s.emission =
+        (struct mtl_color){{0, 0, 0}, 1};
     m = material_of(&s); /* as exporters write */
     check_color(m.color, (double[]){1, 1, 1});
     check_color(m.emission, (double[]){1, 1, 1});
@@ -814,7 +816,7 @@ static void check_rendered(const char *statements, double color, double light,
     struct host_world world;
     struct selection target;
     struct parameter list[PARAMETERS_MAX];
-    struct mtl_source after;
+    struct material_values after;
     struct error err;
     char *mtl = format_text("newmtl m\n%s\nnewmtl n\nKd 1\n", statements);
     int count;
@@ -833,7 +835,7 @@ static void check_rendered(const char *statements, double color, double light,
     after = s.edit.now.sources[1];
     assert_string_equal(find(list, parameters_list(&target, list), "red")->text,
                         stepped);
-    check_close(after.kd.rgb[1], color, 1e-7);
+    check_close(after.base_color.rgb[1], color, 1e-7);
     world_free(&world);
     close_fixture(&s);
 }
