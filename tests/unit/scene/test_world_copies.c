@@ -15,6 +15,7 @@ static void make(struct scene *s, struct host_world *host)
     struct warnings report = {0};
     struct error err;
 
+    *s = (struct scene){.path = NULL};
     for (int i = 0; i < COPIES; i++)
         strcat(text, "f 1 2 3\n");
     instanced_parse(s, "newmtl m\nKd .5 .5 .5\n", text);
