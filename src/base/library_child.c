@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/library_child.h"
 
+#include <dlfcn.h>
 #include <inttypes.h>
 #include <signal.h>
 #include <stdio.h>
@@ -10,6 +11,33 @@
 #include <sys/wait.h>
 
 #include "base/cgroup_quota.h"
+
+/* ---- functions ---- */
+
+bool dynamic_library_load(const char *file,
+                          const struct library_function *functions,
+                          size_t count, void *table, const char **missing)
+{
+    void *library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+
+    *missing = NULL;
+    if (library == NULL)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        void *function = dlsym(library, functions[i].name);
+
+        if (function == NULL) {
+            *missing = functions[i].name;
+            return false;
+        }
+        /* ISO C does not allow a cast from object pointer to function
+         * pointer */
+        memcpy((char *)table + functions[i].offset, &function, sizeof function);
+    }
+    return true;
+}
+
+/* ---- copies ---- */
 
 /* Limits of time and memory of small files. */
 #define TIME_S       30

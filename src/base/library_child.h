@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * library_child.h - copies of the program in which a library of others reads a
- * file that may be hostile
+ * library_child.h - libraries that are loaded on request, and copies of the
+ * program in which a library of others reads a file that may be hostile
  *
  * Such a library may crash, hang or fill the memory. Its copy has limits of
  * time and memory, which grow with the bytes that it reads. The copy writes
@@ -9,16 +9,36 @@
  * not, with another status than 0.
  *
  * Units:     seconds, bytes
- * Ownership: the output is the caller's, for free()
- * Threads:   any
- * Errors:    the message of the library, a crash, a limit: without the file's
- *            name, which the caller adds
+ * Ownership: a library is never unloaded, as drivers do not survive that; the
+ *            output is the caller's, for free()
+ * Threads:   any, with tables of their own
+ * Errors:    texts of dlerror(), or the name of a function; the message of the
+ *            library, a crash, a limit: without the file's name, which the
+ *            caller adds
  */
 #ifndef GLIM_LIBRARY_CHILD_H
 #define GLIM_LIBRARY_CHILD_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "base/child.h"
 #include "base/error.h"
+
+/* ---- functions ---- */
+
+struct library_function {
+    const char *name;
+    size_t offset; /* of the pointer in the table of functions */
+};
+
+/* Loads the library and fills the table. Returns false if there is no library,
+ * with *missing NULL, or no such function, with its name in *missing. */
+bool dynamic_library_load(const char *file,
+                          const struct library_function *functions,
+                          size_t count, void *table, const char **missing);
+
+/* ---- copies ---- */
 
 /* Most that a copy may use, and the time of the processor. */
 struct library_limits {

@@ -18,7 +18,7 @@
 #include "session/frame_series.h"
 #include "session/session_film.h"
 #include "session/stats_json.h"
-#include "terminal/ansi_text.h"
+#include "terminal/ansi_diff.h"
 #include "terminal/tty.h"
 #include "terminal/xmalloc.h"
 

@@ -9,8 +9,10 @@
  *
  * Units:     radiance sums; 8-bit sRGB in frames
  * Ownership: film_free() frees; a zeroed struct is an empty film
- * Threads:   film_add_row() for rows that no other thread adds to; reading
- *            functions from any thread at any time (rows are locked)
+ * Threads:   film_add_row() for rows that no other thread adds to; film_merge()
+ *            locks the rows of the film one by one, and nobody else uses the
+ *            part; reading functions from any thread at any time (rows are
+ *            locked)
  * Errors:    out of memory; the text says how much was needed
  */
 #ifndef GLIM_FILM_H
@@ -152,5 +154,12 @@ void film_preview(struct film *film, struct film *draft, struct develop how,
 void film_preview_part(struct film *film, struct film *draft,
                        struct develop how, int x, int y, int count,
                        struct frame *frame);
+
+/* ---- merging ---- */
+
+/* Adds sums, numbers of samples and counters of a part, whose first row is row
+ * y of the film. Both have the same width, and surfaces or none. Pixels of the
+ * part without samples have sums of 0. */
+void film_merge(struct film *film, int y, const struct film *part);
 
 #endif

@@ -472,7 +472,6 @@ void film_header_free(struct film_header *h)
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "film/film_merge.h"
 #include "film/film_pack.h"
 
 #include "kernels/sample_share.h"

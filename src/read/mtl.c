@@ -15,7 +15,6 @@
 #include "read/mtl_dialect.h"
 #include "read/mtl_map.h"
 #include "read/scene_lists.h"
-#include "read/texture_table.h"
 #include "scene/material.h"
 
 struct parser {

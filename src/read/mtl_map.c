@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "read/texture_table.h"
+#include "read/scene_lists.h"
 
 /* Limit for the scale of bump maps; steeper heights have no use. */
 #define BUMP_MAX 1e6

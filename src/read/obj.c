@@ -15,7 +15,7 @@
 #include "read/face_tris.h"
 #include "read/mtl.h"
 #include "read/obj_runs.h"
-#include "read/vertex_colors.h"
+#include "read/scene_lists.h"
 
 /* Bytes searched for a NUL. Text has none; most binary files have one early. */
 #define BINARY_CHECK_BYTES 1024

@@ -21,7 +21,7 @@
 #include "base/thread_pool.h"
 #include "read/mesh_finish.h"
 #include "read/ply_file.h"
-#include "read/vertex_colors.h"
+#include "read/scene_lists.h"
 #include "kernels/vec.h"
 
 struct reader {

@@ -9,7 +9,7 @@
 #include "base/decimal.h"
 #include "base/memory.h"
 #include "base/print.h"
-#include "read/vertex_colors.h"
+#include "read/scene_lists.h"
 
 /* ---- header ---- */
 

@@ -1,20 +1,63 @@
 // SPDX-License-Identifier: MIT
 /*
- * view.h - camera, environment light, exposure and size of a picture: the
- * contents of a view file
+ * view.h - camera, environment light, exposure, size of a picture, and
+ * materials that replace those of the scene, object by object: the contents of
+ * a view file
+ *
+ * A name of an `assign OBJECT MATERIAL` line that is empty or contains blanks,
+ * quotes, # or \ is written in double quotes; a quote inside them is doubled.
  *
  * Units:     as pose.h; pixels, radiance, degrees, stops
- * Ownership: view_free() frees the members; the struct is the caller's
+ * Ownership: view_free() and assigns_free() free the members; the structs are
+ *            the caller's; zeroed assigns are empty
  * Threads:   one thread at a time
+ * Errors:    false when memory is out
  */
 #ifndef GLIM_VIEW_H
 #define GLIM_VIEW_H
 
+#include <stdbool.h>
+#include <stdio.h>
+
 #include "base/error.h"
-#include "scene/assign.h"
+#include "base/lexer.h"
 #include "scene/lamp.h"
 #include "scene/pose.h"
 #include "kernels/tone.h"
+
+/* ---- assignments ---- */
+
+/*
+ * A name that is empty or contains blanks, quotes, # or \ is written in double
+ * quotes; a quote inside them is doubled.
+ */
+
+struct assign {
+    char *object, *material;
+};
+
+struct assigns {
+    struct assign *items;
+    size_t count;
+};
+
+/* Reads the rest of a line after the key `assign`. *has_names becomes true if
+ * the line has exactly two names; only then the assignment is added. */
+bool assigns_read(struct assigns *assigns, struct lexer *lex, bool *has_names);
+
+/* Writes one `assign` line for each assignment, in order. */
+void assigns_write(const struct assigns *assigns, FILE *to);
+
+/* Assigns a material to an object and removes its earlier assignment. With
+ * material NULL the object has the material of its file again. */
+bool assigns_set(struct assigns *assigns, const char *object,
+                 const char *material);
+
+/* Replaces the contents of `to`; leaves them unchanged when memory is out. */
+bool assigns_copy(struct assigns *to, const struct assigns *from);
+void assigns_free(struct assigns *assigns);
+
+/* ---- views ---- */
 
 /* Number of stored camera poses: 1 to 9 in the file, indices from 0 here. */
 #define VIEW_SHOTS 9

@@ -11,7 +11,7 @@
 #include <stdbool.h>
 
 #include "session/live_render.h"
-#include "terminal/ansi_text.h"
+#include "terminal/ansi_diff.h"
 
 /* Starts to save the film as STEM.ENDING, or the next free name, in the current
  * folder. A thread writes the file. The saver's event_fd becomes readable when

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "base/text_width.h"
-#include "studio/progress_text.h"
+#include "studio/progress_panel.h"
 
 /* ---- hints ---- */
 

@@ -8,7 +8,7 @@
 #include "film/filter/screen_filter.h"
 #include "session/live_render.h"
 #include "studio/panel_draw.h"
-#include "studio/progress_text.h"
+#include "studio/progress_panel.h"
 #include "studio/status_line.h"
 #include "terminal/screen.h"
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 /*
- * ansi_diff.h - terminal cells to escape sequences, by difference
+ * ansi_diff.h - terminal cells to escape sequences, by difference, and a
+ * picture as lines of coloured text
  *
  * An ansi_diff remembers what the terminal shows and writes only cells that
  * differ; a colour is set only when it changes. A byte budget ends a frame
  * early. The next frame continues where it ended, so that every cell is
- * updated in turn.
+ * updated in turn. The text of a picture has the same cells as the screen at
+ * the same size.
  *
  * Units:     terminal cells, bytes
- * Ownership: ansi_diff_free() frees; a zeroed struct is empty
+ * Ownership: ansi_diff_free() frees; a zeroed struct is empty; a text is for
+ *            free()
  * Threads:   one thread at a time
  * Errors:    memory
  */
@@ -20,6 +23,8 @@
 #include <stdint.h>
 
 #include "terminal/cells.h"
+
+/* ---- differences ---- */
 
 struct ansi_diff {
     int cols, rows;
@@ -89,5 +94,26 @@ bool ansi_diff_lines(const struct cells *cells, char **text, size_t *size_bytes,
 /* Appends a reset of the colours and a movement of the cursor to column 0 of
  * the row. */
 void ansi_diff_end(struct ansi_diff *a, int row);
+
+/* ---- text ---- */
+
+/*
+ * The text has the same cells as the screen at the same size.
+ */
+
+struct ansi_text_style {
+    int cols, rows;
+    enum palette palette;
+    enum glyphs glyphs;
+};
+
+/* Initializes a frame of the size that the text needs, for frame_free(). */
+bool ansi_text_frame_init(struct frame *frame,
+                          const struct ansi_text_style *style,
+                          struct error *err);
+
+bool ansi_text_of_frame(const struct frame *frame,
+                        const struct ansi_text_style *style, char **text,
+                        size_t *size_bytes, struct error *err);
 
 #endif

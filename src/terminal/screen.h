@@ -17,7 +17,6 @@
 #include <stdbool.h>
 
 #include "terminal/ansi_diff.h"
-#include "terminal/ansi_text.h"
 #include "terminal/curses_windows.h"
 #include "terminal/frame_pacing.h"
 #include "terminal/term_caps.h"

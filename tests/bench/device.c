@@ -10,7 +10,7 @@
 
 #include "base/clock.h"
 #include "render/opencl/backend_cl.h"
-#include "render/opencl/cl_environment.h"
+#include "render/opencl/cl_api.h"
 #include "session/session.h"
 #include "tests/bench/median.h"
 

@@ -12,7 +12,7 @@
 
 #include "base/clock.h"
 #include "render/opencl/backend_cl.h"
-#include "render/opencl/cl_environment.h"
+#include "render/opencl/cl_api.h"
 #include "session/session.h"
 #include "terminal/xmalloc.h"
 

@@ -25,7 +25,7 @@
 #include "film/filter/film_filter.h"
 #include "render/cpu_dispatch.h"
 #include "render/opencl/backend_cl.h"
-#include "render/opencl/cl_environment.h"
+#include "render/opencl/cl_api.h"
 #include "session/session.h"
 #include "tests/unit/check.h"
 #include "world/world.h"

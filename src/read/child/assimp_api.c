@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-#include "base/dynamic_library.h"
+#include "base/library_child.h"
 
 #if HAS_ASSIMP
 

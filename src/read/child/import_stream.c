@@ -12,7 +12,7 @@
 #include "base/print.h"
 #include "read/face_tris.h"
 #include "read/mesh_finish.h"
-#include "read/vertex_colors.h"
+#include "read/scene_lists.h"
 #include "kernels/vec.h"
 
 struct stream {

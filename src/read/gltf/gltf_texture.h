@@ -15,7 +15,7 @@
 #define GLIM_GLTF_TEXTURE_H
 
 #include "read/gltf/gltf_value.h"
-#include "read/texture_table.h"
+#include "read/scene_lists.h"
 
 /* Textures of KTX2 images, which no library of Debian 12 decodes. */
 #define GLTF_BASISU "KHR_texture_basisu"

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: MIT
 /*
- * band.h - a band of a film's rows, which a rank renders in a film of its own
+ * band.h - a band of a film's rows, which a rank renders in a film of its own,
+ * and the message with its samples that the rank answers
  *
  * Sums are integers, so the bands can be added to the whole film in any order
  * (film_merge()).
  *
  * Units:     pixels
- * Ownership: band_free() frees; a zeroed struct is empty
+ * Ownership: band_free() frees; a zeroed struct is empty; the caller frees
+ *            answers
  * Threads:   one at a time
- * Errors:    out of memory, errors of the backend
+ * Errors:    out of memory, errors of the backend, damaged bytes
  */
 #ifndef GLIM_BAND_H
 #define GLIM_BAND_H
 
 #include "render/cluster/band_plan.h"
+
+/* ---- bands ---- */
 
 struct band {
     struct band_range range; /* whose shares are these */
@@ -41,5 +45,26 @@ enum pass_result band_render(struct band *b, struct backend *backend,
                              struct error *err);
 
 void band_free(struct band *b);
+
+/* ---- answers ---- */
+
+/* The rows of film_pack() follow if there are samples. */
+struct band_answer {
+    uint32_t epoch; /* of the band */
+    uint32_t has_failed;
+    char error[256];
+    int y, rows;
+    uint64_t first; /* as in struct band_range */
+    uint64_t samples, rays, non_finite, saturated, cut_paths;
+};
+
+/* Makes the answer for a band with its new samples. `error` is "" or why it
+ * failed. *size is that of the message. Returns NULL without memory. */
+struct band_answer *band_answer_make(struct band *b, uint32_t epoch,
+                                     const char *error, size_t *size);
+
+/* Adds the samples of an answer to the film. */
+bool band_answer_add(const struct band_answer *a, size_t size,
+                     struct film *film, struct error *err);
 
 #endif

@@ -4,9 +4,9 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "film/film_merge.h"
+#include "film/film.h"
 #include "film/film_pack.h"
-#include "render/cluster/band_answer.h"
+#include "render/cluster/band.h"
 #include "render/cluster/band_thread.h"
 #include "render/cluster/cluster.h"
 #include "render/cluster/rank_tally.h"

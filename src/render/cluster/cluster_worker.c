@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "render/cluster/band_answer.h"
+#include "render/cluster/band.h"
 #include "render/cluster/band_thread.h"
 #include "render/cluster/wire.h"
 

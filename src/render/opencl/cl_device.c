@@ -8,7 +8,7 @@
 
 #include "base/memory.h"
 #include "base/print.h"
-#include "render/opencl/cl_environment.h"
+#include "render/opencl/cl_api.h"
 
 /* Removes blanks around a name; drivers pad theirs. */
 static char *trimmed(char *text)

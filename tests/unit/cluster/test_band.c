@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "film/film_merge.h"
-#include "render/cluster/band_answer.h"
+#include "film/film.h"
+#include "render/cluster/band.h"
 #include "render/cpu_dispatch.h"
 
 #define WIDTH  37

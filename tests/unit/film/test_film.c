@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "film/film_merge.h"
+#include "film/film.h"
 #include "kernels/tone.h"
 
 /* STRESS C6: the mean still changes at counts where sums of floats would

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "render/opencl/cl_environment.h"
+#include "render/opencl/cl_api.h"
 #include "render/opencl/cl_machine.h"
 #include "render/opencl/cl_source.h"
 #include "terminal/xmalloc.h"

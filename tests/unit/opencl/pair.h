@@ -23,7 +23,7 @@
 #include "engine/scene_load.h"
 #include "render/cpu_dispatch.h"
 #include "render/opencl/backend_cl.h"
-#include "render/opencl/cl_environment.h"
+#include "render/opencl/cl_api.h"
 #include "render/render_loop.h"
 #include "tests/unit/check.h"
 #include "world/world.h"

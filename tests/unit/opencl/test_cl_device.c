@@ -7,8 +7,8 @@
 
 #include <unistd.h>
 
+#include "render/opencl/cl_api.h"
 #include "render/opencl/cl_device.h"
-#include "render/opencl/cl_environment.h"
 
 static char alpha[] = "Alpha Graphics";
 static char portable[] = "Portable Computing Language";

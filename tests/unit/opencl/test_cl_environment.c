@@ -16,8 +16,8 @@
 #include <unistd.h>
 
 #include "base/thread_pool.h"
+#include "render/opencl/cl_api.h"
 #include "render/opencl/cl_device.h"
-#include "render/opencl/cl_environment.h"
 
 /* Exit status of a child process that finds no PoCL. */
 #define NO_POCL 77

@@ -6,7 +6,7 @@
 
 #include "tests/unit/check.h"
 
-#include "render/opencl/cl_environment.h"
+#include "render/opencl/cl_api.h"
 #include "render/opencl/cl_machine.h"
 #include "kernels/filter.h"
 

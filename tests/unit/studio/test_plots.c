@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "studio/progress_text.h"
+#include "studio/progress_panel.h"
 #include "tests/unit/check.h"
 
 static char rows[PLOT_ERROR_ROWS][PLOT_BYTES];

@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-#include "studio/progress_text.h"
+#include "studio/progress_panel.h"
 
 #define S_NS UINT64_C(1000000000)
 

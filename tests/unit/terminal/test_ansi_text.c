@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "film/film.h"
-#include "terminal/ansi_text.h"
+#include "terminal/ansi_diff.h"
 
 /* Makes a film of 4x4 pixels: the upper half is red of radiance 1, the lower
  * half green of 0.5, which is 188 in sRGB (IEC 61966-2-1) at exposure 0. */
