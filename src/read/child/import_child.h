@@ -5,7 +5,7 @@
  *
  * Threads:   one
  * Errors:    those of libassimp, sent as a line; the limits end the process by
- * a signal
+ *            a signal
  */
 #ifndef GLIM_IMPORT_CHILD_H
 #define GLIM_IMPORT_CHILD_H

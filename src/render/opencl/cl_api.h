@@ -15,7 +15,7 @@
  *            start; signal handlers belong to the process, so no other thread
  *            may set them between cl_signals_keep() and cl_signals_put_back()
  * Errors:    cl_api_open() tells what is missing; cl_error_name() names codes;
- * a cache folder that is not writable
+ *            a cache folder that is not writable
  */
 #ifndef GLIM_CL_API_H
 #define GLIM_CL_API_H
