@@ -136,57 +136,57 @@ uint64_t film_count(const struct film *f, int x, int y)
     return f->counts[at];
 }
 
-void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
+void film_add_row(struct film *f, struct film_pixels at,
                   const struct path_sample *samples,
                   const struct first_surface *surfaces, const int *counts)
 {
     struct tally tally = {0};
 
-    film_lock_row(f, y);
-    f->has_row[y] = true;
-    for (int i = 0; i < pixel_count; i++) {
-        size_t at = pixel_index(f, x + i * stride, y);
-        struct sum *sums = f->sums + 3 * at;
-        struct sum *odd_sums = f->odd_sums + 3 * at;
-        uint64_t count = f->counts[at];
+    film_lock_row(f, at.y);
+    f->has_row[at.y] = true;
+    for (int i = 0; i < at.count; i++) {
+        size_t to = pixel_index(f, at.x + i * at.stride, at.y);
+        struct sum *sums = f->sums + 3 * to;
+        struct sum *odd_sums = f->odd_sums + 3 * to;
+        uint64_t count = f->counts[to];
 
         if (counts[i] > 0 && count == 0) {
             memset(sums, 0, 3 * sizeof *sums);
             memset(odd_sums, 0, 3 * sizeof *odd_sums);
             if (f->surfaces != NULL)
-                surface_clear(&f->surfaces[at]);
+                surface_clear(&f->surfaces[to]);
         }
         for (int s = 0; s < counts[i] && f->surfaces != NULL; s++)
-            surface_add(&f->surfaces[at], f->first_sample + count + (uint64_t)s,
+            surface_add(&f->surfaces[to], f->first_sample + count + (uint64_t)s,
                         *surfaces++, samples[s].radiance);
         for (int s = 0; s < counts[i]; s++)
             pixel_add(sums, odd_sums, count++, *samples++, &tally);
-        f->counts[at] = count;
+        f->counts[to] = count;
     }
-    film_unlock_row(f, y);
+    film_unlock_row(f, at.y);
     film_count_more(f, &tally);
 }
 
-void film_store_row(struct film *f, int x, int y, int stride, int pixel_count,
+void film_store_row(struct film *f, struct film_pixels at,
                     const struct sum *sums, const struct sum *odd_sums,
                     const struct surface_sums *surfaces, const uint64_t *counts)
 {
-    film_lock_row(f, y);
-    f->has_row[y] = true;
-    for (int i = 0; i < pixel_count; i++) {
-        int px = x + i * stride;
+    film_lock_row(f, at.y);
+    f->has_row[at.y] = true;
+    for (int i = 0; i < at.count; i++) {
+        int px = at.x + i * at.stride;
         size_t from = (size_t)px;
-        size_t at = pixel_index(f, px, y);
+        size_t to = pixel_index(f, px, at.y);
 
-        if (f->counts[at] == counts[from])
+        if (f->counts[to] == counts[from])
             continue;
-        memcpy(f->sums + 3 * at, sums + 3 * from, 3 * sizeof *sums);
-        memcpy(f->odd_sums + 3 * at, odd_sums + 3 * from, 3 * sizeof *odd_sums);
+        memcpy(f->sums + 3 * to, sums + 3 * from, 3 * sizeof *sums);
+        memcpy(f->odd_sums + 3 * to, odd_sums + 3 * from, 3 * sizeof *odd_sums);
         if (f->surfaces != NULL)
-            f->surfaces[at] = surfaces[from];
-        f->counts[at] = counts[from];
+            f->surfaces[to] = surfaces[from];
+        f->counts[to] = counts[from];
     }
-    film_unlock_row(f, y);
+    film_unlock_row(f, at.y);
 }
 
 static void swap_counter(atomic_uint_least64_t *a, atomic_uint_least64_t *b)

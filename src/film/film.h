@@ -106,19 +106,23 @@ void film_unlock_row(struct film *film, int y);
  * the row may call it. */
 uint64_t film_count(const struct film *film, int x, int y);
 
-/* Adds samples to pixels x, x + stride, ... of row y: counts[i] samples to the
- * i-th of them. `samples` holds them pixel after pixel; so does `surfaces`, if
- * the film has surfaces. */
-void film_add_row(struct film *film, int x, int y, int stride, int pixel_count,
+/* Pixels x, x + stride, ... of row y. */
+struct film_pixels {
+    int x, y, stride, count;
+};
+
+/* Adds samples to pixels of a row: counts[i] samples to the i-th of them.
+ * `samples` holds them pixel after pixel; so does `surfaces`, if the film has
+ * surfaces. */
+void film_add_row(struct film *film, struct film_pixels at,
                   const struct path_sample *samples,
                   const struct first_surface *surfaces, const int *counts);
 
-/* Replaces pixels x, x + stride, ... of row y by sums that a device keeps. The
+/* Replaces pixels of a row by sums that a device keeps. The
  * arrays begin with pixel 0 of the row. Pixels whose count is unchanged are
  * skipped. */
-void film_store_row(struct film *film, int x, int y, int stride,
-                    int pixel_count, const struct sum *sums,
-                    const struct sum *odd_sums,
+void film_store_row(struct film *film, struct film_pixels at,
+                    const struct sum *sums, const struct sum *odd_sums,
                     const struct surface_sums *surfaces,
                     const uint64_t *counts);
 

@@ -124,9 +124,10 @@ static bool render_samples(const struct job *j, int x, int y, int pixel_count,
         b->kernel->samples(&b->world.world, r->ids + done, n, r->samples + done,
                            r->surfaces + done);
     }
-    film_add_row(b->film, x, y, j->pass.stride,
-                 row_pixels(r, done, pixel_count), r->samples, r->surfaces,
-                 r->counts);
+    film_add_row(b->film,
+                 (struct film_pixels){x, y, j->pass.stride,
+                                      row_pixels(r, done, pixel_count)},
+                 r->samples, r->surfaces, r->counts);
     return done == r->count;
 }
 

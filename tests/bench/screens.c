@@ -47,7 +47,8 @@ static void fill(struct film *film)
                 (struct vec3){random_light(&seed), random_light(&seed),
                               random_light(&seed)};
         }
-        film_add_row(film, 0, i % HEIGHT, 1, WIDTH, samples, NULL, counts);
+        film_add_row(film, (struct film_pixels){0, i % HEIGHT, 1, WIDTH},
+                     samples, NULL, counts);
     }
 }
 

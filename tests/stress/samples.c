@@ -230,10 +230,12 @@ static void check_film(void)
 
     if (!film_init(&film, 1, 1, &err))
         stress_scene_stop(err.text);
-    film_store_row(&film, 0, 0, 1, 1, sums, sums, NULL, &count);
+    film_store_row(&film, (struct film_pixels){0, 0, 1, 1}, sums, sums, NULL,
+                   &count);
     for (int i = 0; i < 8; i++)
         samples[i] = (struct path_sample){.radiance = {1, 1, 1}};
-    film_add_row(&film, 0, 0, 1, 1, samples, NULL, (const int[]){8});
+    film_add_row(&film, (struct film_pixels){0, 0, 1, 1}, samples, NULL,
+                 (const int[]){8});
     film_linear(&film, rgb);
     row(film_count(&film, 0, 0) == count + 8 && rgb[0] == 1, "C6",
         "a pixel of 2^40 and 8 samples has %llu, mean %.9g, want 1",

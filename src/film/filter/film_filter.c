@@ -142,7 +142,8 @@ static void store_row(void *context, uint32_t item, int worker)
             samples[i] = (struct path_sample){{rgb[0], rgb[1], rgb[2]}, 0, 0};
             ones[i] = 1;
         }
-        film_add_row(r->to, x, y, 1, count, samples, NULL, ones);
+        film_add_row(r->to, (struct film_pixels){x, y, 1, count}, samples, NULL,
+                     ones);
     }
 }
 

@@ -194,11 +194,13 @@ void cl_film_store_points(struct cl_film *f, const struct task *t)
         uint32_t row_end = end < next_row ? end : next_row;
         size_t at = (size_t)row * t->stride * t->width;
 
-        film_store_row(f->film, (int)(point % t->columns * t->stride),
-                       (int)(row * t->stride), (int)t->stride,
-                       (int)(row_end - point), f->host_sums + 3 * at,
-                       f->host_odd_sums + 3 * at,
-                       surfaces_at(f->host_surfaces, at), f->host_counts + at);
+        film_store_row(
+            f->film,
+            (struct film_pixels){(int)(point % t->columns * t->stride),
+                                 (int)(row * t->stride), (int)t->stride,
+                                 (int)(row_end - point)},
+            f->host_sums + 3 * at, f->host_odd_sums + 3 * at,
+            surfaces_at(f->host_surfaces, at), f->host_counts + at);
         point = row_end;
     }
 }
@@ -285,9 +287,10 @@ void cl_readback_store(struct cl_readback *r, struct cl_film *f,
     size_t width = (size_t)f->film->width;
 
     for (uint32_t i = 0; i < r->count; i++)
-        film_store_row(f->film, 0, (int)((r->first + i) * stride), 1,
-                       f->film->width, r->sums + 3 * width * i,
-                       r->odd_sums + 3 * width * i,
+        film_store_row(f->film,
+                       (struct film_pixels){0, (int)((r->first + i) * stride),
+                                            1, f->film->width},
+                       r->sums + 3 * width * i, r->odd_sums + 3 * width * i,
                        surfaces_at(r->surfaces, width * i),
                        r->counts + width * i);
     r->count = 0;

@@ -90,12 +90,15 @@ static void lost_light_is_counted(void **state)
     assert_true(film_init(&film, 1, 1, &err) && film_init(&half, 1, 1, &err));
     for (int i = 0; i < 10; i++)
         samples[i] = (struct path_sample){.radiance = {0x1p61f, 1, 0}};
-    film_add_row(&half, 0, 0, 1, 1, samples, NULL, (int[]){3});
+    film_add_row(&half, (struct film_pixels){0, 0, 1, 1}, samples, NULL,
+                 (int[]){3});
     assert_int_equal(atomic_load(&half.saturated), 0);
-    film_add_row(&film, 0, 0, 1, 1, samples, NULL, (int[]){3});
+    film_add_row(&film, (struct film_pixels){0, 0, 1, 1}, samples, NULL,
+                 (int[]){3});
     film_merge(&film, 0, &half);
     assert_int_equal(atomic_load(&film.saturated), 1);
-    film_add_row(&half, 0, 0, 1, 1, samples + 3, NULL, (int[]){7});
+    film_add_row(&half, (struct film_pixels){0, 0, 1, 1}, samples + 3, NULL,
+                 (int[]){7});
     assert_int_equal(atomic_load(&half.saturated), 7);
     film_linear(&half, rgb);
     check_close(rgb[0], 0x1p63 / 10, 1e12);
@@ -151,7 +154,7 @@ static void film_shows_means_and_fills_gaps(void **state)
     samples[0] = grey(1.0f);
     samples[1] = grey(3.0f);
     samples[2] = grey(8.0f);
-    film_add_row(&film, 0, 0, 32, 2, samples, NULL,
+    film_add_row(&film, (struct film_pixels){0, 0, 32, 2}, samples, NULL,
                  counts); /* (0,0) and (32,0) */
     film_counts(&film, numbers);
     for (int i = 0; i < 64 * 48; i++)
@@ -164,7 +167,8 @@ static void film_shows_means_and_fills_gaps(void **state)
     check_close(rgb[3 * (47 * 64 + 5)], 0, 0);
     counts[0] = 1;
     samples[0] = grey(5.0f);
-    film_add_row(&film, 16, 16, 1, 1, samples, NULL, counts);
+    film_add_row(&film, (struct film_pixels){16, 16, 1, 1}, samples, NULL,
+                 counts);
     film_linear(&film, rgb);
     check_close(rgb[3 * (16 * 64 + 16)], 5, 0);
     check_close(rgb[3 * (17 * 64 + 17)], 5, 0);
@@ -182,7 +186,8 @@ static void film_shows_means_and_fills_gaps(void **state)
     film_clear(&film);
     film_linear(&film, rgb);
     check_close(rgb[0], 0, 0);
-    film_add_row(&film, 0, 0, 1, 1, samples, NULL, counts);
+    film_add_row(&film, (struct film_pixels){0, 0, 1, 1}, samples, NULL,
+                 counts);
     film_linear(&film, rgb);
     check_close(rgb[0], 5, 0); /* no sample from before the clear is left */
     film_free(&film);
@@ -202,7 +207,8 @@ static void bad_samples_count_as_zero(void **state)
     samples[1] = grey(-1.0f);
     samples[2] = grey(INFINITY);
     samples[3] = grey(8.0f);
-    film_add_row(&film, 0, 0, 1, 1, samples, NULL, counts);
+    film_add_row(&film, (struct film_pixels){0, 0, 1, 1}, samples, NULL,
+                 counts);
     film_linear(&film, rgb);
     check_close(rgb[0], 2, 0);
     assert_int_equal(atomic_load(&film.non_finite), 3);
@@ -225,7 +231,8 @@ static void odd_samples_have_sums_of_their_own(void **state)
     samples[3] = grey(NAN); /* counts as 0 in both sums */
     for (int i = 0; i < 7; i += counts[0]) {
         counts[0] = i == 1 ? 3 : i == 4 ? 2 : 1;
-        film_add_row(&film, 1, 1, 1, 1, samples + i, NULL, counts);
+        film_add_row(&film, (struct film_pixels){1, 1, 1, 1}, samples + i, NULL,
+                     counts);
     }
     assert_true(film_copy(&copy, &film, &err));
     for (int c = 0; c < 3; c++) {
@@ -255,7 +262,8 @@ static void preview_averages(void **state)
     }
     for (int y = 0; y < 48; y++)
         for (int x = 0; x < 64; x += 8)
-            film_add_row(&film, x, y, 1, 8, samples, NULL, counts);
+            film_add_row(&film, (struct film_pixels){x, y, 1, 8}, samples, NULL,
+                         counts);
     assert_true(frame_init(&frame, 10, 7, &err));
     film_preview(&film, NULL, develop_linear(0.0f), &frame);
     for (int i = 0; i < 70; i++)
@@ -313,7 +321,8 @@ static void fill(struct film *film, float value)
     }
     for (int y = 0; y < film->height; y++)
         for (int x = 0; x < film->width; x += 8)
-            film_add_row(film, x, y, 1, 8, samples, NULL, counts);
+            film_add_row(film, (struct film_pixels){x, y, 1, 8}, samples, NULL,
+                         counts);
 }
 
 /* All samples have equal weight: 12 of the film's 0.2 and 3 of the draft's 0.7
@@ -379,7 +388,8 @@ static void young_films_turn_into_files(void **state)
     fill(&draft, 4.0f);
     for (int spp = 1; spp <= FILM_YOUNG_SPP; spp++) {
         for (int y = 0; y < 8; y++)
-            film_add_row(&film, 0, y, 1, 8, samples, NULL, counts);
+            film_add_row(&film, (struct film_pixels){0, y, 1, 8}, samples, NULL,
+                         counts);
         film_preview(&film, &draft, develop_linear(0), &frame);
         for (int i = 1; i < 4 * 2; i++)
             assert_int_equal(frame.rgb[3 * i], frame.rgb[0]);

@@ -44,7 +44,8 @@ static void fill(struct film *film, const struct noise *n, int spp)
         }
         for (int x = 0; x < SIDE; x++)
             counts[x] = spp;
-        film_add_row(film, 0, y, 1, SIDE, samples, NULL, counts);
+        film_add_row(film, (struct film_pixels){0, y, 1, SIDE}, samples, NULL,
+                     counts);
     }
     free(samples);
 }
@@ -191,7 +192,8 @@ static void fireflies_are_unresolved(void **state)
     (void)state;
     make(&film);
     fill(&film, &(struct noise){1, 0.5, 0}, 16);
-    film_add_row(&film, 30, 31, 1, 1, &flash, NULL, (const int[]){1});
+    film_add_row(&film, (struct film_pixels){30, 31, 1, 1}, &flash, NULL,
+                 (const int[]){1});
     assert_false(error_of(&film, 0).is_resolved);
     film_free(&film);
 }
@@ -208,8 +210,8 @@ static void half_of_the_error_in_a_thousandth_is_unresolved(void **state)
     for (int count = 9; count <= 11; count += 2) {
         fill(&film, &(struct noise){1, 1, 0}, 16);
         for (int i = 0; i < count; i++)
-            film_add_row(&film, 5 + 6 * i, 31, 1, 1, &flash, NULL,
-                         (const int[]){1});
+            film_add_row(&film, (struct film_pixels){5 + 6 * i, 31, 1, 1},
+                         &flash, NULL, (const int[]){1});
         assert_int_equal(error_of(&film, 0).is_resolved, count > 10);
     }
     film_free(&film);
@@ -234,7 +236,8 @@ static void maps_show_where_the_noise_is(void **state)
         }
         for (int x = 0; x < SIDE; x++)
             counts[x] = 16;
-        film_add_row(&film, 0, y, 1, SIDE, samples, NULL, counts);
+        film_add_row(&film, (struct film_pixels){0, y, 1, SIDE}, samples, NULL,
+                     counts);
     }
     assert_true(film_error_map(&film, 0, NULL, map));
     for (int i = 0; i < PIXELS; i++) {
@@ -280,8 +283,8 @@ static void odd_pictures_have_numbers(void **state)
         for (int pass = 0; pass < 2; pass++) {
             for (int y = 0; y < sides[i][1]; y++)
                 for (int x = 0; x < sides[i][0]; x++)
-                    film_add_row(&film, x, y, 1, 1, samples, NULL,
-                                 (const int[]){4});
+                    film_add_row(&film, (struct film_pixels){x, y, 1, 1},
+                                 samples, NULL, (const int[]){4});
             for (int exposure = -100; exposure <= 100; exposure += 50)
                 assert_has_numbers(&film, (float)exposure);
             samples[0].radiance = v3(3e38f, 3e38f, 3e38f);

@@ -41,7 +41,8 @@ static void add_samples(struct film *f, uint64_t spp)
                 struct first_surface s;
 
                 sample_of(x, y, f->first_sample + k, &p, &s);
-                film_add_row(f, x, y, 1, 1, &p, &s, (int[]){1});
+                film_add_row(f, (struct film_pixels){x, y, 1, 1}, &p, &s,
+                             (int[]){1});
             }
 }
 
@@ -350,7 +351,7 @@ static void films_within_a_pass_are_not_joined(void **state)
     assert_true(film_init(&film, WIDTH, HEIGHT, &err));
     add_samples(&film, 2);
     sample_of(5, 5, 2, &p, &s);
-    film_add_row(&film, 5, 5, 1, 1, &p, &s, (int[]){1});
+    film_add_row(&film, (struct film_pixels){5, 5, 1, 1}, &p, &s, (int[]){1});
     bytes = film_file_bytes(&h, &film, NULL, NULL, &size, &err);
     assert_non_null(bytes);
     parse(&f, bytes, size);

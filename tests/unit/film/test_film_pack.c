@@ -112,7 +112,8 @@ static void usual_sums_are_small(void **state)
                                                   .rays = 2};
                 counts[x] = 1;
             }
-            film_add_row(&film, 0, y, 1, WIDTH, samples, NULL, counts);
+            film_add_row(&film, (struct film_pixels){0, y, 1, WIDTH}, samples,
+                         NULL, counts);
         }
     bytes = film_pack(&film, 0, &size);
     check_at_most((double)size / (WIDTH * HEIGHT), 45);

@@ -37,7 +37,8 @@ static inline void make_film(struct film *film, int width, int height,
                 (struct vec3){value(x, y, 0), value(x, y, 1), value(x, y, 2)};
             counts[x] = 1;
         }
-        film_add_row(film, 0, y, 1, width, samples, NULL, counts);
+        film_add_row(film, (struct film_pixels){0, y, 1, width}, samples, NULL,
+                     counts);
     }
     free(samples);
     free(counts);

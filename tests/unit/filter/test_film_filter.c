@@ -43,7 +43,8 @@ static void add_samples(struct film *f, uint64_t first, int count,
                     .state = is_sky ? SURFACE_AHEAD : SURFACE_BEHIND,
                 };
             }
-            film_add_row(f, x, y, 1, 1, samples, surfaces, &count);
+            film_add_row(f, (struct film_pixels){x, y, 1, 1}, samples, surfaces,
+                         &count);
         }
 }
 
@@ -346,7 +347,7 @@ static void few_samples_are_not_filtered(void **state)
     open_film(&f);
     assert_true(film_init(&bare, WIDTH, HEIGHT, &err));
     assert_false(film_filter_applies(&f));
-    film_add_row(&f, 0, 0, 1, 1, &sample, &surface, &one);
+    film_add_row(&f, (struct film_pixels){0, 0, 1, 1}, &sample, &surface, &one);
     assert_false(film_filter_applies(&f));
     film_clear(&f);
     add_samples(&f, 0, 1, smooth_light);

@@ -54,7 +54,8 @@ static void add_samples(light_function *light, int count)
                 float l = light(x, y, (uint64_t)i);
                 struct path_sample sample = {{l, l / 2, l / 4}, 1, 0};
 
-                film_add_row(&film, x, y, 1, 1, &sample, NULL, &one);
+                film_add_row(&film, (struct film_pixels){x, y, 1, 1}, &sample,
+                             NULL, &one);
             }
 }
 

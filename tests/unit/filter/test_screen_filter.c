@@ -48,7 +48,8 @@ static void add_samples(struct film *f, int stride, uint64_t index,
                 .state = SURFACE_BEHIND,
             };
 
-            film_add_row(f, x, y, 1, 1, &sample, &surface, &one);
+            film_add_row(f, (struct film_pixels){x, y, 1, 1}, &sample, &surface,
+                         &one);
         }
 }
 
@@ -266,7 +267,8 @@ static void edges_under_a_black_sky_stay(void **state)
     open_films(1);
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++)
-            film_add_row(&draft, x, y, 1, 1, &dark, &none, &one);
+            film_add_row(&draft, (struct film_pixels){x, y, 1, 1}, &dark, &none,
+                         &one);
     for (uint64_t i = 0; i < 20; i++)
         add_samples(&film, 1, i, edge_light);
     show(NULL);

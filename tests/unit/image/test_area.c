@@ -168,7 +168,8 @@ static void sums_of_noise(void **state)
         float light = (float)exp(20 * check_random(&seed) - 10);
         struct path_sample sample = {.radiance = {light, 1 / light, 0.01f}};
 
-        film_add_row(&film, i % 37, i / 37, 1, 1, &sample, NULL, &(int){1});
+        film_add_row(&film, (struct film_pixels){i % 37, i / 37, 1, 1}, &sample,
+                     NULL, &(int){1});
     }
     for (uint32_t tone = 0; tone < TONES; tone++)
         check_terminals(&film, (struct develop){-1, tone});

@@ -45,7 +45,8 @@ static void make_film(struct film *film)
             struct path_sample samples[2] = {{.radiance = {a, a, a}},
                                              {.radiance = {b, b, b}}};
 
-            film_add_row(film, x, y, 1, 1, samples, NULL, (const int[]){2});
+            film_add_row(film, (struct film_pixels){x, y, 1, 1}, samples, NULL,
+                         (const int[]){2});
         }
 }
 
@@ -124,7 +125,8 @@ static void unknown_errors_have_no_map(void **state)
 
     (void)state;
     assert_true(film_init(&film, 1, 1, &err));
-    film_add_row(&film, 0, 0, 1, 1, &sample, NULL, (const int[]){1});
+    film_add_row(&film, (struct film_pixels){0, 0, 1, 1}, &sample, NULL,
+                 (const int[]){1});
     assert_false(error_map_write(&film, 0, "none.png", &err));
     assert_string_equal(err.text, "none.png: found a pixel with less than two "
                                   "samples, which has no known error");

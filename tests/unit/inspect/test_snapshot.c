@@ -39,7 +39,8 @@ static void fill(struct film *film, uint64_t seed, double change)
 
                 samples[i] = (struct path_sample){.radiance = {v, v, v}};
             }
-            film_add_row(film, x, y, 1, 1, samples, NULL, &count);
+            film_add_row(film, (struct film_pixels){x, y, 1, 1}, samples, NULL,
+                         &count);
         }
     }
 }

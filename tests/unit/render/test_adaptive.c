@@ -172,7 +172,8 @@ static void take_samples(struct film *film, const struct adaptive *a,
                                                                       : 0.0f;
                 struct path_sample sample = {{light, light, light}, 1, 0};
 
-                film_add_row(film, x, y, 1, 1, &sample, NULL, (const int[]){1});
+                film_add_row(film, (struct film_pixels){x, y, 1, 1}, &sample,
+                             NULL, (const int[]){1});
             }
         }
 }
@@ -238,7 +239,7 @@ static void a_share_does_not_depend_on_its_pixel(void **state)
             adaptive_reset(&a[i]);
             take_samples(&film, &a[i], ADAPTIVE_FIRST - 1, 3);
             for (int x = 0; x < 20 * 14; x++)
-                film_add_row(&film, x % 20, x / 20, 1, 1,
+                film_add_row(&film, (struct film_pixels){x % 20, x / 20, 1, 1},
                              i == 1 && x == at
                                  ? &flash
                                  : &(struct path_sample){{1, 1, 1}, 1, 0},
@@ -322,7 +323,8 @@ static void shares_follow_deviations(void **state)
             (float)(1 + spread * (2 * check_random(&state_of_random) - 1));
         struct path_sample sample = {{light, light, light}, 1, 0};
 
-        film_add_row(&film, x, y, 1, 1, &sample, NULL, (const int[]){1});
+        film_add_row(&film, (struct film_pixels){x, y, 1, 1}, &sample, NULL,
+                     (const int[]){1});
     }
     assert_true(
         adaptive_decide(&a, &adaptive_film, &film, 0, NULL, NULL, &err));
@@ -350,8 +352,8 @@ static void equal_deviations_have_equal_shares(void **state)
         float light = i / (17 * 10) % 2 == 0 ? 0.999f : 1.001f;
         struct path_sample sample = {{light, light, light}, 1, 0};
 
-        film_add_row(&film, i % 17, i / 17 % 10, 1, 1, &sample, NULL,
-                     (const int[]){1});
+        film_add_row(&film, (struct film_pixels){i % 17, i / 17 % 10, 1, 1},
+                     &sample, NULL, (const int[]){1});
     }
     assert_true(
         adaptive_decide(&a, &adaptive_film, &film, 0, NULL, NULL, &err));

@@ -21,7 +21,8 @@ static struct film make_film(void)
         for (int x = 0; x < 4; x++)
             samples[x].radiance =
                 (struct vec3){y < 2, y < 2 ? 0.0f : 0.5f, 0.0f};
-        film_add_row(&film, 0, y, 1, 4, samples, NULL, counts);
+        film_add_row(&film, (struct film_pixels){0, y, 1, 4}, samples, NULL,
+                     counts);
     }
     return film;
 }
