@@ -127,7 +127,7 @@ static const struct subject {
 enum { SUBJECTS = sizeof subjects / sizeof subjects[0] };
 
 /* Measurements of one technique in one scene. */
-struct curve {
+struct error_curve {
     bool is_measured;
     double seconds[POINTS][ROUNDS_MAX];
     double error[POINTS]; /* sums over rounds, then means */
@@ -156,7 +156,7 @@ struct measurement {
     struct sky_table whole_sky; /* of SKY_ALONE */
     struct reference reference;
     float *rgb;
-    struct curve curves[TECHNIQUES];
+    struct error_curve curves[TECHNIQUES];
 };
 
 static bool matters(const struct technique *t, const struct settings *s)
@@ -202,9 +202,9 @@ static bool take_picture(struct measurement *m, bool is_filtered,
 }
 
 /* Adds one render of this world to a curve; afterwards `rgb` is its picture. */
-static bool measure_world(struct measurement *m, struct curve *c, int round,
-                          const struct world *world, enum extra extra,
-                          struct error *err)
+static bool measure_world(struct measurement *m, struct error_curve *c,
+                          int round, const struct world *world,
+                          enum extra extra, struct error *err)
 {
     struct session *s = &m->session;
     struct render_job job = {.world = *world,
@@ -246,7 +246,7 @@ static bool measure_round(struct measurement *m, int technique, int round,
 {
     const struct technique *t = &techniques[technique];
     struct session *s = &m->session;
-    struct curve *c = &m->curves[technique];
+    struct error_curve *c = &m->curves[technique];
     struct world world;
 
     if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view,
@@ -267,7 +267,7 @@ static bool measure_round(struct measurement *m, int technique, int round,
 }
 
 /* Converts sums over rounds to means without the reference's noise. */
-static void finish_curve(struct curve *c, int rounds, double noise)
+static void finish_curve(struct error_curve *c, int rounds, double noise)
 {
     double last = c->error[POINTS - 1] / rounds;
     double variance = (c->square / rounds - last * last) / (rounds - 1);
@@ -291,7 +291,7 @@ static bool measure(struct measurement *m, struct error *err)
     return true;
 }
 
-static struct series series_of(const struct curve *c, int rounds)
+static struct series series_of(const struct error_curve *c, int rounds)
 {
     struct series s = {.count = POINTS};
 
