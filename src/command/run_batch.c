@@ -13,7 +13,7 @@
 #include "command/batch_progress.h"
 #include "film/image_write.h"
 #include "inspect/aov_picture.h"
-#include "inspect/error_map.h"
+#include "inspect/false_color.h"
 #include "inspect/view_modes.h"
 #include "session/frame_series.h"
 #include "session/session_film.h"

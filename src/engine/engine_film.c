@@ -9,7 +9,7 @@
 #include "film/film_file.h"
 #include "glim/version.h"
 #include "render/opencl/cl_source.h"
-#include "world/world_list.h"
+#include "world/world.h"
 #include "kernels/types.h"
 
 /* ---- hash of the world ---- */

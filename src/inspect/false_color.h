@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: MIT
 /*
- * false_color.h - colours for normals, uvs, depths, materials and counts
+ * false_color.h - colours for normals, uvs, depths, materials and counts, and a
+ * picture of the error of each pixel
  *
- * Units:     numbers as in enum sample_kind; colours as 0xRRGGBB in sRGB
- * Threads:   any
+ * Colours of errors are those of false_color_heat() on a logarithmic scale with
+ * fixed ends, so that maps of any renders can be compared.
+ *
+ * Units:     numbers as in enum sample_kind; errors as film_error_map() has
+ *            them: 0.01 is 1 %; colours as 0xRRGGBB in sRGB
+ * Threads:   any; the film may be in use
+ * Errors:    unknown errors, files, memory
  */
 #ifndef GLIM_FALSE_COLOR_H
 #define GLIM_FALSE_COLOR_H
 
 #include <stddef.h>
+#include <stdint.h>
 
+#include "film/film.h"
 #include "kernels/types.h"
+
+/* ---- numbers ---- */
 
 /* Least and greatest number; both are 0 if there are none. */
 struct number_range {
@@ -36,5 +46,28 @@ uint32_t false_color_heat(float part);
 /* Returns the colour of a difference from -1 to 1: light blue, blue, black,
  * red, yellow. */
 uint32_t false_color_difference(float part);
+
+/* ---- errors ---- */
+
+/*
+ * Colours are those of false_color_heat() on a logarithmic scale with fixed
+ * ends, so that maps of any renders can be compared.
+ */
+
+/* Error of black pixels and below, and of white ones and above. */
+#define ERROR_MAP_BLACK 0.001f
+#define ERROR_MAP_WHITE 1.0f
+
+/* Errors of the colours, for legends in the format of printf(). */
+#define ERROR_MAP_SCALE "black 0.1 %%, red 3, white 100 %%"
+
+/* Returns the colour of an error as 0xrrggbb. */
+uint32_t error_map_color(float error);
+
+/* Writes the map of the film: colours as PNG; the errors themselves, in three
+ * equal channels, as HDR and PFM. Fails if the error is unknown because a pixel
+ * has less than two samples. */
+bool error_map_write(struct film *film, float exposure, const char *path,
+                     struct error *err);
 
 #endif

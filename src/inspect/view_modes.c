@@ -11,7 +11,7 @@
 #include "image/area.h"
 #include "image/frame.h"
 #include "inspect/aov_picture.h"
-#include "inspect/error_map.h"
+#include "inspect/false_color.h"
 #include "render/error_text.h"
 #include "render/projection.h"
 #include "world/world.h"

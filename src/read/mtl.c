@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "read/mtl.h"
 
+#include <float.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,10 +14,446 @@
 #include "base/name_table.h"
 #include "image/color.h"
 #include "read/asset_path.h"
-#include "read/mtl_dialect.h"
-#include "read/mtl_map.h"
 #include "read/scene_lists.h"
 #include "scene/material.h"
+
+/* ---- dialects ---- */
+
+/* First version of the exporter that writes its version and these meanings. */
+#define BLENDER_FIRST 3.1
+
+/* First version of Blender's second principled surface. */
+#define BLENDER_SECOND 4
+
+/* Index of refraction of an untouched surface before the second one. Where the
+ * line of the version was lost, it shows the version if most materials have
+ * it. */
+#define NI_BEFORE_SECOND "1.450000"
+
+/* Index of refraction that exporters before 3.1 wrote. */
+#define NI_OLD "1.000000"
+
+/* ---- comments at the beginning of the file ---- */
+
+/* Returns major and minor version as a decimal number, or 0. */
+static double version_of(struct word word)
+{
+    char text[16];
+    unsigned major, minor;
+
+    snprintf(text, sizeof text, "%.*s", (int)word.length, word.start);
+    if (word.length >= sizeof text ||
+        sscanf(text, "%3u.%3u", &major, &minor) != 2)
+        return 0;
+    return (double)major + (minor < 10 ? 0.1 * minor : 0.01 * minor);
+}
+
+/* Reads a comment. Returns true if it decides the dialect. *is_script is set
+ * for the exporter before 3.1, which names no version. */
+static bool read_comment(struct lexer lex, struct mtl_dialect_found *found,
+                         bool *is_script)
+{
+    struct word program, version;
+    double number;
+
+    lex.p++; /* the sign */
+    program = lexer_word(&lex);
+    version = lexer_word(&lex);
+    if (word_is(program, "Wavefront") && word_is(version, "MTL"))
+        return true;
+    if (!word_is(program, "Blender"))
+        return false;
+    if (word_is(version, "MTL")) {
+        *is_script = true;
+        return true;
+    }
+    number = version_of(version);
+    if (number < BLENDER_FIRST || !word_is(lexer_word(&lex), "MTL"))
+        return number > 0;
+    found->dialect = number < BLENDER_SECOND ? MTL_BLENDER_3 : MTL_BLENDER_4;
+    snprintf(found->version, sizeof found->version, "%.*s", (int)version.length,
+             version.start);
+    return true;
+}
+
+/* Reads the comments before the first statement. */
+static bool read_comments(struct lexer *lex, struct mtl_dialect_found *found,
+                          bool *is_script)
+{
+    while (lex->p < lex->end && lexer_at_line_end(lex)) {
+        if (lex->p < lex->end && *lex->p == '#' &&
+            read_comment(*lex, found, is_script))
+            return true;
+        lexer_next_line(lex);
+    }
+    return false;
+}
+
+/* ---- order of the statements ---- */
+
+/* Statements in the order of Blender's exporter. Maps replace some of them and
+ * come last. */
+static const struct {
+    const char *key;
+    int numbers;
+} order[] = {
+    {"Ns", 1},  {"Ka", 3},    {"Kd", 3},     {"Ks", 3}, {"Ke", 3}, {"Ni", 1},
+    {"d", 1},   {"illum", 1}, {"Pr", 1},     {"Pm", 1}, {"Ps", 1}, {"Pc", 1},
+    {"Pcr", 1}, {"aniso", 1}, {"anisor", 1}, {"Tf", 3},
+};
+
+#define ORDER ((int)(sizeof order / sizeof order[0]))
+
+/* Places in the order. */
+enum { AT_KA = 1, AT_NI = 5, AT_ILLUM = 7, AT_PC = 11 };
+
+struct block {
+    uint32_t keys; /* bit set of places in the order */
+    int last;      /* place of the last statement; ORDER for a map */
+};
+
+struct pattern {
+    struct block block;
+    int blocks;
+    bool is_broken;
+    int old_indices, new_indices; /* of refraction; NI_OLD is neither */
+    bool has_strong_coat;         /* Pc above 1, which only 4.0 writes */
+};
+
+/* Every material has Ni and illum. It has Ka without the extension, and with
+ * it Pc, but never both. */
+static void end_block(struct pattern *p)
+{
+    uint32_t keys = p->block.keys;
+    bool has_ka = (keys >> AT_KA & 1) != 0, has_pc = (keys >> AT_PC & 1) != 0;
+
+    if (p->blocks > 0 && ((keys >> AT_NI & 1) == 0 ||
+                          (keys >> AT_ILLUM & 1) == 0 || has_ka == has_pc))
+        p->is_broken = true;
+    p->block = (struct block){0, -1};
+}
+
+static bool has_six_decimals(struct word word)
+{
+    const char *dot = memchr(word.start, '.', word.length);
+
+    return dot != NULL && word.start + word.length - dot == 7;
+}
+
+static void check_numbers(struct pattern *p, struct lexer *lex, int place)
+{
+    struct word word = {"", 0};
+
+    for (int i = 0; i < order[place].numbers; i++) {
+        word = lexer_word(lex);
+        p->is_broken |=
+            place == AT_ILLUM ? word.length != 1 : !has_six_decimals(word);
+    }
+    p->is_broken |= !lexer_at_line_end(lex);
+    if (place == AT_NI && !word_is(word, NI_OLD)) {
+        p->old_indices += word_is(word, NI_BEFORE_SECOND);
+        p->new_indices += !word_is(word, NI_BEFORE_SECOND);
+    }
+    if (place == AT_PC && !p->is_broken)
+        p->has_strong_coat |= word.length != 8 || (*word.start != '0' &&
+                                                   !word_is(word, "1.000000"));
+}
+
+static void read_statement(struct pattern *p, struct lexer *lex)
+{
+    struct word key = lexer_word(lex);
+    int place = 0;
+
+    if (word_is(key, "newmtl")) {
+        end_block(p);
+        p->blocks++;
+        return;
+    }
+    while (place < ORDER && !word_is(key, order[place].key))
+        place++;
+    if (p->blocks == 0 || place < p->block.last ||
+        (place == ORDER &&
+         (key.length < 5 || memcmp(key.start, "map_", 4) != 0)) ||
+        (place < ORDER && place == p->block.last)) {
+        p->is_broken = true;
+        return;
+    }
+    p->block.last = place;
+    if (place < ORDER) {
+        p->block.keys |= 1u << place;
+        check_numbers(p, lex, place);
+    }
+}
+
+/* Reads the order of all statements. Returns false if it is not Blender's. */
+static bool read_order(struct pattern *p, struct lexer lex)
+{
+    *p = (struct pattern){.block = {0, -1}};
+    for (; lex.p < lex.end && !p->is_broken; lexer_next_line(&lex))
+        if (!lexer_at_line_end(&lex))
+            read_statement(p, &lex);
+    end_block(p);
+    return !p->is_broken;
+}
+
+static enum mtl_dialect dialect_of_order(struct lexer lex)
+{
+    struct pattern p;
+
+    if (!read_order(&p, lex) || p.old_indices + p.new_indices == 0)
+        return MTL_CLASSIC;
+    return p.old_indices > p.new_indices && !p.has_strong_coat ? MTL_BLENDER_3
+                                                               : MTL_BLENDER_4;
+}
+
+/* Returns the dialect of a file without a version. Blender 2.8 to 3.0 wrote the
+ * same meanings as 3.1, and its usual index of refraction; 2.7 did not. */
+static enum mtl_dialect dialect_of_script(struct lexer lex)
+{
+    struct pattern p;
+
+    return read_order(&p, lex) && p.old_indices > 0 ? MTL_BLENDER_3
+                                                    : MTL_CLASSIC;
+}
+
+struct mtl_dialect_found mtl_dialect_find(const char *text, size_t size_bytes)
+{
+    struct mtl_dialect_found found = {.dialect = MTL_CLASSIC};
+    struct lexer lex;
+    bool is_script = false;
+
+    lexer_init(&lex, text, size_bytes);
+    if (!read_comments(&lex, &found, &is_script))
+        found.dialect = dialect_of_order(lex);
+    else if (is_script)
+        found.dialect = dialect_of_script(lex);
+    return found;
+}
+
+const char *mtl_dialect_line(enum mtl_dialect dialect)
+{
+    if (dialect == MTL_CLASSIC)
+        return "# Wavefront MTL File";
+    return dialect == MTL_BLENDER_3 ? "# Blender 3.4.0 MTL File"
+                                    : "# Blender 5.0.0 MTL File";
+}
+
+/* ---- maps ---- */
+
+/* Limit for the scale of bump maps; steeper heights have no use. */
+#define BUMP_MAX 1e6
+
+enum map_option {
+    OPTION_OFFSET,
+    OPTION_SCALE,
+    OPTION_CLAMP,
+    OPTION_BUMP,
+    OPTION_CHANNEL,
+    OPTION_MIRROR,
+    OPTION_NEAREST,
+    OPTION_ROTATE,
+    OPTION_UV,
+    OPTION_ALPHA,
+    OPTION_OTHER
+};
+
+/* Map options and the number of words after each. -o, -s and -t take 1 to 3
+ * numbers. -alpha, -mirror, -nearest, -rotate and -uv are glim's own. */
+static const struct {
+    const char *name;
+    enum map_option option;
+    int least, most;
+} options[] = {
+    {"-alpha", OPTION_ALPHA, 1, 1},     {"-blendu", OPTION_OTHER, 1, 1},
+    {"-blendv", OPTION_OTHER, 1, 1},    {"-bm", OPTION_BUMP, 1, 1},
+    {"-boost", OPTION_OTHER, 1, 1},     {"-cc", OPTION_OTHER, 1, 1},
+    {"-clamp", OPTION_CLAMP, 1, 1},     {"-imfchan", OPTION_CHANNEL, 1, 1},
+    {"-mirror", OPTION_MIRROR, 1, 1},   {"-mm", OPTION_OTHER, 2, 2},
+    {"-nearest", OPTION_NEAREST, 1, 1}, {"-o", OPTION_OFFSET, 1, 3},
+    {"-rotate", OPTION_ROTATE, 1, 1},   {"-s", OPTION_SCALE, 1, 3},
+    {"-t", OPTION_OTHER, 1, 3},         {"-texres", OPTION_OTHER, 1, 1},
+    {"-type", OPTION_OTHER, 1, 1},      {"-uv", OPTION_UV, 1, 1},
+};
+
+#define OPTION_COUNT (sizeof options / sizeof options[0])
+
+/* Returns the first two numbers as floats, or `other` if a float cannot hold
+ * one of them. */
+static struct vec2 finite_pair(const double values[3], struct vec2 other)
+{
+    if (!(fabs(values[0]) <= (double)FLT_MAX) ||
+        !(fabs(values[1]) <= (double)FLT_MAX))
+        return other;
+    return (struct vec2){(float)values[0], (float)values[1]};
+}
+
+static size_t find_option(struct word word)
+{
+    size_t i = 0;
+
+    while (i < OPTION_COUNT && !word_is(word, options[i].name))
+        i++;
+    return i;
+}
+
+/* Sets or clears flags by a value that is on, off, or the axis u or v. */
+static void set_flags(struct texture *t, uint32_t u, uint32_t v,
+                      struct word word)
+{
+    bool is_on = word_is(word, "on");
+
+    t->flags &= ~(u | v);
+    if (is_on || word_is(word, "u"))
+        t->flags |= u;
+    if (is_on || word_is(word, "v"))
+        t->flags |= v;
+}
+
+/* Sets the channel. Returns false for one that glim does not know. */
+static bool set_channel(struct texture *t, struct word word)
+{
+    static const char names[] = "rgbm";
+    const char *at = word.length == 1 ? strchr(names, *word.start) : NULL;
+
+    if (at == NULL && !word_is(word, "l"))
+        return false;
+    t->channel = at ? CHANNEL_RED + (uint32_t)(at - names) : CHANNEL_GREY;
+    return true;
+}
+
+static void set_word(struct mtl_map_options *o, enum map_option option,
+                     struct word word)
+{
+    struct texture *t = &o->texture;
+
+    if (option == OPTION_CLAMP)
+        set_flags(t, TEXTURE_CLAMP_U, TEXTURE_CLAMP_V, word);
+    else if (option == OPTION_MIRROR)
+        set_flags(t, TEXTURE_MIRROR_U, TEXTURE_MIRROR_V, word);
+    else if (option == OPTION_NEAREST)
+        set_flags(t, TEXTURE_NEAREST, TEXTURE_NEAREST, word);
+    else if (option == OPTION_ALPHA)
+        t->flags = word_is(word, "off") ? t->flags | TEXTURE_OPAQUE
+                                        : t->flags & ~(uint32_t)TEXTURE_OPAQUE;
+    else if (option == OPTION_UV)
+        t->flags = word_is(word, "1")
+                       ? t->flags | TEXTURE_SECOND_UVS
+                       : t->flags & ~(uint32_t)TEXTURE_SECOND_UVS;
+    else if (option != OPTION_CHANNEL || !set_channel(t, word))
+        o->unknown_count++;
+}
+
+static void set_option(struct mtl_map_options *o, enum map_option option,
+                       const double values[3], struct word word)
+{
+    if (option == OPTION_OFFSET)
+        o->texture.offset = finite_pair(values, o->texture.offset);
+    else if (option == OPTION_SCALE)
+        o->texture.scale = finite_pair(values, o->texture.scale);
+    else if (option == OPTION_BUMP)
+        o->bump_scale = fabs(values[0]) <= BUMP_MAX ? values[0] : 1;
+    else if (option == OPTION_ROTATE)
+        o->rotation_deg = isfinite(values[0]) ? values[0] : 0;
+    else
+        set_word(o, option, word);
+}
+
+static bool has_number(enum map_option option)
+{
+    return option == OPTION_BUMP || option == OPTION_ROTATE;
+}
+
+/* Returns true for a word that looks like an option: a minus and a word without
+ * the dot of a file name. */
+static bool looks_like_option(struct word word)
+{
+    return word.length >= 2 && word.start[0] == '-' &&
+           ((word.start[1] | 32) >= 'a' && (word.start[1] | 32) <= 'z') &&
+           memchr(word.start, '.', word.length) == NULL;
+}
+
+/* Reads an option that no list has, as -colorspace of Autodesk's programs, with
+ * its one value. A name must be left: the last word is no option, and the word
+ * before it no value. */
+static bool read_unknown(struct lexer *lex, struct mtl_map_options *o)
+{
+    struct lexer next = *lex, behind;
+
+    if (!looks_like_option(lexer_word(&next)) || lexer_at_line_end(&next))
+        return false;
+    behind = next;
+    if (!looks_like_option(lexer_word(&behind)) && !lexer_at_line_end(&behind))
+        next = behind;
+    *lex = next;
+    o->unknown_count++;
+    return true;
+}
+
+/* Reads an option and its values. Returns false if the next word is none. */
+static bool read_option(struct lexer *lex, struct mtl_map_options *o)
+{
+    struct lexer start = *lex;
+    size_t i = find_option(lexer_word(lex));
+    double values[3] = {0, 0, 0};
+    struct word word = {"", 0};
+    bool has_numbers;
+
+    if (i == OPTION_COUNT) {
+        *lex = start;
+        return false;
+    }
+    if (options[i].option == OPTION_SCALE || options[i].option == OPTION_BUMP)
+        values[0] = values[1] = 1;
+    has_numbers = options[i].most == 3 || has_number(options[i].option);
+    for (int n = 0; n < options[i].most; n++) {
+        if (has_numbers && lexer_number(lex, &values[n]))
+            continue;
+        if (n >= options[i].least)
+            break;
+        word = lexer_word(lex);
+    }
+    set_option(o, options[i].option, values, word);
+    return true;
+}
+
+/* Reads options after the file name, which some programs write, and removes
+ * them from the name. */
+static void cut_options(char *name, struct mtl_map_options *o)
+{
+    const char *end = name + strlen(name);
+    char *cut = NULL;
+
+    for (char *p = name; (p = strchr(p, ' ')) != NULL; p++) {
+        struct lexer lex = {p + 1, end, 1};
+
+        if (p == name || p[1] != '-' || !read_option(&lex, o))
+            continue;
+        if (cut == NULL)
+            cut = p;
+    }
+    if (cut == NULL)
+        return;
+    while (cut > name && cut[-1] == ' ')
+        cut--;
+    *cut = '\0';
+}
+
+char *mtl_map_read(struct lexer *lex, struct mtl_map_options *o)
+{
+    char *name;
+
+    *o =
+        (struct mtl_map_options){.texture = texture_default(), .bump_scale = 1};
+    while (read_option(lex, o) || read_unknown(lex, o))
+        continue;
+    name = lexer_rest(lex);
+    if (name != NULL)
+        cut_options(name, o);
+    texture_rotate(&o->texture, o->rotation_deg);
+    return name;
+}
+
+/* ---- statements ---- */
 
 struct parser {
     struct scene *scene;

@@ -11,8 +11,7 @@
 #include "base/lexer.h"
 #include "base/memory.h"
 #include "read/asset_path.h"
-#include "read/mtl_dialect.h"
-#include "read/mtl_map.h"
+#include "read/mtl.h"
 
 /* Keys with the same meaning. The first is the one that is written. */
 #define MTL_ALIASES_MAX 3

@@ -8,7 +8,7 @@
 
 #include "base/decimal.h"
 #include "base/memory.h"
-#include "read/view_light.h"
+#include "read/view_parse.h"
 #include "world/light/daylight.h"
 
 bool view_read(struct view *view, const char *path, struct warnings *report,

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 /*
- * view_parse.h - parses the text of a view file
+ * view_parse.h - parses the text of a view file, with its `light` lines
  *
- * Units:     as in view.h
+ *     light point X Y Z intensity R G B radius R ies FILE
+ *     light spot X Y Z at X Y Z intensity R G B inner A outer A radius R
+ *                ies FILE
+ *     light directional AZ EL irradiance R G B angle A
+ *
+ * Units:     as in view.h; those of scene/lamp.h
  * Threads:   one thread at a time
- * Errors:    a malformed or impossible value: file:line
+ * Errors:    a malformed or impossible value: file:line; a file of IES
  */
 #ifndef GLIM_VIEW_PARSE_H
 #define GLIM_VIEW_PARSE_H
@@ -12,10 +17,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "base/lexer.h"
 #include "base/warnings.h"
 #include "scene/view.h"
+
+/* ---- keys ---- */
 
 enum view_key_id {
     KEY_EYE,
@@ -110,5 +118,14 @@ bool view_parse(struct view *view, const char *text, size_t size_bytes,
  * the current folder. */
 bool view_parse_over(struct view *view, const char *lines,
                      struct warnings *report, struct error *err);
+
+/* ---- lights ---- */
+
+/* Reads the rest of a line after the key `light` into the reader's view. */
+bool view_light_read(struct view_reader *reader, struct error *err);
+
+/* Writes a line for each lamp into the file at `path`. Values that equal their
+ * default are left out. */
+void view_lights_write(const struct lamps *lamps, const char *path, FILE *to);
 
 #endif

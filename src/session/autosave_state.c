@@ -9,7 +9,6 @@
 #include "base/decimal.h"
 #include "engine/scene_load.h"
 #include "read/mtl.h"
-#include "read/mtl_dialect.h"
 #include "read/mtl_save.h"
 #include "read/view_file.h"
 #include "session/session_save.h"

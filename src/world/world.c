@@ -4,6 +4,7 @@
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,9 +16,11 @@
 #include "scene/material_features.h"
 #include "world/bvh/instance_trees.h"
 #include "world/light/daylight.h"
+#include "world/light/guide_grid.h"
 #include "world/textures.h"
 #include "kernels/instance.h"
 #include "kernels/light.h"
+#include "kernels/sky.h"
 
 /* Limit for coordinates in float, whose squares do not overflow. */
 #define EYE_MAX 1e18
@@ -467,4 +470,36 @@ void world_free(struct host_world *host)
     path_guide_free(&host->guide);
     bvh8_free(&host->tree);
     *host = (struct host_world){.tris = NULL};
+}
+
+/* ---- the list of arrays ---- */
+
+_Static_assert(sizeof(struct world) - offsetof(struct world, positions) ==
+                   WORLD_LIST_COUNT * sizeof(void *),
+               "WORLD_LIST has all arrays");
+
+void world_list(const struct world *w,
+                struct world_array list[WORLD_LIST_COUNT])
+{
+    const struct settings *s = &w->settings;
+    size_t i = 0;
+
+#define TAKE(name, count, part_of)                                           \
+    list[i++] = (struct world_array){w->name,                                \
+                                     w->name != NULL                         \
+                                         ? (size_t)(count) * sizeof *w->name \
+                                         : 0,                                \
+                                     part_of};
+    WORLD_LIST(TAKE)
+#undef TAKE
+}
+
+void world_list_set(struct world *world, enum world_list_index index,
+                    const void *data)
+{
+#define MEMBER(name, count, part) offsetof(struct world, name),
+    static const size_t members[] = {WORLD_LIST(MEMBER)};
+#undef MEMBER
+
+    memcpy((char *)world + members[index], &data, sizeof data);
 }

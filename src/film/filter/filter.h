@@ -27,6 +27,14 @@
 #include "base/thread_pool.h"
 #include "film/filter/filter_loops.h"
 
+/* ---- builds of the loops ---- */
+
+/* Returns the loops for the i-th instruction set that this processor has,
+ * fastest first, or NULL after the last. */
+const struct filter_loops *filter_loops_at(int i);
+
+/* ---- the filter ---- */
+
 /* A row of the features of pixels, which the source fills. */
 struct filter_row {
     float *albedo[3];

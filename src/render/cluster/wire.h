@@ -16,7 +16,7 @@
 #define GLIM_WIRE_H
 
 #include "render/cluster/band_plan.h"
-#include "world/world_list.h"
+#include "world/world.h"
 
 /* The largest message. */
 #define WIRE_BYTES_MAX ((size_t)1 << 30)

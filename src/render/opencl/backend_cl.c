@@ -18,7 +18,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "render/opencl/cl_buffers.h"
-#include "render/opencl/cl_machine.h"
+#include "render/opencl/cl_device.h"
 #include "render/opencl/cl_source.h"
 #include "world/bvh/bvh.h"
 #include "kernels/camera_sample.h"

@@ -22,9 +22,9 @@
 #include <stdint.h>
 
 #include "film/film.h"
-#include "render/opencl/cl_machine.h"
+#include "render/opencl/cl_device.h"
 #include "world/bvh/bvh.h"
-#include "world/world_list.h"
+#include "world/world.h"
 #include "kernels/cl_task.h"
 
 /* ---- world ---- */

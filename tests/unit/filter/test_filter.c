@@ -9,7 +9,6 @@
 #include "tests/unit/check.h"
 
 #include "film/filter/filter.h"
-#include "film/filter/filter_dispatch.h"
 
 /* A picture in memory. */
 struct picture {

@@ -9,7 +9,7 @@
 
 #include "tests/unit/check.h"
 
-#include "film/filter/filter_dispatch.h"
+#include "film/filter/filter.h"
 #include "film/filter/screen_detail.h"
 
 #define WIDTH  96

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "image/image_read.h"
-#include "inspect/error_map.h"
+#include "inspect/false_color.h"
 #include "tests/unit/files.h"
 
 #define WIDTH  12

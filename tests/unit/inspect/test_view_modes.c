@@ -15,7 +15,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "film/film_error.h"
-#include "inspect/error_map.h"
+#include "inspect/false_color.h"
 #include "inspect/view_modes.h"
 #include "tests/unit/files.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "render/opencl/cl_api.h"
-#include "render/opencl/cl_machine.h"
+#include "render/opencl/cl_device.h"
 #include "render/opencl/cl_source.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/check.h"

@@ -7,7 +7,7 @@
 #include "tests/unit/check.h"
 
 #include "render/opencl/cl_api.h"
-#include "render/opencl/cl_machine.h"
+#include "render/opencl/cl_device.h"
 #include "kernels/filter.h"
 
 #define COUNT  4096

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "read/mtl_dialect.h"
+#include "read/mtl.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/read/mtl_texts.h"
 #include "tests/unit/shared.h"
