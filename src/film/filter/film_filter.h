@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 /*
- * film_filter.h - the denoising filter of a film with first surfaces
+ * film_filter.h - the denoising filter of a film with first surfaces, and the
+ * features of these
  *
  * Direct and indirect light are filtered apart. Lamps and the sky stay as a
- * pinhole camera sees them.
+ * pinhole camera sees them. Each pixel of the film has surfaces, and at least
+ * one sample.
  *
  * Units:     radiance
  * Ownership: the film stays the caller's
- * Threads:   one at a time; the film's rows are locked one by one
+ * Threads:   one filter at a time; the film's rows are locked one by one
  * Errors:    out of memory
  */
 #ifndef GLIM_FILM_FILTER_H
@@ -15,6 +17,25 @@
 
 #include "base/thread_pool.h"
 #include "film/film.h"
+#include "film/filter/filter.h"
+
+/* ---- features ---- */
+
+/* Returns the greatest mean depth of the surfaces of every `stride`-th pixel
+ * each way, which rays that leave the scene get. */
+float film_features_far(struct film *film, int stride);
+
+/* Pixels of a row: `count` of them, `step` apart. */
+struct film_columns {
+    int first, step, count;
+};
+
+/* Writes the features of pixels of row y and their noise. The counts stay as
+ * they are. */
+void film_features(struct film *film, float far, int y,
+                   struct film_columns columns, const struct filter_row *to);
+
+/* ---- filter ---- */
 
 /* Returns true if the film can be filtered: it has surfaces, and each pixel has
  * a sample in each half, and features, which a late share of the samples has

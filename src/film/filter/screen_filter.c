@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "film/filter/film_features.h"
+#include "film/filter/film_filter.h"
 #include "image/area.h"
 
 /* Added to the normal of pixels with seen light: no others are averaged with

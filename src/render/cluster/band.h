@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 /*
- * band.h - a band of a film's rows, which a rank renders in a film of its own,
- * and the message with its samples that the rank answers
+ * band.h - bands of a film's rows: the order in which ranks get them, the
+ * samples that a rank renders in a film of its own, and the message that it
+ * answers
  *
- * Sums are integers, so the bands can be added to the whole film in any order
- * (film_merge()).
+ * A pass is divided into bands of rows. Each band is a part of a rank's share
+ * of the rows that are left, so that bands are large at first and small at the
+ * end, and a slow rank gets fewer of them. If there are too few rows for the
+ * ranks, the samples of the pass are divided, too, into slices, which are
+ * handed out one after the other. Sums are integers, so the bands can be added
+ * to the whole film in any order (film_merge()).
  *
- * Units:     pixels
+ * Units:     pixels, rows of a film, mean samples per pixel
  * Ownership: band_free() frees; a zeroed struct is empty; the caller frees
  *            answers
  * Threads:   one at a time
@@ -15,7 +20,52 @@
 #ifndef GLIM_BAND_H
 #define GLIM_BAND_H
 
-#include "render/cluster/band_plan.h"
+#include "render/backend.h"
+
+/* ---- plans ---- */
+
+/* The first row of a band is a multiple of this. */
+#define BAND_ROWS 2
+
+/* A band: rows in which the pixels get the samples of a slice. */
+struct band_range {
+    int y, rows;
+    uint64_t first; /* samples at the beginning of the slice: as pass.target */
+    struct pass pass; /* of the slice */
+};
+
+struct band_plan {
+    const struct film *film;
+    struct pass pass;
+    int ranks;
+    int most_rows; /* of a band, for the size of messages */
+    int slices;
+    int slice, y; /* the next band */
+};
+
+/* Begins the plan for a pass over the film, of which nobody has more. */
+struct band_plan band_plan_begin(const struct film *film,
+                                 const struct pass *pass, int ranks,
+                                 int most_rows);
+
+/* Takes the next band whose pixels lack samples. Returns false if there are no
+ * more. */
+bool band_plan_next(struct band_plan *p, struct band_range *range);
+
+/* Returns true in the last part of the pass, where ranks would wait for one
+ * that has a second band. */
+bool band_plan_is_ending(const struct band_plan *p);
+
+/* Returns true if no band is left. */
+bool band_plan_is_empty(const struct band_plan *p);
+
+/* Returns the samples of pixel `at` of the film before the slice: those that it
+ * will have then, if slices before are in progress. */
+uint64_t band_plan_before(const struct film *film,
+                          const struct band_range *range, size_t at);
+
+/* Returns true if the film has all samples before those of a band. */
+bool band_plan_is_next(const struct film *film, const struct band_range *range);
 
 /* ---- bands ---- */
 

@@ -15,7 +15,7 @@
 #ifndef GLIM_WIRE_H
 #define GLIM_WIRE_H
 
-#include "render/cluster/band_plan.h"
+#include "render/cluster/band.h"
 #include "world/world.h"
 
 /* The largest message. */

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "render/cluster/band_plan.h"
+#include "render/cluster/band.h"
 
 #define WIDTH 5
 

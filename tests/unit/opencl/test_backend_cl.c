@@ -11,7 +11,7 @@
 #include "render/opencl/cl_api.h"
 #include "render/opencl/cl_buffers.h"
 #include "render/opencl/cl_device.h"
-#include "render/opencl/cl_probe.h"
+#include "render/opencl/cl_start.h"
 #include "tests/unit/opencl/pair.h"
 #include "world/world_materials.h"
 
