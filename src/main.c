@@ -24,7 +24,7 @@
 #include "base/print.h"
 #include "command/batch_progress.h"
 #include "command/command.h"
-#include "engine/scene_format.h"
+#include "engine/scene_load.h"
 #include "glim/version.h"
 #include "read/child/draco_child.h"
 #include "read/child/import_child.h"

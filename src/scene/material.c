@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/statement.h"
+#include "scene/material_values.h"
 #include "kernels/energy.h"
 #include "kernels/light.h"
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
  * material_values.h - the values of a material as a file states them: those of
- * MTL statements, which also stand for materials of other formats
+ * MTL statements, which also stand for materials of other formats; checked for
+ * their ranges
  *
  * material.h says what they mean.
  *
  * Threads:   any
+ * Errors:    values out of range are replaced, with a warning
  */
 #ifndef GLIM_MATERIAL_VALUES_H
 #define GLIM_MATERIAL_VALUES_H
@@ -13,6 +15,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include "base/warnings.h"
+#include "kernels/types.h"
 
 /* One number of a statement. Line 0 means that the file does not have the
  * statement; the number is 0 then. Likewise for mtl_color. MTL_IMPLIED is the
@@ -133,5 +138,37 @@ bool material_values_is_mirror(const struct material_values *source);
 /* Returns the emitted radiance given by Ke_blackbody, else by Ke; its line is 0
  * if there is neither. */
 struct mtl_color material_values_light(const struct material_values *source);
+
+/* ---- checks ---- */
+
+/* Where warnings go. */
+struct statement_place {
+    const char *path;
+    struct warnings *report;
+};
+
+/* Clamps a number to [0, 1]; NaN becomes 0. */
+double statement_clamped(double x);
+
+/* Returns a reflectance with each channel clamped to [0, 1], with a warning, or
+ * `missing` in all channels if the file does not give it. */
+struct vec3 statement_reflectance(const struct mtl_color *color,
+                                  const char *key, float missing,
+                                  const struct statement_place *at);
+
+/* Returns a radiance. Channels that are negative or no floats become 0, with a
+ * warning. */
+struct vec3 statement_radiance(const struct mtl_color *color,
+                               const struct statement_place *at);
+
+/* Returns the number if it is in [lo, hi], else `missing`; a number out of
+ * range is reported. */
+double statement_within(const struct mtl_number *n, const char *key, double lo,
+                        double hi, double missing,
+                        const struct statement_place *at);
+
+/* Returns a number from 0 to 1; others are clamped, with a warning. */
+double statement_unit(const struct mtl_number *n, const char *key,
+                      const struct statement_place *at);
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#include "engine/scene_format.h"
+#include "engine/scene_load.h"
 #include "fuzz.h"
 
 static inline int fuzz_is_index(uint32_t index, uint32_t count)

@@ -11,7 +11,7 @@
 #include "read/gltf/gltf_value.h"
 #include "read/mtl.h"
 #include "read/scene_lists.h"
-#include "scene/statement.h"
+#include "scene/material_values.h"
 
 /* Lines of statements only tell whether a file has them. */
 #define LINE 1

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "engine/scene_format.h"
+#include "engine/scene_load.h"
 #include "tests/unit/check.h"
 
 struct mesh_file {

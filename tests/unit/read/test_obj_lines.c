@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "engine/scene_load.h"
-#include "tests/unit/read/obj_texts.h"
 #include "tests/unit/locales.h"
+#include "tests/unit/read/obj_texts.h"
 
 static void numbers_have_their_values(void **state)
 {
