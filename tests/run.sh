@@ -162,7 +162,7 @@ done
 part run_script screen tests/screen/run.sh &
 part run_cases cli cli "${cases[@]}" &
 part run_script fuzz tests/fuzz/run.sh &
-JOBS=$(($(nproc) + 5)) # with these three
+JOBS=$(($(nproc) + 3)) # with these three
 
 in_pool part run_check layers tests/layers.sh
 in_pool part run_check tour tests/tour.sh
