@@ -102,7 +102,8 @@ static const char *existing(const char *line)
     return *line == '/' && access(line, R_OK) == 0 ? line : NULL;
 }
 
-static const struct state_list_file scenes_file = {"recent", RECENT_MAX, existing};
+static const struct state_list_file scenes_file = {"recent", RECENT_MAX,
+                                                   existing};
 
 void recent_read(struct state_list *r)
 {
