@@ -530,7 +530,8 @@ static bool set_adaptive(struct options *o, const struct option_given *g,
 static bool set_no_adaptive(struct options *o, const struct option_given *g,
                             struct error *err)
 {
-    set_adaptive(o, g, err);
+    (void)g;
+    (void)err;
     o->adaptive = false;
     o->no_adaptive = true;
     return true;
