@@ -431,6 +431,8 @@ bool obj_run_take(const struct obj_block *b, const struct obj_run *run,
     uint32_t corner = run->first_corner, end = run[1].first_face;
     bool ok = take_vertices(b, run, faces->scene, capacities);
 
+    if (run->first_face == end)
+        return ok;
     if (!run->has_polygons)
         return ok &&
                face_tris_add_triangles(faces, b->corners + corner,
