@@ -31,6 +31,17 @@ struct batch {
     bool is_denoised;           /* a filtered picture was written */
 };
 
+/* Checks the file of an option, if it is given: that the scene is not read from
+ * it, and then with `check`. */
+static bool check_file(const struct session *s, const char *option,
+                       const char *path,
+                       bool (*check)(const char *path, struct error *err),
+                       struct error *err)
+{
+    return !path ||
+           (session_check_output(s, option, path, err) && check(path, err));
+}
+
 /* ---- properties of surfaces ---- */
 
 /* Names in EXR files: those of OpenEXR where it has some, else layers whose
@@ -46,7 +57,7 @@ static const struct exr_layer layers_of_kinds[AOV_KINDS] = {
 };
 
 /* Returns the name of the file beside the picture, for free(). */
-static char *path_of(const char *picture, int kind)
+static char *aov_path(const char *picture, int kind)
 {
     char *stem = xchecked(path_stem(picture));
     char *path = xformat("%s.%s.pfm", stem, options_aovs[kind]);
@@ -56,8 +67,8 @@ static char *path_of(const char *picture, int kind)
 }
 
 /* Fails if the file is one that the session reads, or another output. */
-static bool check_path(const struct session *s, const char *picture,
-                       const char *path, struct error *err)
+static bool check_aov_path(const struct session *s, const char *picture,
+                           const char *path, struct error *err)
 {
     const struct options *o = s->options;
     const char *const others[] = {picture,       o->denoise_path,
@@ -70,12 +81,12 @@ static bool check_path(const struct session *s, const char *picture,
                         "--aov: found '%s', the file of another option, "
                         "expected another file",
                         path);
-    return session_check_output(s, "--aov", path, err) && file_check(path, err);
+    return check_file(s, "--aov", path, file_check, err);
 }
 
 /* Returns true if the properties are layers of the picture that the options
  * name. */
-static bool batch_aov_is_in_picture(const struct options *o)
+static bool aovs_are_layers(const struct options *o)
 {
     return o->aovs != 0 && o->output_path != NULL &&
            image_write_format_of(o->output_path) == IMAGE_WRITE_EXR;
@@ -83,19 +94,18 @@ static bool batch_aov_is_in_picture(const struct options *o)
 
 /* Checks before the render that the files of --aov beside the picture can be
  * written. */
-static bool batch_aov_check(const struct session *s, const char *picture,
-                            struct error *err)
+static bool check_aovs(const struct session *s, const char *picture,
+                       struct error *err)
 {
     bool ok = true;
 
     for (int i = 0; i < AOV_KINDS && ok; i++) {
         char *path;
 
-        if ((s->options->aovs >> i & 1) == 0 ||
-            batch_aov_is_in_picture(s->options))
+        if ((s->options->aovs >> i & 1) == 0 || aovs_are_layers(s->options))
             continue;
-        path = path_of(picture, i);
-        ok = check_path(s, picture, path, err);
+        path = aov_path(picture, i);
+        ok = check_aov_path(s, picture, path, err);
         free(path);
     }
     return ok;
@@ -103,7 +113,8 @@ static bool batch_aov_check(const struct session *s, const char *picture,
 
 /* Renders the kinds, one after the other, each as 3 numbers for each pixel of
  * the crop. Returns memory for free(), or NULL. */
-static float *render(struct view_mode *show, uint32_t kinds, struct error *err)
+static float *render_aovs(struct view_mode *show, uint32_t kinds,
+                          struct error *err)
 {
     const struct session *s = show->session;
     struct rect crop = s->engine.crop;
@@ -135,11 +146,11 @@ static float *render(struct view_mode *show, uint32_t kinds, struct error *err)
     return numbers;
 }
 
-static bool write(struct view_mode *show, int kind, const char *path,
-                  struct error *err)
+static bool write_aov(struct view_mode *show, int kind, const char *path,
+                      struct error *err)
 {
     struct rect crop = show->session->engine.crop;
-    float *numbers = render(show, 1u << kind, err);
+    float *numbers = render_aovs(show, 1u << kind, err);
     bool ok = numbers != NULL &&
               image_write_floats(numbers, crop.width, crop.height, path, err);
 
@@ -148,8 +159,8 @@ static bool write(struct view_mode *show, int kind, const char *path,
 }
 
 /* Writes the files of --aov beside the picture, unless they are layers. */
-static bool batch_aov_write(struct view_mode *show, const char *picture,
-                            struct error *err)
+static bool write_aovs(struct view_mode *show, const char *picture,
+                       struct error *err)
 {
     const struct options *o = show->session->options;
     bool ok = true;
@@ -157,25 +168,25 @@ static bool batch_aov_write(struct view_mode *show, const char *picture,
     for (int i = 0; i < AOV_KINDS && ok; i++) {
         char *path;
 
-        if ((o->aovs >> i & 1) == 0 || batch_aov_is_in_picture(o))
+        if ((o->aovs >> i & 1) == 0 || aovs_are_layers(o))
             continue;
-        path = path_of(picture, i);
-        ok = write(show, i, path, err);
+        path = aov_path(picture, i);
+        ok = write_aov(show, i, path, err);
         free(path);
     }
     return ok;
 }
 
 /* Writes the film and the layers of --aov to the picture. */
-static bool batch_aov_write_layers(struct view_mode *show, struct film *film,
-                                   const struct image_metadata *metadata,
-                                   struct error *err)
+static bool write_aov_layers(struct view_mode *show, struct film *film,
+                             const struct image_metadata *metadata,
+                             struct error *err)
 {
     const struct session *s = show->session;
     size_t size =
         3 * (size_t)s->engine.crop.width * (size_t)s->engine.crop.height;
     struct exr_layer layers[AOV_KINDS];
-    float *numbers = render(show, s->options->aovs, err);
+    float *numbers = render_aovs(show, s->options->aovs, err);
     int count = 0;
     bool ok;
 
@@ -195,7 +206,7 @@ static bool batch_aov_write_layers(struct view_mode *show, struct film *film,
 /* ---- coloured text ---- */
 
 /* Returns the file for the text; NULL for standard output. */
-static const char *batch_text_path(const struct options *o)
+static const char *text_path(const struct options *o)
 {
     const char *path = o->output_path;
 
@@ -224,8 +235,8 @@ static enum palette text_palette(const struct options *o)
 
 /* Writes the picture of the view as text. *name becomes the name for messages,
  * for free(). */
-static bool batch_text_write(struct view_mode *show, struct film *film,
-                             char **name, struct error *err)
+static bool write_text(struct view_mode *show, struct film *film, char **name,
+                       struct error *err)
 {
     const struct session *s = show->session;
     const struct options *o = s->options;
@@ -236,7 +247,7 @@ static bool batch_text_write(struct view_mode *show, struct film *film,
     enum palette palette = text_palette(o);
     struct ansi_text_style style = {fit.cols, fit.rows, palette,
                                     text_glyphs(o, palette)};
-    const char *path = batch_text_path(o);
+    const char *path = text_path(o);
     struct frame frame = {0};
     size_t size_bytes;
     char *text;
@@ -256,17 +267,6 @@ static bool batch_text_write(struct view_mode *show, struct film *film,
 
 /* ---- before the render ---- */
 
-/* Checks the file of an option, if it is given: that the scene is not read from
- * it, and then with `check`. */
-static bool check_file(const struct session *s, const char *option,
-                       const char *path,
-                       bool (*check)(const char *path, struct error *err),
-                       struct error *err)
-{
-    return !path ||
-           (session_check_output(s, option, path, err) && check(path, err));
-}
-
 /* Checks before the render, which may take minutes, that the output files can
  * be written. */
 static bool check_outputs(const struct batch *b, struct error *err)
@@ -278,7 +278,7 @@ static bool check_outputs(const struct batch *b, struct error *err)
         return false;
     if (o->output_path &&
         (!session_check_output(s, "-o", o->output_path, err) ||
-         !batch_aov_check(s, o->output_path, err)))
+         !check_aovs(s, o->output_path, err)))
         return false;
     if (!check_file(s, "--denoise", o->denoise_path, image_write_check, err) ||
         !check_file(s, "--error-map", o->error_map_path, image_write_check,
@@ -287,7 +287,7 @@ static bool check_outputs(const struct batch *b, struct error *err)
         !check_file(s, "--checkpoint", o->checkpoint_path, file_check, err))
         return false;
     if (o->text_cols > 0)
-        return !batch_text_path(o) || file_check(batch_text_path(o), err);
+        return !text_path(o) || file_check(text_path(o), err);
     return b->series.video.process != 0 ||
            batch_check_picture(o->output_path, err);
 }
@@ -385,7 +385,7 @@ static bool save_layers(struct batch *b, struct film *film, char **name,
     struct image_metadata metadata = metadata_of(b->session, film);
 
     *name = xstrdup(b->session->options->output_path);
-    return batch_aov_write_layers(&b->show, film, &metadata, err);
+    return write_aov_layers(&b->show, film, &metadata, err);
 }
 
 static bool save_picture(struct batch *b, struct film *film, char **name,
@@ -394,10 +394,10 @@ static bool save_picture(struct batch *b, struct film *film, char **name,
     const struct options *o = b->session->options;
 
     if (o->text_cols > 0)
-        return batch_text_write(&b->show, film, name, err);
+        return write_text(&b->show, film, name, err);
     if (b->show.kind != SHOW_LIGHT)
         return save_shown(b, name, err);
-    if (batch_aov_is_in_picture(o))
+    if (aovs_are_layers(o))
         return save_layers(b, film, name, err);
     return save_pixels(b, film, NULL, name, err);
 }
@@ -473,8 +473,7 @@ static bool save_more(struct batch *b, const char *picture, struct error *err)
                                      session_develop(s).exposure, map, err))) &&
            (!stats || (is_other_file("--stats", stats, picture, err) &&
                        stats_json_write(s, b->is_denoised, stats, err))) &&
-           batch_aov_check(s, picture, err) &&
-           batch_aov_write(&b->show, picture, err);
+           check_aovs(s, picture, err) && write_aovs(&b->show, picture, err);
 }
 
 static bool save_all(struct batch *b, struct error *err)

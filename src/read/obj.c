@@ -53,11 +53,10 @@ struct parser {
 static const char *const corner_names[] = {"vertex", "texture vertex",
                                            "normal"};
 
-static bool no_memory_for_face(const struct face_tris *f,
-                               const struct lexer *lex, struct error *err)
+static bool no_memory_for_face(const struct parser *p)
 {
-    return fail(err, "%s:%" PRIu64 ": out of memory for the faces", f->path,
-                lex->line);
+    return fail(p->err, "%s:%" PRIu64 ": out of memory for the faces", p->path,
+                p->lex.line);
 }
 
 /* Reads digits with an optional '-'. Returns false if there are no digits. */
@@ -89,83 +88,80 @@ static bool resolve(int64_t index, uint32_t count, uint32_t *to)
     return true;
 }
 
-static bool report_index(const struct face_tris *f, const struct lexer *lex,
-                         const char *what, struct word index, uint32_t count)
+static bool report_index(const struct parser *p, const char *what,
+                         struct word index, uint32_t count)
 {
     struct word_text text = word_cut(index);
 
     if (count == 0)
         warnings_add(
-            f->report, "faces with a bad index",
+            p->report, "faces with a bad index",
             "%s:%" PRIu64
             ": found %s %s in a face, but none before it: face dropped",
-            f->path, lex->line, what, text.text);
+            p->path, p->lex.line, what, text.text);
     else
-        warnings_add(f->report, "faces with a bad index",
+        warnings_add(p->report, "faces with a bad index",
                      "%s:%" PRIu64 ": found %s %s in a face, expected 1 to "
                      "%" PRIu32 " or -1 to -%" PRIu32 ": face dropped",
-                     f->path, lex->line, what, text.text, count, count);
+                     p->path, p->lex.line, what, text.text, count, count);
     return false;
 }
 
 /* Reports an index into a list (normals or texture vertices) that the file does
  * not contain at all. Exporters that strip such a list may leave its indices in
  * the faces, so the face is used without them. */
-static bool is_missing_list(const struct face_tris *f, const struct lexer *lex,
-                            int k, int64_t index, struct word word,
-                            uint32_t count)
+static bool is_missing_list(const struct parser *p, int k, int64_t index,
+                            struct word word, uint32_t count)
 {
     if (k == 0 || count > 0 || index < 1)
         return false;
     warnings_add(
-        f->report,
+        p->report,
         k == 1 ? "corners without their texture vertex"
                : "corners without their normal",
         "%s:%" PRIu64
         ": found %s %s in a face, but none before it: face used without",
-        f->path, lex->line, corner_names[k], word_cut(word).text);
+        p->path, p->lex.line, corner_names[k], word_cut(word).text);
     return true;
 }
 
-static bool report_malformed(const struct face_tris *f, const struct lexer *lex,
-                             struct word word)
+static bool report_malformed(const struct parser *p, struct word word)
 {
-    warnings_add(f->report, "malformed faces",
+    warnings_add(p->report, "malformed faces",
                  "%s:%" PRIu64
                  ": found %s in a face, expected v, v/vt, v//vn or "
                  "v/vt/vn: face dropped",
-                 f->path, lex->line, word_quote(word).text);
+                 p->path, p->lex.line, word_quote(word).text);
     return false;
 }
 
 /* Reads v, v/vt, v//vn or v/vt/vn. A slash at the end is accepted. */
-static bool parse_corner(const struct face_tris *f, const struct lexer *lex,
-                         struct word word, struct corner *c)
+static bool parse_corner(const struct parser *p, struct word word,
+                         struct corner *c)
 {
-    const uint32_t counts[] = {f->scene->position_count, f->scene->uv_count,
-                               f->scene->normal_count};
-    const char *p = word.start;
-    const char *end = p + word.length;
+    const uint32_t counts[] = {p->scene->position_count, p->scene->uv_count,
+                               p->scene->normal_count};
+    const char *at = word.start, *end = at + word.length;
     uint32_t indices[3] = {NO_INDEX, NO_INDEX, NO_INDEX};
 
-    for (int k = 0; k < 3 && p <= end; k++) {
-        const char *start = p;
+    for (int k = 0; k < 3 && at <= end; k++) {
+        const char *start = at;
         int64_t index;
 
-        if (parse_index(&p, end, &index)) {
-            struct word text = {start, (size_t)(p - start)};
+        if (parse_index(&at, end, &index)) {
+            struct word text = {start, (size_t)(at - start)};
 
             if (!resolve(index, counts[k], &indices[k]) &&
-                !is_missing_list(f, lex, k, index, text, counts[k]))
-                return report_index(f, lex, corner_names[k], text, counts[k]);
-        } else if (k == 0 || p != start) {
-            return report_malformed(f, lex, word);
+                !is_missing_list(p, k, index, text, counts[k]))
+                return report_index(p, corner_names[k], text, counts[k]);
+        } else if (k == 0 || at != start) {
+            return report_malformed(p, word);
         }
-        if (p == end)
+        if (at == end)
             break;
-        if (*p != '/' || k == 2)
-            return report_malformed(f, lex, word);
-        p++;
+        if (*at != '/' || k == 2)
+            return report_malformed(p, word);
+        at++;
     }
     *c = (struct corner){indices[0], indices[1], indices[2]};
     return true;
@@ -173,19 +169,20 @@ static bool parse_corner(const struct face_tris *f, const struct lexer *lex,
 
 /* Reads the corners up to the end of the line. *is_good becomes false for a
  * face that was reported and has to be dropped. */
-static bool read_corners(struct face_tris *f, struct lexer *lex, bool *is_good,
-                         struct error *err)
+static bool read_corners(struct parser *p, bool *is_good)
 {
+    struct face_tris *f = &p->faces;
+
     *is_good = true;
     f->corner_count = 0;
-    while (!lexer_at_line_end(lex)) {
+    while (!lexer_at_line_end(&p->lex)) {
         uint32_t n = f->corner_count;
         struct corner *c;
 
         if (!face_tris_reserve(f, (size_t)n + 1))
-            return no_memory_for_face(f, lex, err);
+            return no_memory_for_face(p);
         c = &f->corners[n];
-        if (!parse_corner(f, lex, lexer_word(lex), c)) {
+        if (!parse_corner(p, lexer_word(&p->lex), c)) {
             *is_good = false;
             return true;
         }
@@ -199,19 +196,19 @@ static bool read_corners(struct face_tris *f, struct lexer *lex, bool *is_good,
 
 /* Reads the rest of an f statement and adds its triangles. A face with a bad
  * index is dropped and reported, like those that face_tris_add() drops. */
-static bool faces_read(struct face_tris *f, struct lexer *lex, uint32_t object,
-                       uint32_t material, struct error *err)
+static bool read_face(struct parser *p)
 {
-    struct file_place place = {.line = lex->line};
+    struct file_place place = {.line = p->lex.line};
+    struct face_tris *f = &p->faces;
     bool is_good;
 
     if (f->face_count == NO_INDEX - 1)
-        return fail(err, "%s:%" PRIu64 ": found more than 4294967294 faces",
-                    f->path, place.line);
-    if (!read_corners(f, lex, &is_good, err))
+        return fail(p->err, "%s:%" PRIu64 ": found more than 4294967294 faces",
+                    p->path, place.line);
+    if (!read_corners(p, &is_good))
         return false;
-    if (is_good && !face_tris_add(f, object, material, place))
-        return no_memory_for_face(f, lex, err);
+    if (is_good && !face_tris_add(f, p->object, p->material, place))
+        return no_memory_for_face(p);
     f->face_count++;
     return true;
 }
@@ -567,7 +564,7 @@ static bool read_statement(struct parser *p)
     if (word_is(key, "v"))
         return read_position(p);
     if (word_is(key, "f"))
-        return faces_read(&p->faces, &p->lex, p->object, p->material, p->err);
+        return read_face(p);
     if (word_is(key, "vn"))
         return read_normal(p);
     if (word_is(key, "vt"))

@@ -516,37 +516,6 @@ static bool set_time_limit(struct options *o, const struct option_given *g,
     return set_time(g, &o->time_ns, err);
 }
 
-/* The last one of --adaptive and --no-adaptive counts. */
-static bool set_adaptive(struct options *o, const struct option_given *g,
-                         struct error *err)
-{
-    (void)g;
-    (void)err;
-    o->adaptive = true;
-    o->no_adaptive = false;
-    return true;
-}
-
-static bool set_no_adaptive(struct options *o, const struct option_given *g,
-                            struct error *err)
-{
-    (void)g;
-    (void)err;
-    o->adaptive = false;
-    o->no_adaptive = true;
-    return true;
-}
-
-/* The last one of --filter and --no-filter counts. */
-static bool set_filter(struct options *o, const struct option_given *g,
-                       struct error *err)
-{
-    (void)g;
-    (void)err;
-    o->no_filter = false;
-    return true;
-}
-
 static bool set_denoise(struct options *o, const struct option_given *g,
                         struct error *err)
 {
@@ -588,10 +557,11 @@ static const char *const themes[] = {"auto", "dark", "light", "plain"};
 #define FILMS     (1u << COMMAND_MERGE | 1u << COMMAND_DEVELOP)
 #define ALL       UINT_MAX
 
-#define TO(member)    .to = offsetof(struct options, member)
-#define GIVEN(member) .given = offsetof(struct options, member)
-#define FLAG(member)  .kind = OPTION_FLAG, TO(member)
-#define TEXT(member)  .kind = OPTION_TEXT, TO(member)
+#define TO(member)     .to = offsetof(struct options, member)
+#define GIVEN(member)  .given = offsetof(struct options, member)
+#define CLEARS(member) .clears = offsetof(struct options, member)
+#define FLAG(member)   .kind = OPTION_FLAG, GIVEN(member)
+#define TEXT(member)   .kind = OPTION_TEXT, TO(member)
 #define WHOLE(member, least, most) \
     .kind = OPTION_WHOLE, TO(member), .min = (least), .max = (most)
 #define NUMBER(member, least, most) \
@@ -630,9 +600,9 @@ static const struct option_rule rules[] = {
     {"adaptive", NULL, NULL,
      "more samples where the error is (default with -e, and with --denoise "
      "without a file)",
-     SCENES, OWN(set_adaptive)},
+     SCENES, FLAG(adaptive), CLEARS(no_adaptive)},
     {"no-adaptive", NULL, NULL, "the same number of samples in each pixel",
-     SCENES, OWN(set_no_adaptive)},
+     SCENES, FLAG(no_adaptive), CLEARS(adaptive)},
     {"d", "BOUNCES", "a number of bounces",
      "most bounces of a path, 0 to 999 (default: from the view file, or "
      "no limit)",
@@ -816,7 +786,7 @@ static const struct option_rule rules[] = {
     {"filter", NULL, NULL,
      "filter the noise out of the picture on the screen in live mode "
      "(default)",
-     MAIN, OWN(set_filter), CONFIGURABLE},
+     MAIN, .kind = OPTION_FLAG, CLEARS(no_filter), CONFIGURABLE},
     {"no-filter", NULL, NULL, "show the picture with its noise", MAIN,
      FLAG(no_filter), CONFIGURABLE},
     {"watch", NULL, NULL, "load the scene's files again when they change", MAIN,
@@ -868,9 +838,11 @@ bool option_set(struct options *o, const struct option_given *g,
 
     if (r->given != 0)
         *(bool *)((char *)o + r->given) = true;
+    if (r->clears != 0)
+        *(bool *)((char *)o + r->clears) = false;
     switch (r->kind) {
-    case OPTION_TITLE: break;
-    case OPTION_FLAG: *(bool *)to = true; break;
+    case OPTION_TITLE:
+    case OPTION_FLAG: break;
     case OPTION_TEXT: return set_text(g, to, err);
     case OPTION_WHOLE: return set_whole(g, to, err);
     case OPTION_NUMBER: return set_number(g, to, err);

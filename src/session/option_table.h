@@ -29,7 +29,7 @@ typedef bool option_setter(struct options *o, const struct option_given *g,
 
 enum option_kind {
     OPTION_TITLE,  /* a row between options: `help` is a title of --help */
-    OPTION_FLAG,   /* sets a bool; all other kinds have a value */
+    OPTION_FLAG,   /* `given` and `clears` alone; all others have a value */
     OPTION_TEXT,   /* a text that is not empty: const char * */
     OPTION_WHOLE,  /* a whole number: int */
     OPTION_NUMBER, /* a number: double */
@@ -47,6 +47,8 @@ struct option_rule {
     enum option_kind kind;
     size_t to;    /* offset in struct options of the value */
     size_t given; /* offset of a bool that becomes true; 0: none */
+    size_t
+        clears; /* offset of one that becomes false: the last option counts */
     double min, max;
     const char *const *words;
     int word_count;
