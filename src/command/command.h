@@ -2,9 +2,9 @@
 /*
  * command.h - the commands without a screen, which main.c chooses
  *
- * Each begins its messages with the file they are about. *status becomes the
- * exit status of a success: 0, what the command says, or 128 + signal after the
- * output so far. start_ns is the time of the program's start.
+ * *status becomes the exit status of a success: 0, what the command says, or
+ * 128 + signal after the output so far. start_ns is the time of the program's
+ * start.
  *
  * Ownership: options and session stay the caller's
  * Threads:   main only

@@ -107,8 +107,6 @@ void backends_close(struct backends *b)
     backends_drop_cpu(b);
 }
 
-/* ---- engines ---- */
-
 /* ---- load ---- */
 
 /* Overrides values of the view file by those of the options. */
@@ -182,7 +180,7 @@ void engine_take_loaded(struct engine *e, struct engine *fresh)
         world_take_shape(&e->world, &fresh->world);
 }
 
-/* ---- backends ---- */
+/* ---- backends of a picture ---- */
 
 bool engine_begin(struct engine *e, struct error *err)
 {

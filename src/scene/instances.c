@@ -442,7 +442,7 @@ static struct totals count_all(const struct scene *scene, struct plan *plans)
     return all;
 }
 
-/* ---- the whole ---- */
+/* ---- flattening ---- */
 
 static bool grow_to(void **array, uint64_t count, size_t size_bytes)
 {
@@ -784,7 +784,7 @@ static void set_pad(struct instance *at)
     at->pad = (float)((double)BOX_PAD + 1.25 * (double)INSTANCE_ERROR * most);
 }
 
-/* ---- the whole ---- */
+/* ---- the arrays ---- */
 
 /* Fills the instance, without first_tri. Returns false if it has no size or no
  * triangles. */

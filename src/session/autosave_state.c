@@ -19,7 +19,7 @@
 /* Size of a name in the MTL text. */
 #define NAME_BYTES 16
 
-/* ---- write ---- */
+/* ---- writing a state ---- */
 
 static bool take_view(struct autosave_file *k, const struct session *s,
                       const char *path, struct error *err)
@@ -112,7 +112,7 @@ bool autosave_edit_take(struct autosave_file *k, const struct session *s,
     return take_view(k, s, path, err) && take_materials(k, s, path, err);
 }
 
-/* ---- restore ---- */
+/* ---- restoring a state ---- */
 
 /* Returns the next line of the text at *p, for free(), or NULL at its end. */
 static char *next_line(const char **p)
@@ -260,7 +260,7 @@ bool autosave_edit_restore(const struct autosave_file *k, struct session *s,
 /* Texts of a state, which come first in enum autosave_part. */
 #define STATE_PARTS AUTOSAVE_HISTORY
 
-/* ---- write ---- */
+/* ---- writing the history ---- */
 
 /* A text that grows. */
 struct text {
@@ -369,7 +369,7 @@ bool autosave_history_take(struct autosave_file *k, struct session *s,
     return ok;
 }
 
-/* ---- restore ---- */
+/* ---- restoring the history ---- */
 
 struct reader {
     const char *p, *end, *path;

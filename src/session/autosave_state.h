@@ -24,7 +24,7 @@
 
 /* ---- one state ---- */
 
-/* Adds the texts to a kept session. `path` is that of its file. */
+/* Adds the texts to a autosaved session. `path` is that of its file. */
 bool autosave_edit_take(struct autosave_file *k, const struct session *s,
                         const char *path, struct error *err);
 
@@ -41,7 +41,7 @@ bool autosave_edit_restore(const struct autosave_file *k, struct session *s,
  * It is a list of states before and after the present one, each with the texts
  * of autosave_edit.h. A line has the numbers of both, and each state begins
  * with a line of the sizes of its texts. A restored state is one step, which
- * changes what the step of the kept session has changed.
+ * changes what the step of the autosaved session has changed.
  */
 
 /* Most steps that are kept, to undo and to redo: the texts of a state are made
@@ -50,7 +50,7 @@ bool autosave_edit_restore(const struct autosave_file *k, struct session *s,
 #define AUTOSAVE_STEPS_MAX   200
 #define AUTOSAVE_STEPS_BYTES ((size_t)1 << 20)
 
-/* Adds the texts of the present state and the history to a kept session. The
+/* Adds the texts of the present state and the history to a autosaved session. The
  * edit is the same afterwards. `path` is that of its file. */
 bool autosave_history_take(struct autosave_file *k, struct session *s,
                            const char *path, struct error *err);

@@ -133,8 +133,6 @@ void edit_history_take_camera(struct edit_history *h,
     h->group = from->group + 1;
 }
 
-/* ---- edits ---- */
-
 /* ---- states ---- */
 
 static void *copy_array(const void *from, size_t count, size_t size_bytes)

@@ -32,7 +32,7 @@ enum {
     FD_SIGNALS,
     FD_RENDER,
     FD_SAVER,
-    FD_KEEPER, /* a kept session is written */
+    FD_AUTOSAVE, /* a autosaved session is written */
     FD_KEEPER_TIMER,
     FD_DEVICE, /* an OpenCL device has started, or cannot */
     FD_FILES,  /* files of the scene have changed */
@@ -260,7 +260,7 @@ static void take_events(struct studio *studio, struct pollfd fds[FDS])
         event_fd_clear(fds[FD_RENDER].fd); /* live_render_update() follows */
     if (fds[FD_SAVER].revents)
         save_finish(&studio->control);
-    if (fds[FD_KEEPER].revents)
+    if (fds[FD_AUTOSAVE].revents)
         autosave_finish(&studio->autosave);
     if (fds[FD_KEEPER_TIMER].revents)
         autosave_write(&studio->autosave);
@@ -288,7 +288,7 @@ static void wait_for_events(struct studio *studio)
         [FD_RENDER].fd =
             render_event_fd(studio->control.session->engine.render),
         [FD_SAVER].fd = studio->control.saver.copying.event_fd,
-        [FD_KEEPER].fd = studio->control.keeping.copying.event_fd,
+        [FD_AUTOSAVE].fd = studio->control.keeping.copying.event_fd,
         [FD_KEEPER_TIMER].fd = studio->autosave.timer_fd,
         [FD_DEVICE].fd = start ? cl_start_event_fd(start) : -1,
         [FD_FILES].fd = studio->control.watch.fd,

@@ -45,7 +45,7 @@ void selection_free(struct selection *s)
     free(s->listed);
 }
 
-/* ---- list ---- */
+/* ---- list of a page ---- */
 
 static bool is_listed(const struct selection *s, uint32_t i)
 {
@@ -299,7 +299,7 @@ static uint32_t next_choice(const struct owner *o, uint32_t i, bool is_forward)
     return i;
 }
 
-/* ---- list ---- */
+/* ---- list of parameters ---- */
 
 static const char *label_of(const struct owner *o, int part)
 {

@@ -307,7 +307,7 @@ static const struct {
                           "other: no",
                           restart_unasked, 'p', save_render},
     [QUESTION_NUMBER] = {.text = "Number for this view? 1 to 9, other: none"},
-    [QUESTION_KEPT] = {0}, /* its text is that of the session autosave */
+    [QUESTION_KEPT] = {0}, /* its text is that of autosave */
 };
 
 void question_ask(struct studio *studio, enum question question)

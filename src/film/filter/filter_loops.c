@@ -106,7 +106,7 @@ VECTORISED static void weight_row(const float *restrict above,
                           features[x]);
 }
 
-/* ---- averages ---- */
+/* ---- taps ---- */
 
 /* The eight pixels around each pixel of a row. */
 struct taps {

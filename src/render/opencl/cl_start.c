@@ -22,8 +22,6 @@
 #include "scene/material_features.h"
 #include "world/world.h"
 
-/* ---- tests ---- */
-
 /* ---- the self-test ---- */
 
 #define SIDE 16

@@ -27,8 +27,6 @@
 #include "render/backend.h"
 #include "render/opencl/backend_cl.h"
 
-/* ---- tests ---- */
-
 /* ---- the self-test ---- */
 
 /*
