@@ -24,7 +24,7 @@
 
 /* ---- one state ---- */
 
-/* Adds the texts to a autosaved session. `path` is that of its file. */
+/* Adds the texts to an autosaved session. `path` is that of its file. */
 bool autosave_edit_take(struct autosave_file *k, const struct session *s,
                         const char *path, struct error *err);
 
@@ -50,8 +50,8 @@ bool autosave_edit_restore(const struct autosave_file *k, struct session *s,
 #define AUTOSAVE_STEPS_MAX   200
 #define AUTOSAVE_STEPS_BYTES ((size_t)1 << 20)
 
-/* Adds the texts of the present state and the history to a autosaved session. The
- * edit is the same afterwards. `path` is that of its file. */
+/* Adds the texts of the present state and the history to an autosaved session.
+ * The edit is the same afterwards. `path` is that of its file. */
 bool autosave_history_take(struct autosave_file *k, struct session *s,
                            const char *path, struct error *err);
 

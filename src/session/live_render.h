@@ -43,7 +43,7 @@ struct live_render {
     bool is_live;
     bool is_started;  /* normal mode: the render was started */
     bool is_halted;   /* halted by the person */
-    bool has_gone_on; /* the film began with that of a autosaved session */
+    bool has_gone_on; /* the film began with that of an autosaved session */
     /* the screen must be drawn; cleared by the screen */
     bool has_changed;
     bool has_changed_files; /* since the last load */
@@ -130,8 +130,8 @@ void live_render_step(struct live_render *control);
 /* Restarts the render. Discards the picture of normal mode. */
 void live_render_restart(struct live_render *control);
 
-/* Restarts in a mode. With the film of a autosaved session, of the same picture, it
- * goes on from there; NULL: none. */
+/* Restarts in a mode. With the film of an autosaved session, of the same
+ * picture, it goes on from there; NULL: none. */
 void live_render_go_on(struct live_render *control, bool is_live,
                        struct film_file *from);
 

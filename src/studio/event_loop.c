@@ -32,7 +32,7 @@ enum {
     FD_SIGNALS,
     FD_RENDER,
     FD_SAVER,
-    FD_AUTOSAVE, /* a autosaved session is written */
+    FD_AUTOSAVE, /* an autosaved session is written */
     FD_KEEPER_TIMER,
     FD_DEVICE, /* an OpenCL device has started, or cannot */
     FD_FILES,  /* files of the scene have changed */

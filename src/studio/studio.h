@@ -32,7 +32,7 @@ enum question {
     QUESTION_LIVE, /* leave normal mode */
     QUESTION_RESTART,
     QUESTION_NUMBER, /* number for a view */
-    QUESTION_KEPT    /* go on with a autosaved session */
+    QUESTION_KEPT    /* go on with an autosaved session */
 };
 
 struct studio {
