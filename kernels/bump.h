@@ -29,6 +29,17 @@ static inline struct vec2 uv_for(const struct world *w, uint32_t texture,
     return uses_second_uvs(w, texture) ? uv.second : uv.first;
 }
 
+/* A hit whose shading normal maps bend. The triangle has texture coordinates
+ * where they do. */
+struct bump_place {
+    struct tri t;
+    uint32_t instance;
+    struct hit h;
+    struct uv_pair uv; /* at the hit */
+    struct vec3 ng;    /* of the face, on the eye's side */
+    struct vec3 wo;
+};
+
 /* Cosine to the face normal of a reflection that was turned back. */
 #define BUMP_GRAZING 1e-3f
 
@@ -70,23 +81,23 @@ static inline bool uv_tangents(const struct world *w,
 
 /* Unit tangents at a hit from those of the vertices. n is the shading normal,
  * on any side. Returns false if the triangle has none. */
-static inline bool vertex_tangents(const struct world *w, struct tri t,
-                                   uint32_t instance, struct hit h,
-                                   struct vec3 n, struct vec3 *along_u,
-                                   struct vec3 *along_v)
+static inline bool vertex_tangents(const struct world *w,
+                                   const struct bump_place *at, struct vec3 n,
+                                   struct vec3 *along_u, struct vec3 *along_v)
 {
-    const float b[3] = {h.b0, h.b1, h.b2};
+    const float b[3] = {at->h.b0, at->h.b1, at->h.b2};
     struct vec3 up = v3(0.0f, 0.0f, 0.0f), u = up, v;
     float sign = 0.0f, length_u, length_v;
 
-    if (t.vn[0] == NO_INDEX)
+    if (at->t.vn[0] == NO_INDEX)
         return false;
     for (uint32_t i = 0; i < 3u; i++) {
-        struct tangent at = tangent_at(w, t.vn[i], instance);
+        struct tangent tangent = tangent_at(w, at->t.vn[i], at->instance);
 
-        up = v3_add(up, v3_scale(normal_at(w, t.vn[i], instance), b[i]));
-        u = v3_add(u, v3_scale(at.d, b[i]));
-        sign = at.sign;
+        up =
+            v3_add(up, v3_scale(normal_at(w, at->t.vn[i], at->instance), b[i]));
+        u = v3_add(u, v3_scale(tangent.d, b[i]));
+        sign = tangent.sign;
     }
     v = v3_cross(n, u);
     length_u = v3_length(u);
@@ -103,14 +114,14 @@ static inline bool vertex_tangents(const struct world *w, struct tri t,
 /* Unit tangents at a hit with shading normal n: of the vertices, else of the
  * face by these texture coordinates. Returns false if there are none. */
 static inline bool tangents_at(const struct world *w,
-                               GLOBAL const struct vec2 *uvs, struct tri t,
-                               uint32_t instance, struct hit h, struct vec3 n,
+                               GLOBAL const struct vec2 *uvs,
+                               const struct bump_place *at, struct vec3 n,
                                struct vec3 *along_u, struct vec3 *along_v)
 {
     if (HAS(FEATURE_TANGENTS) && w->settings.tangent_count > 0u &&
-        vertex_tangents(w, t, instance, h, n, along_u, along_v))
+        vertex_tangents(w, at, n, along_u, along_v))
         return true;
-    return uv_tangents(w, uvs, t, instance, along_u, along_v);
+    return uv_tangents(w, uvs, at->t, at->instance, along_u, along_v);
 }
 
 /* Slopes of the height map along u and v: central differences over one texel.
@@ -160,16 +171,15 @@ static inline struct vec3 normal_texel(const struct world *w, uint32_t texture,
 /* Turns the shading normal *n to `slope`, a normal in tangent space from this
  * texture. Returns false, and leaves *n, where it would face away from wo. */
 static inline bool turn_normal(const struct world *w, uint32_t texture,
-                               struct vec3 slope, struct tri t,
-                               uint32_t instance, struct hit h, struct vec3 wo,
+                               struct vec3 slope, const struct bump_place *at,
                                struct vec3 *n)
 {
     bool is_second = has_second_uvs(w) && uses_second_uvs(w, texture);
     struct vec3 along_u, along_v, turned;
     float length;
 
-    if (!tangents_at(w, is_second ? w->uvs2 : w->uvs, t, instance, h, *n,
-                     &along_u, &along_v))
+    if (!tangents_at(w, is_second ? w->uvs2 : w->uvs, at, *n, &along_u,
+                     &along_v))
         return false;
     turned =
         v3_add(v3_add(v3_scale(along_u, slope.x), v3_scale(along_v, slope.y)),
@@ -178,37 +188,36 @@ static inline bool turn_normal(const struct world *w, uint32_t texture,
     if (!(length > 1e-6f))
         return false;
     turned = v3_scale(turned, 1.0f / length);
-    if (!(v3_dot(turned, wo) > 0.0f))
+    if (!(v3_dot(turned, at->wo) > 0.0f))
         return false;
     *n = turned;
     return true;
 }
 
 /* Returns the shading normal n, bent by the bump and normal maps. wo.n > 0
- * before and after. uv: at the hit; the triangle has texture coordinates. The
- * tangents are of the coordinates of the map of normals. */
+ * before and after. The tangents are of the coordinates of the map of normals.
+ */
 static inline struct vec3 bumped_normal(const struct world *w,
-                                        const struct material *m, struct tri t,
-                                        uint32_t instance, struct hit h,
-                                        struct uv_pair uv, struct vec3 n,
-                                        struct vec3 ng, struct vec3 wo)
+                                        const struct material *m,
+                                        const struct bump_place *at,
+                                        struct vec3 n)
 {
     struct vec3 slope = v3(0.0f, 0.0f, 1.0f);
     uint32_t texture = m->bump_texture;
 
     if (m->normal_texture != NO_INDEX) {
         texture = m->normal_texture;
-        slope =
-            normal_texel(w, texture, uv, m->normal_strength, m->normal_depth);
+        slope = normal_texel(w, texture, at->uv, m->normal_strength,
+                             m->normal_depth);
     }
     if (m->bump_texture != NO_INDEX) {
-        struct vec2 s = height_slopes(w, m, uv_for(w, m->bump_texture, uv));
+        struct vec2 s = height_slopes(w, m, uv_for(w, m->bump_texture, at->uv));
 
         slope.x -= s.x;
         slope.y -= s.y;
     }
-    return turn_normal(w, texture, slope, t, instance, h, wo, &n)
-               ? bent_normal(n, ng, wo)
+    return turn_normal(w, texture, slope, at, &n)
+               ? bent_normal(n, at->ng, at->wo)
                : n;
 }
 
@@ -222,17 +231,17 @@ static inline bool has_coat_bumps(const struct material *m)
 /* Returns the normal of the coat, which maps of the layers below do not bend:
  * n with the coat's own map (KHR_materials_clearcoat of glTF). Reflections
  * about it are above the layers below and above the face. */
-static inline struct vec3
-coat_normal(const struct world *w, const struct material *m, struct tri t,
-            uint32_t instance, struct hit h, struct uv_pair uv, struct vec3 n,
-            struct vec3 below, struct vec3 ng, struct vec3 wo)
+static inline struct vec3 coat_normal(const struct world *w,
+                                      const struct material *m,
+                                      const struct bump_place *at,
+                                      struct vec3 n, struct vec3 below)
 {
     if (m->coat_normal_texture != NO_INDEX)
         turn_normal(w, m->coat_normal_texture,
-                    normal_texel(w, m->coat_normal_texture, uv,
+                    normal_texel(w, m->coat_normal_texture, at->uv,
                                  m->coat_normal_strength, 1.0f),
-                    t, instance, h, wo, &n);
-    return bent_normal(bent_normal(n, below, wo), ng, wo);
+                    at, &n);
+    return bent_normal(bent_normal(n, below, at->wo), at->ng, at->wo);
 }
 
 #endif

@@ -246,11 +246,10 @@ static inline float edge_distance(struct vec3 a, struct vec3 b, struct vec3 c)
  * plane, it meets the plane far from the triangle, where no tree would look. So
  * a hit is not nearer than the point that they interpolate, with T_PRECISION.
  */
-static inline float distance_again(struct ray r, struct vec3 p0, struct vec3 p1,
-                                   struct vec3 p2, struct vec3 a, struct vec3 b,
-                                   struct vec3 c)
+static inline float distance_again(struct ray r, struct leaf_tri at,
+                                   struct vec3 a, struct vec3 b, struct vec3 c)
 {
-    float t = plane_distance(r, p0, p1, p2);
+    float t = plane_distance(r, at.p0, at.p1, at.p2);
 
     t = f_max(t, f_min(a.z, f_min(b.z, c.z)));
     t = f_min(t, f_max(a.z, f_max(b.z, c.z)));
@@ -262,13 +261,12 @@ static inline float distance_again(struct ray r, struct vec3 p0, struct vec3 p1,
 /* Intersects a ray and a triangle. Returns true for a hit at a distance above 0
  * and up to t_max, and fills *h except tri. The other winding, p1 and p2
  * exchanged, gives the same distance to the bit: sums are grouped for that. */
-static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
-                                struct vec3 p1, struct vec3 p2, float t_max,
-                                struct hit *h)
+static inline bool triangle_hit(struct ray r, struct shear s,
+                                struct leaf_tri at, float t_max, struct hit *h)
 {
-    struct vec3 a = shear_apply(s, p0);
-    struct vec3 b = shear_apply(s, p1);
-    struct vec3 c = shear_apply(s, p2);
+    struct vec3 a = shear_apply(s, at.p0);
+    struct vec3 b = shear_apply(s, at.p1);
+    struct vec3 c = shear_apply(s, at.p2);
     float u = edge_function(c.x, b.y, c.y, b.x);
     float v = edge_function(a.x, c.y, a.y, c.x);
     float w = edge_function(b.x, a.y, b.y, a.x);
@@ -280,10 +278,10 @@ static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
     det = u + (v + w);
     if (det == 0.0f)
         return false;
-    if (!axis_distance(r, p0, p1, p2, &t)) {
+    if (!axis_distance(r, at.p0, at.p1, at.p2, &t)) {
         t = (u * a.z + (v * b.z + w * c.z)) / det;
         if (!(fabsf(t) * T_PRECISION > distance_error(a, b, c, det)))
-            t = distance_again(r, p0, p1, p2, a, b, c);
+            t = distance_again(r, at, a, b, c);
     }
     if (!(t > 0.0f && t <= t_max))
         return false;
@@ -301,8 +299,11 @@ static inline float aimed_distance(struct ray r, struct vec3 p0, struct vec3 p1,
 {
     struct hit h = {0.0f, 0.0f, 0.0f, 0.0f, NO_INDEX};
 
-    if (!axis_distance(r, p0, p1, p2, &h.t))
-        triangle_hit(r, shear_of(r), p0, p1, p2, FLOAT_MAX, &h);
+    if (!axis_distance(r, p0, p1, p2, &h.t)) {
+        const struct leaf_tri at = {p0, p1, p2, NO_INDEX};
+
+        triangle_hit(r, shear_of(r), at, FLOAT_MAX, &h);
+    }
     return h.t <= FLOAT_MAX ? h.t : 0.0f;
 }
 

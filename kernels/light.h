@@ -21,17 +21,6 @@
 #include "kernels/sky.h"
 #include "kernels/surface_point.h"
 
-struct light_sample {
-    struct vec3 wi;       /* unit, from the receiver */
-    struct vec3 radiance; /* along wi, if nothing occludes it */
-    float pdf;            /* of wi per solid angle; above 0 and finite */
-    uint32_t tri;         /* NO_INDEX: not an area light */
-    struct vec3 p;        /* the point on the area light or point light */
-    bool is_near;         /* of a light of the tree; false: from infinity */
-    bool is_delta; /* BSDF samples cannot find the light: radiance and pdf
-                      are an irradiance and a probability */
-};
-
 /* True if a material emits light and is not invisible. */
 static inline bool material_shines(const struct material *m)
 {
@@ -130,11 +119,9 @@ static inline bool sample_point_light(const struct world *w, uint32_t i,
                                       const struct receiver *r, struct vec2 u,
                                       float probability, struct light_sample *s)
 {
-    float pdf;
-
-    if (!point_light_sample(w, i, r->p, u, &s->p, &s->wi, &s->radiance, &pdf))
+    if (!point_light_sample(w, i, r->p, u, s))
         return false;
-    s->pdf = probability * pdf;
+    s->pdf *= probability;
     s->tri = NO_INDEX;
     s->is_delta = i >= w->settings.sphere_count;
     return s->pdf > 0.0f;

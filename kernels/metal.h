@@ -94,20 +94,19 @@ static inline struct vec3 metal_terms(const struct bsdf *m, struct vec3 color,
     return v3_add(single, multiple);
 }
 
-/* Samples a direction; only that of a mirror gets its weight. o: bsdf_albedo()
- * at wo. */
+/* Samples a direction; only that of a mirror gets its weight. is_multiple: from
+ * the multiscatter lobe, with the probability of the loss at wo. */
 static inline bool metal_direction(const struct bsdf *m, struct vec3 color,
-                                   struct vec3 wo, struct ggx_albedo o,
-                                   struct vec2 u, float choice,
-                                   struct bsdf_sample *s)
+                                   struct vec3 wo, struct vec2 u,
+                                   bool is_multiple, struct bsdf_sample *s)
 {
     struct vec3 wi;
 
     if (is_smooth(m))
         return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
                             fresnel_schlick(color, wo.z));
-    wi = choice < o.loss ? multiscatter_direction(m->alpha, u)
-                         : ggx_reflect(wo, bsdf_facets(m), u);
+    wi = is_multiple ? multiscatter_direction(m->alpha, u)
+                     : ggx_reflect(wo, bsdf_facets(m), u);
     return wi.z > COSINE_MIN && sample_direction(s, wi, 1.0f);
 }
 
@@ -120,7 +119,7 @@ static inline bool metal_sample(const struct bsdf *m, struct vec3 wo,
     struct vec3 f;
     float pdf;
 
-    if (!metal_direction(m, m->color, wo, o, u, choice, s))
+    if (!metal_direction(m, m->color, wo, u, choice < o.loss, s))
         return false;
     if (s->is_delta)
         return true;

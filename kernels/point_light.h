@@ -83,13 +83,22 @@ static inline float sphere_distance(struct vec3 to, struct vec3 d, float radius,
     return v3_dot(to, to) < radius * radius ? middle + chord : middle - chord;
 }
 
-/* A direction to point light i, its radiance and its density, which for a point
- * is 1. *p becomes the point on the light. Returns false if the receiver is on
- * the point. */
+struct light_sample {
+    struct vec3 wi;       /* unit, from the receiver */
+    struct vec3 radiance; /* along wi, if nothing occludes it */
+    float pdf;            /* of wi per solid angle; above 0 and finite */
+    uint32_t tri;         /* NO_INDEX: not an area light */
+    struct vec3 p;        /* the point on the area light or point light */
+    bool is_near;         /* of a light of the tree; false: from infinity */
+    bool is_delta; /* BSDF samples cannot find the light: radiance and pdf
+                      are an irradiance and a probability */
+};
+
+/* Sets wi, radiance, p and pdf, which for a point is 1, of a sample of point
+ * light i. Returns false if the receiver is on the point. */
 static inline bool point_light_sample(const struct world *w, uint32_t i,
                                       struct vec3 from, struct vec2 u,
-                                      struct vec3 *p, struct vec3 *wi,
-                                      struct vec3 *radiance, float *pdf)
+                                      struct light_sample *s)
 {
     struct vec3 to = v3_sub(w->point_lights[i].p, from);
     float radius = w->point_lights[i].radius;
@@ -99,21 +108,21 @@ static inline bool point_light_sample(const struct world *w, uint32_t i,
 
     if (!(square > 0x1p-100f && square <= FLOAT_MAX))
         return false;
-    *p = w->point_lights[i].p;
-    *wi = v3_unit(to);
-    *pdf = 1.0f;
+    s->p = w->point_lights[i].p;
+    s->wi = v3_unit(to);
+    s->pdf = 1.0f;
     if (radius > 0.0f) {
         float size = sphere_size(to, radius);
 
-        *wi = cone_around(*wi, size, u);
-        *p = v3_add(from,
-                    v3_scale(*wi, sphere_distance(to, *wi, radius, &passes)));
-        *pdf = cone_pdf(size);
+        s->wi = cone_around(s->wi, size, u);
+        s->p = v3_add(from, v3_scale(s->wi, sphere_distance(to, s->wi, radius,
+                                                            &passes)));
+        s->pdf = cone_pdf(size);
     } else {
         scale = 1.0f / f_max(square, POINT_NEAR2);
     }
-    *radiance = v3_scale(w->point_lights[i].emission,
-                         scale * point_light_part(w, i, *wi));
+    s->radiance = v3_scale(w->point_lights[i].emission,
+                           scale * point_light_part(w, i, s->wi));
     return true;
 }
 

@@ -42,6 +42,9 @@ struct lobes {
     struct vec3 metal;        /* its colour at normal incidence */
     float weight[LOBES];      /* factors of their f */
     float chance[LOBES]; /* probabilities to sample them; all are 0 if black */
+    /* of principled_choose(): */
+    uint32_t chosen; /* LOBES if all are black */
+    float choice;    /* random number for the lobe */
 };
 
 static inline bool has_sheen(const struct bsdf *m)
@@ -307,23 +310,21 @@ static inline struct vec3 principled_terms(const struct bsdf *m, struct vec3 wo,
     return principled_terms_of(m, &l, wo, wi, pdf);
 }
 
-/* Chooses a lobe, LOBES if all are black. *choice becomes a random number for
- * the lobe. */
-static inline uint32_t principled_choose(const struct lobes *l, float *choice)
+/* Chooses a lobe by a random number. */
+static inline void principled_choose(struct lobes *l, float choice)
 {
-    uint32_t lobe = LOBES;
-
+    l->chosen = LOBES;
     for (uint32_t i = 0; i < LOBES; i++) {
         if (!(l->chance[i] > 0.0f))
             continue;
-        lobe = i;
-        if (*choice < l->chance[i]) {
-            *choice /= l->chance[i];
+        l->chosen = i;
+        if (choice < l->chance[i]) {
+            choice /= l->chance[i];
             break;
         }
-        *choice -= l->chance[i]; /* of the last lobe by rounding only */
+        choice -= l->chance[i]; /* of the last lobe by rounding only */
     }
-    return lobe;
+    l->choice = choice;
 }
 
 static inline bool coat_direction(const struct bsdf *m, struct vec3 wo,
@@ -347,27 +348,28 @@ static inline bool coat_direction(const struct bsdf *m, struct vec3 wo,
     return wi.z > COSINE_MIN && sample_direction(s, wi, 1.0f);
 }
 
-/* Samples a direction from a lobe; only those of deltas get their weights. */
+/* Samples a direction from the chosen lobe; only those of deltas get their
+ * weights. */
 static inline bool principled_direction(const struct bsdf *m,
-                                        const struct lobes *l, uint32_t lobe,
-                                        struct vec3 wo, struct vec2 u,
-                                        float choice, struct bsdf_sample *s)
+                                        const struct lobes *l, struct vec3 wo,
+                                        struct vec2 u, struct bsdf_sample *s)
 {
     struct bsdf glass;
 
-    if (lobe == LOBE_SHEEN) {
+    if (l->chosen == LOBE_SHEEN) {
         sample_direction(s, sheen_direction(u), 1.0f);
         return s->wi.z > COSINE_MIN;
     }
-    if (lobe == LOBE_METAL)
-        return metal_direction(m, l->metal, wo, l->facets, u, choice, s);
-    if (lobe == LOBE_PLASTIC)
-        return plastic_direction(m, wo, l->facets, u, choice, s);
-    if (lobe == LOBE_GLASS) {
+    if (l->chosen == LOBE_METAL)
+        return metal_direction(m, l->metal, wo, u, l->choice < l->facets.loss,
+                               s);
+    if (l->chosen == LOBE_PLASTIC)
+        return plastic_direction(m, wo, l->facets, u, l->choice, s);
+    if (l->chosen == LOBE_GLASS) {
         glass = principled_glass(m);
         return m->is_thin != 0
-                   ? thin_direction(&glass, wo, l->facets, u, choice, s)
-                   : glass_direction(&glass, wo, u, choice, s);
+                   ? thin_direction(&glass, wo, l->facets, u, l->choice, s)
+                   : glass_direction(&glass, wo, u, l->choice, s);
     }
     return coat_direction(m, wo, u, s);
 }
@@ -378,7 +380,6 @@ static inline bool principled_sample(const struct bsdf *m, struct vec3 wo,
 {
     struct bsdf plastic;
     struct lobes l;
-    uint32_t lobe;
     float eta_scale;
     struct vec3 f;
     float pdf;
@@ -388,11 +389,12 @@ static inline bool principled_sample(const struct bsdf *m, struct vec3 wo,
         m = &plastic;
     }
     l = principled_lobes(m, wo);
-    lobe = principled_choose(&l, &choice);
-    if (lobe == LOBES || !principled_direction(m, &l, lobe, wo, u, choice, s))
+    principled_choose(&l, choice);
+    if (l.chosen == LOBES || !principled_direction(m, &l, wo, u, s))
         return false;
     if (s->is_delta) {
-        s->weight = v3_scale(s->weight, l.weight[lobe] / l.chance[lobe]);
+        s->weight =
+            v3_scale(s->weight, l.weight[l.chosen] / l.chance[l.chosen]);
         return true;
     }
     eta_scale = s->eta_scale;

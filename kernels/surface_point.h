@@ -81,14 +81,13 @@ static inline struct vec2 grain_at(const struct world *w,
 /* Turns the frame of a surface with a grain: t along the grain, or along the
  * horizontal where there are no texture coordinates. */
 static inline void surface_turn_frame(const struct world *w, struct vec2 grain,
-                                      struct tri t, struct hit h,
+                                      const struct bump_place *at,
                                       struct surface_point *v)
 {
     struct vec3 along_u, along_v, d;
     float length;
 
-    if (!v->has_uv ||
-        !tangents_at(w, w->uvs, t, v->instance, h, v->n, &along_u, &along_v)) {
+    if (!v->has_uv || !tangents_at(w, w->uvs, at, v->n, &along_u, &along_v)) {
         along_u = v3(v->n.z, 0.0f, -v->n.x);
         along_v = v3_cross(v->n, along_u);
     }
@@ -129,6 +128,7 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     struct vec3 p1 = position_at(w, t.v[1], instance);
     struct vec3 p2 = position_at(w, t.v[2], instance);
     struct vec3 wo = v3_neg(r.d), smooth;
+    struct bump_place at;
 
     if (instance != NO_INDEX)
         t.ng = instance_face(w->instances[instance], t.ng, p0, p1, p2);
@@ -152,17 +152,17 @@ static inline bool surface_at(const struct world *w, const struct material *m,
         v->uv.second = uv_of(w->uvs2, t, h);
     if (has_vertex_colors(w))
         v->color = vertex_color(w, t, h);
+    at = (struct bump_place){t, instance, h, v->uv, v->ng, wo};
     if (HAS(FEATURE_BUMPS) && v->has_uv && has_bumps(m))
-        v->n = bumped_normal(w, m, t, instance, h, v->uv, v->n, v->ng, wo);
+        v->n = bumped_normal(w, m, &at, v->n);
     if (HAS(FEATURE_COAT_NORMALS)) {
         v->coat_n = v3(0.0f, 0.0f, 0.0f);
         if (v->has_uv && has_coat_bumps(m))
-            v->coat_n = coat_normal(w, m, t, instance, h, v->uv, smooth, v->n,
-                                    v->ng, wo);
+            v->coat_n = coat_normal(w, m, &at, smooth, v->n);
     }
     frame_around(v->n, &v->t, &v->b);
     if (HAS(FEATURE_ANISOTROPY) && m->anisotropy > 0.0f)
-        surface_turn_frame(w, grain_at(w, m, v), t, h, v);
+        surface_turn_frame(w, grain_at(w, m, v), &at, v);
     return true;
 }
 

@@ -53,15 +53,16 @@ static inline uint32_t mirrored(int32_t i, uint32_t n)
     return k < n ? k : 2u * n - 1u - k;
 }
 
-/* wrap_pair() for rows that may be mirrored or without interpolation. */
-static inline void wrap_pair_by(bool is_mirrored, bool is_nearest, float u,
-                                uint32_t n, uint32_t *a, uint32_t *b,
-                                float *fraction)
+/* wrap_pair() for rows that may be mirrored or without interpolation, by flags
+ * of which those of the other axis are removed. */
+static inline void wrap_pair_by(uint32_t flags, float u, uint32_t n,
+                                uint32_t *a, uint32_t *b, float *fraction)
 {
+    bool is_nearest = (flags & TEXTURE_NEAREST) != 0;
     float middle = is_nearest ? 0.0f : 0.5f;
     float x, whole;
 
-    if (is_mirrored) {
+    if ((flags & (TEXTURE_MIRROR_U | TEXTURE_MIRROR_V)) != 0) {
         x = f_min(u - 2.0f * floorf(0.5f * u), 2.0f) * (float)n - middle;
         whole = floorf(x);
         *a = mirrored((int32_t)whole, n);
@@ -140,14 +141,14 @@ static inline struct footprint texture_footprint(struct texture t,
                                                  struct vec2 uv)
 {
     struct footprint f;
-    bool is_nearest = texture_has(t, TEXTURE_NEAREST);
     bool is_mirrored = texture_has(t, TEXTURE_MIRROR_V);
     float v = 1.0f - (is_mirrored ? uv.y : uv.y - floorf(uv.y));
 
     if (texture_has(t, TEXTURE_MIRROR_U | TEXTURE_MIRROR_V | TEXTURE_NEAREST)) {
-        wrap_pair_by(texture_has(t, TEXTURE_MIRROR_U), is_nearest, uv.x,
-                     t.width, &f.x0, &f.x1, &f.fx);
-        wrap_pair_by(is_mirrored, is_nearest, v, t.height, &f.y0, &f.y1, &f.fy);
+        wrap_pair_by(t.flags & ~TEXTURE_MIRROR_V, uv.x, t.width, &f.x0, &f.x1,
+                     &f.fx);
+        wrap_pair_by(t.flags & ~TEXTURE_MIRROR_U, v, t.height, &f.y0, &f.y1,
+                     &f.fy);
     } else {
         wrap_pair(uv.x, t.width, &f.x0, &f.x1, &f.fx);
         wrap_pair(v, t.height, &f.y0, &f.y1, &f.fy);

@@ -95,7 +95,7 @@ static inline bool tri_hit(const struct world *w, struct ray r, struct shear s,
     /* triangle_hit() would say the same, but slowly */
     if (t.tri + 1u == r.from)
         return false;
-    if (!triangle_hit(r, s, t.p0, t.p1, t.p2, best->t, &h))
+    if (!triangle_hit(r, s, t, best->t, &h))
         return false;
     h.tri = t.tri;
     if (!hit_wins(w, r, h, best))

@@ -103,9 +103,9 @@ static struct engine_options options_of(const char *path,
                                         const struct glim_open_options *o)
 {
     struct engine_options e = {
-        .scene_path = path,
         .view_path = o->view_path,
-        .scene = {.up = (enum scene_up)o->up,
+        .scene = {.path = path,
+                  .up = (enum scene_up)o->up,
                   .camera = o->camera,
                   .choice = {.scene = o->scene,
                              .animation = o->animation,
@@ -142,10 +142,10 @@ static bool open_all(struct glim *g, const char *path,
         !engine_load(e, &how, &g->view, &file, err))
         return false;
     /* these texts are the caller's */
-    e->options.scene_path = e->scene.path;
     e->options.view_path = NULL;
     e->options.scene =
-        (struct scene_options){.thread_count = how.scene.thread_count};
+        (struct scene_options){.path = e->scene.path,
+                               .thread_count = how.scene.thread_count};
     return assign(g, err) && make_warnings(g, err);
 }
 

@@ -342,6 +342,7 @@ struct replacement {
     const void *data;
     size_t size_bytes;
     bool must_be_new;
+    bool *exists;               /* may be NULL */
     struct file_change *change; /* NULL replaces any version */
 };
 
@@ -384,23 +385,23 @@ static bool replace(const struct replacement *r)
     return ok;
 }
 
-static bool write_file(const char *path, const void *data, size_t size_bytes,
-                       bool must_be_new, bool *exists,
-                       struct file_change *change, struct error *err)
+/* Writes the replacement, whose target and folder are not set yet. */
+static bool write_file(const char *path, struct replacement r,
+                       struct error *err)
 {
-    char *target = must_be_new ? strdup(path) : target_of(path);
+    char *target = r.must_be_new ? strdup(path) : target_of(path);
     char *folder = target ? folder_of(target) : NULL;
-    struct replacement r = {folder,     target,      data,
-                            size_bytes, must_be_new, change};
-    bool ok = folder ? must_be_new || check_target(target, folder, path, err)
+    bool ok = folder ? r.must_be_new || check_target(target, folder, path, err)
                      : fail_memory(err, path);
 
+    r.target = target;
+    r.folder = folder;
     stop_hold();
     if (ok)
         temp_file_sweep(folder);
     if (ok && !replace(&r)) {
-        if (must_be_new && exists)
-            *exists = errno == EEXIST;
+        if (r.must_be_new && r.exists)
+            *r.exists = errno == EEXIST;
         ok = fail_errno(err, path);
     }
     if (ok)
@@ -414,13 +415,22 @@ static bool write_file(const char *path, const void *data, size_t size_bytes,
 bool file_write(const char *path, const void *data, size_t size_bytes,
                 bool must_be_new, bool *exists, struct error *err)
 {
-    return write_file(path, data, size_bytes, must_be_new, exists, NULL, err);
+    const struct replacement r = {.data = data,
+                                  .size_bytes = size_bytes,
+                                  .must_be_new = must_be_new,
+                                  .exists = exists};
+
+    return write_file(path, r, err);
 }
 
 bool file_replace(const char *path, const void *data, size_t size_bytes,
                   struct file_change *change, struct error *err)
 {
-    return write_file(path, data, size_bytes, false, NULL, change, err);
+    const struct replacement r = {.data = data,
+                                  .size_bytes = size_bytes,
+                                  .change = change};
+
+    return write_file(path, r, err);
 }
 
 bool file_write_pipe(int fd, const void *data, size_t size_bytes)

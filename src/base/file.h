@@ -27,6 +27,13 @@
 bool file_read(const char *path, char **text, size_t *size_bytes,
                struct error *err);
 
+/* A file in memory: not owned. */
+struct file_bytes {
+    const char *path;
+    const void *bytes;
+    size_t size_bytes;
+};
+
 /* Reads standard input to its end, of the same sizes. */
 bool file_read_stdin(char **text, size_t *size_bytes, struct error *err);
 

@@ -149,7 +149,7 @@ bool engine_load(struct engine *e, const struct engine_options *options,
 {
     *e = (struct engine){.options = *options,
                          .scene = {.program = options->device.program}};
-    if (!view_find(view, options->scene_path, options->view_path, &e->view_path,
+    if (!view_find(view, options->scene.path, options->view_path, &e->view_path,
                    &e->report, err))
         return false;
     view_copy_frame(file, view);
@@ -158,8 +158,8 @@ bool engine_load(struct engine *e, const struct engine_options *options,
     engine_set_whole(e, view);
     return (!options->has_crop ||
             engine_set_crop(e, view, &options->crop, "--crop", err)) &&
-           scene_open(&e->scene, &e->world, view, options->scene_path,
-                      &options->scene, &e->report, err);
+           scene_open(&e->scene, &e->world, view, &options->scene, &e->report,
+                      err);
 }
 
 void engine_take_loaded(struct engine *e, struct engine *fresh)

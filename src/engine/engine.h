@@ -80,9 +80,8 @@ void backends_close(struct backends *b);
 
 /* What decides a picture besides the files. Zeroed, all is as these say. */
 struct engine_options {
-    const char *scene_path;
-    const char *view_path; /* NULL: beside the scene */
     struct scene_options scene;
+    const char *view_path; /* NULL: beside the scene */
     /* instead of those of the view: 0 or false where it keeps its own */
     int width_px, height_px;
     bool has_max_bounces;

@@ -169,7 +169,7 @@ struct film_header engine_film_header(const struct engine *e,
 
     snprintf(h.version, sizeof h.version, "%s", GLIM_VERSION);
     snprintf(h.scene, sizeof h.scene, "%s",
-             end_of(e->options.scene_path, sizeof h.scene));
+             end_of(e->options.scene.path, sizeof h.scene));
     *range = (struct film_range){first_sample, first_sample + p.spp_done};
     return h;
 }

@@ -521,14 +521,14 @@ static bool add_profile_paths(struct scene *scene, const struct lamps *lamps,
 }
 
 bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
-                const char *path, const struct scene_options *options,
-                struct warnings *report, struct error *err)
+                const struct scene_options *options, struct warnings *report,
+                struct error *err)
 {
     bool has_view_lamps;
 
     scene->thread_count = options->thread_count;
     scene->choice = options->choice;
-    if (!scene_load(scene, path, options->up, report, err) ||
+    if (!scene_load(scene, options->path, options->up, report, err) ||
         !choose_camera(scene, options->camera, view, err) ||
         (options->view_lines != NULL &&
          !view_parse_over(view, options->view_lines, report, err)))
@@ -542,7 +542,7 @@ bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
         return false;
     return complete_view(scene, host, view, has_view_lamps, report, err) &&
            (!report->has_lost ||
-            fail(err, "%s: out of memory for the warnings", path));
+            fail(err, "%s: out of memory for the warnings", options->path));
 }
 
 const char *scene_file(const struct scene *scene, const struct view *view,

@@ -52,8 +52,9 @@ const struct scene_format *scene_format_of(const char *path, const char *bytes,
 
 /* ---- scenes ---- */
 
-/* How a scene is opened. Zeroed, all is as the files say. */
+/* How a scene is opened. Zeroed but the path, all is as the files say. */
 struct scene_options {
+    const char *path;
     enum scene_up up;
     int thread_count; /* of loading; at least 1 */
     /* number or name of the camera; NULL: that of the view, or the first one of
@@ -82,8 +83,8 @@ bool view_find(struct view *view, const char *scene_path, const char *view_path,
  * Adds a soft sky if there is no light, and the light of a studio to a model
  * whose own light shows little of it. */
 bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
-                const char *path, const struct scene_options *options,
-                struct warnings *report, struct error *err);
+                const struct scene_options *options, struct warnings *report,
+                struct error *err);
 
 /* Returns true if scene_open() has added the soft sky. */
 bool view_has_soft_sky(const struct view *view);

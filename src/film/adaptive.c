@@ -6,28 +6,27 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "film/film_error.h"
 
 #include "kernels/sample_share.h"
 
 /* Least share over SHARE_ONE. */
 #define LEAST 0.125
 
-static bool film_squares(struct film *film, float exposure, int colour,
-                         struct pool *pool, const struct cancel *cancel,
-                         float *squares, bool *is_known, struct error *err)
+static bool error_squares(struct film_squares *s, struct pool *pool,
+                          const struct cancel *cancel, struct error *err)
 {
     (void)err;
-    *is_known =
-        film_error_squares(film, exposure, colour, pool, cancel, squares);
+    film_error_squares(s, pool, cancel);
     return true;
 }
 
-const struct adaptive_measure adaptive_film = {film_squares, 6, 2.5};
+const struct adaptive_measure adaptive_film = {error_squares, 6, 2.5};
 
 bool adaptive_init(struct adaptive *a, int width, int height, struct error *err)
 {
-    *a = (struct adaptive){.width = width, .height = height};
+    *a = (struct adaptive){.measure = &adaptive_film,
+                           .width = width,
+                           .height = height};
     a->shares = alloc_array((size_t)width * (size_t)height, sizeof *a->shares);
     return a->shares != NULL ||
            fail(err, "out of memory for adaptive sampling of %dx%d pixels",
@@ -48,6 +47,8 @@ void adaptive_reset(struct adaptive *a)
 /* Numbers of the decision, for each pixel. */
 struct plan {
     const struct adaptive_measure *measure;
+    struct film *film;
+    float exposure;
     int width, height;
     int colour;     /* of the demands; deviations have the other one */
     float *demands; /* numbers to which the shares are in proportion; before,
@@ -153,13 +154,16 @@ static void find_row(void *context, uint32_t row, int worker)
 
 /* Finds the demands of the pixels of the plan's colour. *is_known is false
  * after a cancel, and if a pixel lacks samples. */
-static bool find_demands(struct plan *p, struct film *film, float exposure,
-                         struct pool *pool, const struct cancel *cancel,
-                         bool *is_known, struct error *err)
+static bool find_demands(struct plan *p, struct pool *pool,
+                         const struct cancel *cancel, bool *is_known,
+                         struct error *err)
 {
-    if (!p->measure->squares(film, exposure, 1 - p->colour, pool, cancel,
-                             p->demands, is_known, err))
+    struct film_squares s = {p->film, p->exposure, 1 - p->colour, p->demands,
+                             false};
+
+    if (!p->measure->squares(&s, pool, cancel, err))
         return false;
+    *is_known = s.is_known;
     if (!*is_known)
         return true;
     pool_each(pool, (uint32_t)p->height, sum_row, p);
@@ -253,12 +257,14 @@ static void set_shares(struct adaptive *a, const struct plan *p,
 }
 
 static bool plan_init(struct plan *p, const struct adaptive *a,
-                      const struct adaptive_measure *measure)
+                      struct film *film, float exposure)
 {
     size_t pixels = (size_t)a->width * (size_t)a->height;
 
     *p = (struct plan){
-        .measure = measure,
+        .measure = a->measure,
+        .film = film,
+        .exposure = exposure,
         .width = a->width,
         .height = a->height,
         .demands = alloc_array(pixels, sizeof *p->demands),
@@ -273,9 +279,9 @@ static void plan_free(struct plan *p)
     free(p->sums);
 }
 
-bool adaptive_decide(struct adaptive *a, const struct adaptive_measure *measure,
-                     struct film *film, float exposure, struct pool *pool,
-                     const struct cancel *cancel, struct error *err)
+bool adaptive_decide(struct adaptive *a, struct film *film, float exposure,
+                     struct pool *pool, const struct cancel *cancel,
+                     struct error *err)
 {
     struct histogram *h = NULL;
     struct plan p = {0};
@@ -284,14 +290,13 @@ bool adaptive_decide(struct adaptive *a, const struct adaptive_measure *measure,
     if (a->is_decided)
         return true;
     h = alloc_array(1, sizeof *h);
-    ok = plan_init(&p, a, measure) && h != NULL;
+    ok = plan_init(&p, a, film, exposure) && h != NULL;
     if (!ok)
         fail(err, "out of memory for adaptive sampling of %dx%d pixels",
              a->width, a->height);
     a->is_decided = ok;
     for (p.colour = 0; p.colour < 2 && a->is_decided; p.colour++) {
-        ok =
-            find_demands(&p, film, exposure, pool, cancel, &a->is_decided, err);
+        ok = find_demands(&p, pool, cancel, &a->is_decided, err);
         a->is_decided = a->is_decided && ok;
         if (a->is_decided)
             set_shares(a, &p, h);

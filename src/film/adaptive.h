@@ -28,16 +28,14 @@
 #define GLIM_ADAPTIVE_H
 
 #include "base/thread_pool.h"
-#include "film/film.h"
+#include "film/film_error.h"
 
 /* What the shares lower: the error of the film, or that of another picture of
  * it. */
 struct adaptive_measure {
-    /* Writes the squared relative error of each pixel of one colour, as
-     * film_error_squares(). Fails only without memory. */
-    bool (*squares)(struct film *film, float exposure, int colour,
-                    struct pool *pool, const struct cancel *cancel,
-                    float *squares, bool *is_known, struct error *err);
+    /* Sets the squares as film_error_squares(). Fails only without memory. */
+    bool (*squares)(struct film_squares *s, struct pool *pool,
+                    const struct cancel *cancel, struct error *err);
     int reach;   /* pixels around a pixel, in each direction, whose deviations
                     it takes; ADAPTIVE_REACH_MOST at most */
     double most; /* greatest share over SHARE_ONE, up to SHARE_MOST */
@@ -50,10 +48,13 @@ struct adaptive_measure {
 extern const struct adaptive_measure adaptive_film;
 
 struct adaptive {
-    int width, height; /* of the film */
-    uint16_t *shares;  /* of each pixel: kernels/sample_share.h */
-    bool is_decided;   /* false: the shares are not computed yet */
+    const struct adaptive_measure *measure; /* the user may set another one */
+    int width, height;                      /* of the film */
+    uint16_t *shares; /* of each pixel: kernels/sample_share.h */
+    bool is_decided;  /* false: the shares are not computed yet */
 };
+
+/* Makes it empty, with adaptive_film as its measure. */
 
 bool adaptive_init(struct adaptive *a, int width, int height,
                    struct error *err);
@@ -62,11 +63,11 @@ void adaptive_free(struct adaptive *a);
 /* Forgets the shares. */
 void adaptive_reset(struct adaptive *a);
 
-/* Computes the shares with the least error by a measure, unless they are. The
+/* Computes the shares with the least error by the measure, unless they are. The
  * film has ADAPTIVE_FIRST samples in each pixel. After a cancel, which may be
  * NULL, they are not decided. */
-bool adaptive_decide(struct adaptive *a, const struct adaptive_measure *measure,
-                     struct film *film, float exposure, struct pool *pool,
-                     const struct cancel *cancel, struct error *err);
+bool adaptive_decide(struct adaptive *a, struct film *film, float exposure,
+                     struct pool *pool, const struct cancel *cancel,
+                     struct error *err);
 
 #endif

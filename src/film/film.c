@@ -559,18 +559,18 @@ static f4 finish(const struct showing *s, struct film *film, struct film *draft,
 }
 
 void film_preview_part(struct film *film, struct film *draft,
-                       struct develop how, int x, int y, int count,
+                       struct develop how, struct film_pixels part,
                        struct frame *frame)
 {
     struct showing s = {frame, draft != NULL, develop_factor(how), how.tone};
 
-    while (count > 0) {
-        size_t at = (size_t)y * (size_t)frame->width + (size_t)x;
+    while (part.count > 0) {
+        size_t at = (size_t)part.y * (size_t)frame->width + (size_t)part.x;
         struct run r;
 
-        r.x = x;
-        r.y = y;
-        r.count = count < RUN ? count : RUN;
+        r.x = part.x;
+        r.y = part.y;
+        r.count = part.count < RUN ? part.count : RUN;
         memset(r.shown, 0, (size_t)r.count * sizeof *r.shown);
         memset(r.light, 0, (size_t)r.count * sizeof *r.light);
         add_film(&s, film, false, &r);
@@ -579,8 +579,8 @@ void film_preview_part(struct film *film, struct film *draft,
         for (int i = 0; i < r.count; i++)
             encode(finish(&s, film, draft, &r, i),
                    frame->rgb + 3 * (at + (size_t)i));
-        x += r.count;
-        count -= r.count;
+        part.x += r.count;
+        part.count -= r.count;
     }
 }
 
@@ -588,7 +588,8 @@ void film_preview(struct film *film, struct film *draft, struct develop how,
                   struct frame *frame)
 {
     for (int y = 0; frame_has_row(frame, y); y++)
-        film_preview_part(film, draft, how, 0, y, frame->width, frame);
+        film_preview_part(film, draft, how,
+                          (struct film_pixels){0, y, 1, frame->width}, frame);
 }
 
 /* ---- merging ---- */

@@ -154,9 +154,9 @@ void film_resolve(struct film *film, struct develop how, struct frame *frame);
 void film_preview(struct film *film, struct film *draft, struct develop how,
                   struct frame *frame);
 
-/* The same for `count` pixels of row y from x on. */
+/* The same for pixels of a row of the frame; their stride is 1. */
 void film_preview_part(struct film *film, struct film *draft,
-                       struct develop how, int x, int y, int count,
+                       struct develop how, struct film_pixels part,
                        struct frame *frame);
 
 /* ---- merging ---- */

@@ -118,12 +118,12 @@ bool film_pixel_error(const struct film *f, size_t at, float mean[3],
     return true;
 }
 
-/* Reads pixel (x, y) of the film, unless it has another colour. Returns false
- * if a half of it has no sample. */
+/* Reads the film's pixel at a place of the tile, unless it has another colour.
+ * Returns false if a half of it has no sample. */
 static inline bool read_pixel(struct tile *t, int row, int column,
-                              const struct film *f, int x, int y,
-                              struct counts *counts)
+                              const struct film *f, struct counts *counts)
 {
+    int x = t->x0 + column - HALO, y = t->y0 + row - HALO;
     size_t at = (size_t)y * (size_t)f->width + (size_t)x;
     alignas(16) float lanes[2][4];
     f4 mean, e;
@@ -159,7 +159,7 @@ static void read_row(struct tile *t, struct film *f, int row)
         last = f->width - t->x0 + HALO;
     film_lock_row(f, y);
     for (int i = first; i < last; i++)
-        if (!read_pixel(t, row, i, f, t->x0 + i - HALO, y, &counts))
+        if (!read_pixel(t, row, i, f, &counts))
             t->is_known = false;
     film_unlock_row(f, y);
 }
@@ -495,27 +495,28 @@ static void map_row_of_tiles(void *context, uint32_t row, int worker)
     }
 }
 
-bool film_error_squares(struct film *f, float exposure, int colour,
-                        struct pool *pool, const struct cancel *cancel,
-                        float *squares)
+void film_error_squares(struct film_squares *s, struct pool *pool,
+                        const struct cancel *cancel)
 {
-    struct job j = {.film = f,
-                    .exposure = exposure,
-                    .colour = colour,
+    struct job j = {.film = s->film,
+                    .exposure = s->exposure,
+                    .colour = s->colour,
                     .cancel = cancel,
-                    .map = squares};
+                    .map = s->squares};
 
-    pool_each(pool, (uint32_t)tiles_in(f->height), map_row_of_tiles, &j);
-    return !atomic_load(&j.is_unknown) &&
-           (cancel == NULL || !cancel_requested(cancel));
+    pool_each(pool, (uint32_t)tiles_in(s->film->height), map_row_of_tiles, &j);
+    s->is_known = !atomic_load(&j.is_unknown) &&
+                  (cancel == NULL || !cancel_requested(cancel));
 }
 
 bool film_error_map(struct film *f, float exposure, struct pool *pool,
                     float *map)
 {
+    struct film_squares s = {f, exposure, ALL, map, false};
     size_t width = (size_t)f->width;
 
-    if (!film_error_squares(f, exposure, ALL, pool, NULL, map))
+    film_error_squares(&s, pool, NULL);
+    if (!s.is_known)
         return false;
     for (int y = 0; y < f->height; y++)
         average(map + (size_t)y * width, f->width, 1);

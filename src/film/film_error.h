@@ -61,12 +61,18 @@ bool film_error(struct film *film, float exposure, struct pool *pool,
 bool film_error_map(struct film *film, float exposure, struct pool *pool,
                     float *map);
 
-/* Writes the squared relative error of each pixel of one colour of a chess
- * board: 0 for those with even x + y, or 1. It depends on pixels of that colour
- * only. Pixels of the other one get 0. Returns false if the error is unknown,
- * and after a cancel, which may be NULL. */
-bool film_error_squares(struct film *film, float exposure, int colour,
-                        struct pool *pool, const struct cancel *cancel,
-                        float *squares);
+/* Squared relative errors of the pixels of one colour of a chess board. */
+struct film_squares {
+    struct film *film;
+    float exposure;
+    int colour;     /* 0: pixels with even x + y, or 1 */
+    float *squares; /* of all pixels, the caller's; 0 for the other colour */
+    bool is_known;  /* false: a pixel lacks samples, or a cancel came */
+};
+
+/* Sets the squares, which depend on pixels of the colour only, and is_known.
+ * The pool and the cancel may be NULL. */
+void film_error_squares(struct film_squares *s, struct pool *pool,
+                        const struct cancel *cancel);
 
 #endif

@@ -240,30 +240,41 @@ static bool encode_pfm(const float *rgb, int width, int height,
     return !b->is_cut || out_of_memory(width, height, path, err);
 }
 
-static bool encode_exr(const struct exr_layer *layers, int count, int width,
-                       int height, const struct image_metadata *metadata,
-                       const char *path, struct buffer *b, struct error *err)
+/* A picture of linear floats. */
+struct floats {
+    const float *rgb;
+    int width, height;
+    const struct image_metadata *metadata;
+};
+
+/* Encodes the picture with further layers. */
+static bool encode_exr(const struct floats *f, const struct exr_layer *layers,
+                       int layer_count, const char *path, struct buffer *b,
+                       struct error *err)
 {
-    b->data = image_exr_encode(layers, count, width, height, metadata,
-                               &b->size_bytes);
-    return b->data != NULL || out_of_memory(width, height, path, err);
+    struct exr_layer all[EXR_CHANNELS_MAX] = {{"", "RGB", f->rgb}};
+
+    assert(layer_count < EXR_CHANNELS_MAX);
+    if (layer_count > 0)
+        memcpy(all + 1, layers, sizeof *layers * (size_t)layer_count);
+    b->data = image_exr_encode(all, layer_count + 1, f->width, f->height,
+                               f->metadata, &b->size_bytes);
+    return b->data != NULL || out_of_memory(f->width, f->height, path, err);
 }
 
 /* Encodes floats as HDR, PFM or EXR. Only EXR files have their metadata
  * already. */
-static bool encode_floats(const float *rgb, int width, int height,
-                          const struct image_metadata *metadata,
-                          const char *path, struct buffer *b, struct error *err)
+static bool encode_floats(const struct floats *f, const char *path,
+                          struct buffer *b, struct error *err)
 {
-    const struct exr_layer picture = {"", "RGB", rgb};
     enum image_write_format format = image_write_format_of(path);
 
     if (format == IMAGE_WRITE_PFM)
-        return encode_pfm(rgb, width, height, path, b, err);
+        return encode_pfm(f->rgb, f->width, f->height, path, b, err);
     if (format == IMAGE_WRITE_EXR)
-        return encode_exr(&picture, 1, width, height, metadata, path, b, err);
-    return expect_size(width, height, 3 * sizeof *rgb, path, err) &&
-           encode_hdr(rgb, width, height, path, b, err);
+        return encode_exr(f, NULL, 0, path, b, err);
+    return expect_size(f->width, f->height, 3 * sizeof *f->rgb, path, err) &&
+           encode_hdr(f->rgb, f->width, f->height, path, b, err);
 }
 
 static bool encode_linear(struct film *film,
@@ -271,8 +282,8 @@ static bool encode_linear(struct film *film,
                           const char *path, struct buffer *b, struct error *err)
 {
     float *rgb = linear_of(film, path, err);
-    bool ok = rgb && encode_floats(rgb, film->width, film->height, metadata,
-                                   path, b, err);
+    const struct floats f = {rgb, film->width, film->height, metadata};
+    bool ok = rgb && encode_floats(&f, path, b, err);
 
     free(rgb);
     return ok;
@@ -338,18 +349,12 @@ bool image_write_layers(struct film *film,
                         const struct exr_layer *layers, int layer_count,
                         const char *path, struct error *err)
 {
-    struct exr_layer all[EXR_CHANNELS_MAX];
     struct buffer b = {.data = NULL};
     float *rgb = linear_of(film, path, err);
-    bool ok;
+    const struct floats f = {rgb, film->width, film->height, metadata};
+    bool ok = rgb && encode_exr(&f, layers, layer_count, path, &b, err) &&
+              publish(&b, path, err);
 
-    assert(layer_count < EXR_CHANNELS_MAX);
-    all[0] = (struct exr_layer){"", "RGB", rgb};
-    memcpy(all + 1, layers, sizeof *layers * (size_t)layer_count);
-    ok = rgb &&
-         encode_exr(all, layer_count + 1, film->width, film->height, metadata,
-                    path, &b, err) &&
-         publish(&b, path, err);
     free(b.data);
     free(rgb);
     return ok;
@@ -370,8 +375,8 @@ bool image_write_floats(const float *rgb, int width, int height,
                         const char *path, struct error *err)
 {
     struct buffer b = {.data = NULL};
-    bool ok = encode_floats(rgb, width, height, NULL, path, &b, err) &&
-              publish(&b, path, err);
+    const struct floats f = {rgb, width, height, NULL};
+    bool ok = encode_floats(&f, path, &b, err) && publish(&b, path, err);
 
     free(b.data);
     return ok;

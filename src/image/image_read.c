@@ -96,20 +96,20 @@ bool image_open(struct image_file *f, const char *path, enum image_form form,
     return false;
 }
 
-bool image_open_bytes(struct image_file *f, const char *path, const void *bytes,
-                      size_t size_bytes, enum image_form form,
-                      uint64_t held_bytes, struct error *err)
+bool image_open_bytes(struct image_file *f, const struct file_bytes *from,
+                      enum image_form form, uint64_t held_bytes,
+                      struct error *err)
 {
-    *f = (struct image_file){.path = path,
+    *f = (struct image_file){.path = from->path,
                              .form = form,
-                             .size_bytes = size_bytes,
-                             .memory_bytes = size_bytes};
+                             .size_bytes = from->size_bytes,
+                             .memory_bytes = from->size_bytes};
     if (!expect_memory(f, held_bytes, err))
         return false;
-    f->data = alloc_array(size_bytes + 1, 1);
+    f->data = alloc_array(from->size_bytes + 1, 1);
     if (!f->data)
-        return fail(err, "%s: out of memory for the image", path);
-    memcpy(f->data, bytes, size_bytes);
+        return fail(err, "%s: out of memory for the image", from->path);
+    memcpy(f->data, from->bytes, from->size_bytes);
     if (open_data(f, held_bytes, err))
         return true;
     image_close(f);

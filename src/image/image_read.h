@@ -22,7 +22,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/error.h"
+#include "base/file.h"
 
 /* Limits on each side of an image and on its pixels. */
 #define IMAGE_SIDE_MAX   65536
@@ -81,9 +81,8 @@ struct image {
 bool image_open(struct image_file *file, const char *path, enum image_form form,
                 uint64_t held_bytes, struct error *err);
 
-/* The same for bytes of a file, which are copied; `path` names them. */
-bool image_open_bytes(struct image_file *file, const char *path,
-                      const void *bytes, size_t size_bytes,
+/* The same for bytes of a file, which are copied. */
+bool image_open_bytes(struct image_file *file, const struct file_bytes *from,
                       enum image_form form, uint64_t held_bytes,
                       struct error *err);
 

@@ -354,8 +354,9 @@ static bool paint_filtered(struct view_mode *s, struct film *film,
         atomic_load(&film->samples) < pixels ? FILTER_FAST : FILTER_FULL;
 
     return s->kind == SHOW_LIGHT && surfaces != NULL &&
-           screen_filter_show(&s->filter, film, draft, surfaces, develop_of(s),
-                              form, frame);
+           screen_filter_show(&s->filter,
+                              &(struct screen_films){film, surfaces, draft},
+                              develop_of(s), form, frame);
 }
 
 /* Without a draft or memory for its numbers the film is shown as light. */

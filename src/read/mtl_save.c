@@ -676,28 +676,30 @@ static bool keep_dialect(struct mtl_document *t, enum mtl_dialect dialect)
     return ok;
 }
 
-bool mtl_rewrite(const struct scene *scene, const char *path, const char *text,
-                 size_t size_bytes, const struct mtl_change *changes,
-                 size_t change_count, char **new_text, size_t *new_size_bytes,
+bool mtl_rewrite(const struct scene *scene, const struct file_bytes *old,
+                 struct mtl_changes changes, char **text, size_t *size_bytes,
                  struct error *err)
 {
-    struct writer w = {.scene = scene, .path = path};
+    struct writer w = {.scene = scene, .path = old->path};
+    const struct mtl_change *end = changes.items + changes.count;
     bool ok;
 
-    ok = mtl_document_init(&w.text, text, size_bytes);
+    ok = mtl_document_init(&w.text, old->bytes, old->size_bytes);
     /* new materials first: they copy blocks of the unchanged file */
-    for (size_t i = 0; ok && i < change_count; i++)
-        ok = changes[i].copied_from == NULL || write_change(&w, &changes[i]);
-    for (size_t i = 0; ok && i < change_count; i++)
-        ok = changes[i].copied_from != NULL || write_change(&w, &changes[i]);
-    ok =
-        ok && keep_dialect(&w.text, mtl_dialect_find(text, size_bytes).dialect);
+    for (const struct mtl_change *c = changes.items; ok && c < end; c++)
+        ok = c->copied_from == NULL || write_change(&w, c);
+    for (const struct mtl_change *c = changes.items; ok && c < end; c++)
+        ok = c->copied_from != NULL || write_change(&w, c);
+    ok = ok &&
+         keep_dialect(&w.text,
+                      mtl_dialect_find(old->bytes, old->size_bytes).dialect);
     if (!ok) {
         free(w.text.bytes);
-        return fail(err, "%s: out of memory for the changed materials", path);
+        return fail(err, "%s: out of memory for the changed materials",
+                    old->path);
     }
-    *new_text = w.text.bytes;
-    *new_size_bytes = w.text.size;
+    *text = w.text.bytes;
+    *size_bytes = w.text.size;
     return true;
 }
 
@@ -714,22 +716,22 @@ static bool read_text(const struct scene *scene, const char *path, bool exists,
 }
 
 bool mtl_save(const struct scene *scene, const char *path,
-              const struct mtl_change *changes, size_t change_count,
-              struct file_change *change, struct error *err)
+              struct mtl_changes changes, struct file_change *change,
+              struct error *err)
 {
-    char *text, *new_text;
-    size_t size_bytes, new_size_bytes;
+    char *old, *text;
+    size_t old_bytes, size_bytes;
     bool ok;
 
     change->before = file_identify(path);
-    if (!read_text(scene, path, change->before.exists, &text, &size_bytes, err))
+    if (!read_text(scene, path, change->before.exists, &old, &old_bytes, err))
         return false;
-    ok = mtl_rewrite(scene, path, text, size_bytes, changes, change_count,
-                     &new_text, &new_size_bytes, err);
-    free(text);
+    ok = mtl_rewrite(scene, &(struct file_bytes){path, old, old_bytes}, changes,
+                     &text, &size_bytes, err);
+    free(old);
     if (!ok)
         return false;
-    ok = file_replace(path, new_text, new_size_bytes, change, err);
-    free(new_text);
+    ok = file_replace(path, text, size_bytes, change, err);
+    free(text);
     return ok;
 }

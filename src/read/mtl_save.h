@@ -28,18 +28,22 @@ struct mtl_change {
     const struct material_values *after;
 };
 
-/* Makes the text of the MTL file `path` with the changes. The scene's textures
- * give the file names of added maps. */
-bool mtl_rewrite(const struct scene *scene, const char *path, const char *text,
-                 size_t size_bytes, const struct mtl_change *changes,
-                 size_t change_count, char **new_text, size_t *new_size_bytes,
+struct mtl_changes {
+    const struct mtl_change *items;
+    size_t count;
+};
+
+/* Makes the text of an MTL file with the changes. The scene's textures give the
+ * file names of added maps. */
+bool mtl_rewrite(const struct scene *scene, const struct file_bytes *old,
+                 struct mtl_changes changes, char **text, size_t *size_bytes,
                  struct error *err);
 
 /* Reads the file as it is now, applies the changes and replaces it atomically.
  * *change tells which file was replaced by which; a file that another process
  * has changed in between is not replaced. */
 bool mtl_save(const struct scene *scene, const char *path,
-              const struct mtl_change *changes, size_t change_count,
-              struct file_change *change, struct error *err);
+              struct mtl_changes changes, struct file_change *change,
+              struct error *err);
 
 #endif

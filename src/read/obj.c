@@ -670,8 +670,9 @@ static bool take_run(struct parser *p, const struct obj_block *b,
     if (p->lex.p != run->begin || (p->has_infinite && has_faces) ||
         !obj_run_fits(run, &p->faces))
         return true;
-    if (!obj_run_take(b, run, &p->faces, p->capacities, p->object, p->material,
-                      p->lex.line))
+    if (!obj_run_take(b, run, &p->faces, p->capacities,
+                      (struct obj_run_place){p->object, p->material,
+                                             p->lex.line}))
         return out_of_memory(p);
     p->lex.p = run->end;
     p->lex.line += run->line_count;

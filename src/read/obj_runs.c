@@ -426,7 +426,7 @@ static bool take_polygon(struct face_tris *f, const struct corner *from,
 
 bool obj_run_take(const struct obj_block *b, const struct obj_run *run,
                   struct face_tris *faces, size_t capacities[OBJ_LISTS],
-                  uint32_t object, uint32_t material, uint64_t line)
+                  struct obj_run_place at)
 {
     uint32_t corner = run->first_corner, end = run[1].first_face;
     bool ok = take_vertices(b, run, faces->scene, capacities);
@@ -434,14 +434,14 @@ bool obj_run_take(const struct obj_block *b, const struct obj_run *run,
     if (run->first_face == end)
         return ok;
     if (!run->has_polygons)
-        return ok &&
-               face_tris_add_triangles(faces, b->corners + corner,
-                                       end - run->first_face, object, material);
+        return ok && face_tris_add_triangles(faces, b->corners + corner,
+                                             end - run->first_face, at.object,
+                                             at.material);
     for (uint32_t i = run->first_face; ok && i < end; i++) {
         const struct obj_face *f = &b->faces[i];
 
         ok = take_polygon(faces, b->corners + corner, f->corner_end - corner,
-                          object, material, line + f->line);
+                          at.object, at.material, at.line + f->line);
         corner = f->corner_end;
     }
     return ok;

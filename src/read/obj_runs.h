@@ -76,11 +76,16 @@ bool obj_runs_read(const char *from, const char *end, struct pool *pool,
  * counts. */
 bool obj_run_fits(const struct obj_run *run, const struct face_tris *faces);
 
+/* What the triangles of a run belong to. */
+struct obj_run_place {
+    uint32_t object, material;
+    uint64_t line; /* of the run */
+};
+
 /* Appends the vertices and triangles of a run that fits to the scene of
- * `faces`, whose vertices are finite. `line` is that of the run. Returns false
- * when memory is out. */
+ * `faces`, whose vertices are finite. Returns false when memory is out. */
 bool obj_run_take(const struct obj_block *b, const struct obj_run *run,
                   struct face_tris *faces, size_t capacities[OBJ_LISTS],
-                  uint32_t object, uint32_t material, uint64_t line);
+                  struct obj_run_place at);
 
 #endif

@@ -233,10 +233,10 @@ static bool check_names(const struct view *view, const char *path,
     return ok;
 }
 
-bool view_format(const struct view *view, const char *path,
-                 const char *old_text, size_t old_bytes, char **text,
-                 size_t *size_bytes, struct error *err)
+bool view_format(const struct view *view, const struct file_bytes *old,
+                 char **text, size_t *size_bytes, struct error *err)
 {
+    const char *path = old->path;
     struct warnings ignored = {0};
     struct view scratch;
     struct writer w = {.view = view,
@@ -255,7 +255,7 @@ bool view_format(const struct view *view, const char *path,
         sky = view_name(view->lighting.sky_path, path);
     w.sky = sky;
     view_init(&scratch);
-    write_over(&w, old_text, old_bytes);
+    write_over(&w, old->bytes, old->size_bytes);
     view_free(&scratch);
     warnings_free(&ignored);
     free(sky);
@@ -283,21 +283,21 @@ static bool read_old(const char *path, char **text, size_t *size_bytes,
 }
 
 /* Writes the old text to the file with a ~ if the new text differs. */
-static bool keep_old(const char *path, const char *old_text, size_t old_bytes,
-                     const char *text, size_t size_bytes,
-                     struct file_change *change, struct error *err)
+static bool keep_old(const struct file_bytes *old, const char *text,
+                     size_t size_bytes, struct file_change *change,
+                     struct error *err)
 {
     char *name;
 
     change->is_kept =
-        change->before.exists &&
-        (old_bytes != size_bytes || memcmp(old_text, text, size_bytes) != 0);
+        change->before.exists && (old->size_bytes != size_bytes ||
+                                  memcmp(old->bytes, text, size_bytes) != 0);
     if (!change->is_kept)
         return true;
-    name = format_text("%s~", path);
+    name = format_text("%s~", old->path);
     if (!name)
-        return fail(err, "%s: out of memory", path);
-    bool ok = file_write(name, old_text, old_bytes, false, NULL, err);
+        return fail(err, "%s: out of memory", old->path);
+    bool ok = file_write(name, old->bytes, old->size_bytes, false, NULL, err);
     free(name);
     return ok;
 }
@@ -305,17 +305,18 @@ static bool keep_old(const char *path, const char *old_text, size_t old_bytes,
 bool view_write(const struct view *view, const char *path,
                 struct file_change *change, struct error *err)
 {
+    struct file_bytes old = {.path = path};
     char *old_text, *text;
-    size_t old_bytes, size_bytes;
+    size_t size_bytes;
     bool ok;
 
     change->before = file_identify(path);
-    if (!read_old(path, &old_text, &old_bytes, err))
+    if (!read_old(path, &old_text, &old.size_bytes, err))
         return false;
-    ok = view_format(view, path, old_text, old_bytes, &text, &size_bytes, err);
+    old.bytes = old_text;
+    ok = view_format(view, &old, &text, &size_bytes, err);
     if (ok) {
-        ok = keep_old(path, old_text, old_bytes, text, size_bytes, change,
-                      err) &&
+        ok = keep_old(&old, text, size_bytes, change, err) &&
              file_replace(path, text, size_bytes, change, err);
         free(text);
     }

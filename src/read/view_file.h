@@ -28,9 +28,8 @@ bool view_read(struct view *view, const char *path, struct warnings *report,
 bool view_write(const struct view *view, const char *path,
                 struct file_change *change, struct error *err);
 
-/* Makes the text with which view_write() replaces the old text, for free(). */
-bool view_format(const struct view *view, const char *path,
-                 const char *old_text, size_t old_bytes, char **text,
-                 size_t *size_bytes, struct error *err);
+/* Makes the text with which view_write() replaces the old one, for free(). */
+bool view_format(const struct view *view, const struct file_bytes *old,
+                 char **text, size_t *size_bytes, struct error *err);
 
 #endif

@@ -72,6 +72,16 @@ static inline uint64_t pass_mean(const struct pass *pass)
                : pass->samples;
 }
 
+/* A picture that a backend renders. Its film has the corner (x0, y0) in the
+ * whole picture; it is empty or comes from a file: pixels without samples have
+ * sums of 0. `world` is lent from the host. */
+struct backend_picture {
+    const struct host_world *host;
+    const struct world *world;
+    struct film *film;
+    int x0, y0;
+};
+
 struct backend {
     const char *name;   /* "cpu", "opencl" */
     const char *device; /* name of the device and */
@@ -97,13 +107,10 @@ struct backend {
      * another backend takes over. */
     void (*unload)(struct backend *b);
 
-    /* Begins a new picture, whose film has the corner (x0, y0) in the whole
-     * picture. The film is empty or comes from a file: pixels without samples
-     * have sums of 0. The world may differ from that of load() in
+    /* Begins a new picture, whose world may differ from that of load() in
      * everything except its shape. Host, arrays and film must live until the
      * last pass(). */
-    bool (*begin)(struct backend *b, const struct host_world *host,
-                  const struct world *world, struct film *film, int x0, int y0,
+    bool (*begin)(struct backend *b, const struct backend_picture *picture,
                   struct error *err);
 
     /* Renders into the film of begin(). All samples are in the film at the

@@ -179,19 +179,18 @@ static void cpu_unload(struct backend *base)
     base->tree_bytes = 0;
 }
 
-static bool cpu_begin(struct backend *base, const struct host_world *host,
-                      const struct world *world, struct film *film, int x0,
-                      int y0, struct error *err)
+static bool cpu_begin(struct backend *base, const struct backend_picture *p,
+                      struct error *err)
 {
     struct backend_cpu *b = (struct backend_cpu *)base;
 
     (void)err;
-    b->kernel = cpu_kernel_fit(b->full_kernel, world->settings.features);
-    b->world.world = *world;
-    b->world.tree = world_tree(host);
-    b->film = film;
-    b->x0 = x0;
-    b->y0 = y0;
+    b->kernel = cpu_kernel_fit(b->full_kernel, p->world->settings.features);
+    b->world.world = *p->world;
+    b->world.tree = world_tree(p->host);
+    b->film = p->film;
+    b->x0 = p->x0;
+    b->y0 = p->y0;
     return true;
 }
 

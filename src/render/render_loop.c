@@ -283,7 +283,9 @@ static enum pass_result begin(struct render *r, const struct world *world,
     if (r->begun_film == film)
         return PASS_DONE;
     r->begun_film = NULL;
-    if (!r->backend->begin(r->backend, r->job.host, world, film, x0, y0,
+    if (!r->backend->begin(r->backend,
+                           &(struct backend_picture){r->job.host, world, film,
+                                                     x0, y0},
                            &r->error))
         return PASS_FAILED;
     r->begun_film = film;
@@ -432,12 +434,12 @@ static enum pass_result decide_shares(struct render *r)
 {
     struct adaptive *a = &r->films.adaptive;
     struct film *film = &r->films.film;
-    const struct adaptive_measure *measure;
 
     if (!pass_plan_has_shares(r->spp_done, is_adaptive(r)))
         return PASS_DONE;
-    measure = film_filter_applies(film) ? &adaptive_filtered : &adaptive_film;
-    if (!adaptive_decide(a, measure, film, r->job.exposure, r->backend->pool,
+    a->measure =
+        film_filter_applies(film) ? &adaptive_filtered : &adaptive_film;
+    if (!adaptive_decide(a, film, r->job.exposure, r->backend->pool,
                          cancel_between(r), &r->error))
         return PASS_FAILED;
     if (!a->is_decided) {

@@ -28,8 +28,8 @@ static bool take_view(struct autosave_file *k, const struct session *s,
     bool ok;
 
     session_view_to_save(s, &view);
-    ok = view_format(&view, path, "", 0, &k->parts[AUTOSAVE_VIEW],
-                     &k->sizes[AUTOSAVE_VIEW], err);
+    ok = view_format(&view, &(struct file_bytes){path, "", 0},
+                     &k->parts[AUTOSAVE_VIEW], &k->sizes[AUTOSAVE_VIEW], err);
     view_free(&view);
     return ok;
 }
@@ -95,7 +95,9 @@ static bool take_materials(struct autosave_file *k, const struct session *s,
     }
     k->parts[AUTOSAVE_MATERIALS] = list;
     k->sizes[AUTOSAVE_MATERIALS] = strlen(list);
-    ok = mtl_rewrite(&s->engine.scene, path, head, strlen(head), changes, count,
+    ok = mtl_rewrite(&s->engine.scene,
+                     &(struct file_bytes){path, head, strlen(head)},
+                     (struct mtl_changes){changes, count},
                      &k->parts[AUTOSAVE_MTL], &k->sizes[AUTOSAVE_MTL], err);
     free(names);
     free(maps);

@@ -51,9 +51,9 @@ bool options_adaptive(const struct options *o)
 struct engine_options options_engine(const struct options *o)
 {
     return (struct engine_options){
-        .scene_path = o->scene_path,
         .view_path = o->view_path,
-        .scene = {.up = o->up,
+        .scene = {.path = o->scene_path,
+                  .up = o->up,
                   .thread_count = options_threads(o),
                   .camera = o->camera,
                   .choice = o->choice,

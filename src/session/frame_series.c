@@ -116,7 +116,6 @@ static bool find_output(struct frame_series *f, struct error *err)
 {
     struct session *s = f->session;
     const char *path = f->given->output_path;
-    bool is_missing;
     char *first;
 
     if (path == NULL && f->given->text_cols == 0)
@@ -126,9 +125,9 @@ static bool find_output(struct frame_series *f, struct error *err)
     if (!session_check_output(s, "-o", path, err) || !file_check(path, err))
         return false;
     if (video_pipe_open(&f->video, path, s->engine.crop.width,
-                        s->engine.crop.height, f->given->fps, &is_missing, err))
+                        s->engine.crop.height, f->given->fps, err))
         return true;
-    if (!is_missing)
+    if (!f->video.is_missing)
         return false;
     f->default_path = path_of_pictures(path);
     first = xchecked(frame_name(f->default_path, f->first));

@@ -34,8 +34,7 @@ void save_picture(struct live_render *control, const char *ending)
 {
     struct render_progress now =
         render_progress(control->session->engine.render);
-    struct image_metadata metadata =
-        engine_metadata(&control->session->engine, false);
+    struct film *film = render_film(control->session->engine.render);
     struct error err;
     char *stem;
 
@@ -45,14 +44,14 @@ void save_picture(struct live_render *control, const char *ending)
     }
     stem = scene_name(control);
     if (save_thread_begin(&control->saver,
-                          render_film(control->session->engine.render),
-                          session_develop(control->session), &metadata, stem,
-                          ending, &err)) {
+                          &(struct picture_to_save){
+                              film, session_develop(control->session),
+                              engine_metadata(&control->session->engine, false),
+                              stem, ending},
+                          &err)) {
         control->saving_samples = now.samples;
         snprintf(control->saving_what, sizeof control->saving_what,
-                 "%dx%d, %" PRIu64 " spp",
-                 render_film(control->session->engine.render)->width,
-                 render_film(control->session->engine.render)->height,
+                 "%dx%d, %" PRIu64 " spp", film->width, film->height,
                  now.spp_done);
         live_render_say_long(control, "saving ...");
     } else {

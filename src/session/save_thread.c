@@ -20,33 +20,29 @@ static void save(void *context)
     bool ok;
 
     stop_hold();
-    ok = film_copy(&copy, s->film, &s->error);
+    ok = film_copy(&copy, s->picture.film, &s->error);
     background_has_copied(&s->copying);
     if (ok)
-        s->name = image_write_numbered(&copy, s->how, &s->metadata, s->stem,
-                                       s->ending, &s->error);
+        s->name =
+            image_write_numbered(&copy, s->picture.how, &s->picture.metadata,
+                                 s->stem, s->picture.ending, &s->error);
     film_free(&copy);
     stop_release();
 }
 
-bool save_thread_begin(struct save_thread *s, struct film *film,
-                       struct develop how,
-                       const struct image_metadata *metadata, const char *stem,
-                       const char *ending, struct error *err)
+bool save_thread_begin(struct save_thread *s, const struct picture_to_save *p,
+                       struct error *err)
 {
     char *what;
     bool ok;
 
     if (s->copying.is_busy)
         return fail(err, "%s.%s: the previous picture is still being saved",
-                    stem, ending);
-    s->film = film;
-    s->how = how;
-    s->metadata = *metadata;
-    s->stem = xstrdup(stem);
-    s->ending = ending;
+                    p->stem, p->ending);
+    s->picture = *p;
+    s->picture.stem = s->stem = xstrdup(p->stem);
     s->name = NULL;
-    what = xformat("%s.%s", stem, ending);
+    what = xformat("%s.%s", p->stem, p->ending);
     ok = background_begin(&s->copying, save, s, what, err);
     free(what);
     if (!ok)

@@ -17,14 +17,20 @@
 #include "film/film.h"
 #include "image/image_metadata.h"
 
-struct save_thread {
-    struct background copying;
-    /* set before the thread starts */
+/* A picture to be saved as stem.ending or the next free name. */
+struct picture_to_save {
     struct film *film;
     struct develop how;
     struct image_metadata metadata;
-    char *stem;
-    const char *ending;
+    const char *stem;
+    const char *ending; /* "png" or another one of image_write.h */
+};
+
+struct save_thread {
+    struct background copying;
+    /* set before the thread starts */
+    struct picture_to_save picture;
+    char *stem; /* of the picture, owned */
     /* owned by the thread until save_thread_finish() joins it */
     char *name;
     struct error error;
@@ -32,13 +38,10 @@ struct save_thread {
 
 bool save_thread_init(struct save_thread *s, struct error *err);
 
-/* Starts to save as STEM.ENDING or the next free name. ENDING is "png" or
- * another one of image_write.h. Returns false if another picture is being saved
- * or no thread can start. */
-bool save_thread_begin(struct save_thread *s, struct film *film,
-                       struct develop how,
-                       const struct image_metadata *metadata, const char *stem,
-                       const char *ending, struct error *err);
+/* Starts to save. The film lives until it is copied. Returns false if another
+ * picture is being saved or no thread can start. */
+bool save_thread_begin(struct save_thread *s, const struct picture_to_save *p,
+                       struct error *err);
 
 /* Blocks until the picture is written. Returns its name, for free(), or NULL
  * after a failure. */

@@ -80,7 +80,8 @@ static bool save_file(struct session *s, uint32_t file,
     size_t count = collect(s, file, changes, materials);
     struct file_change change;
     bool ok = count == 0 ||
-              mtl_save(&s->engine.scene, path, changes, count, &change, err);
+              mtl_save(&s->engine.scene, path,
+                       (struct mtl_changes){changes, count}, &change, err);
 
     if (ok && count > 0) {
         file_watch_replaced(watch, path, &change);

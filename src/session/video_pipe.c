@@ -137,15 +137,13 @@ static void end_now(void)
 /* ---- the pipe ---- */
 
 bool video_pipe_open(struct video_pipe *v, const char *path, int width,
-                     int height, double fps, bool *is_missing,
-                     struct error *err)
+                     int height, double fps, struct error *err)
 {
     char size[32], rate[32];
     int ends[2], reason;
     char *file;
 
     *v = (struct video_pipe){.path = path, .before = file_identify(path)};
-    *is_missing = false;
     if (pipe2(ends, O_CLOEXEC) != 0)
         return fail(err, "%s: cannot make a pipe: %s", path, strerror(errno));
     snprintf(size, sizeof size, "%dx%d", width, height);
@@ -164,7 +162,7 @@ bool video_pipe_open(struct video_pipe *v, const char *path, int width,
     }
     close(ends[1]);
     v->process = 0;
-    *is_missing = reason == ENOENT;
+    v->is_missing = reason == ENOENT;
     return fail(err, "%s: cannot start ffmpeg: %s", path, strerror(reason));
 }
 

@@ -20,16 +20,15 @@ struct video_pipe {
     pid_t process; /* 0: none */
     int fd;
     struct file_identity before; /* the file of that name at the start */
+    bool is_missing;             /* after a failed open: there is no ffmpeg */
 };
 
 /* Returns true if the name ends like that of a video: .mp4, .webm or .webp. */
 bool video_pipe_is_name(const char *path);
 
-/* Starts ffmpeg, which replaces the file. *is_missing tells whether there is
- * no ffmpeg. */
+/* Starts ffmpeg, which replaces the file. */
 bool video_pipe_open(struct video_pipe *v, const char *path, int width,
-                     int height, double fps, bool *is_missing,
-                     struct error *err);
+                     int height, double fps, struct error *err);
 
 /* Adds a picture of the video's size. Blocks until ffmpeg has read it. */
 bool video_pipe_write(struct video_pipe *v, const struct frame *frame,

@@ -241,11 +241,10 @@ int ansi_diff_uncovered(const struct ansi_diff_draw *how, int col, int row)
     return col;
 }
 
-/* Writes the cells that differ in columns [begin, end) of a row until the
- * buffer has `limit` bytes. Returns the column where it stopped, or `end`. */
+/* Writes the cells that differ in columns [begin, end) of a row within the
+ * budget. Returns the column where it stopped, or `end`. */
 static int put_row(struct ansi_diff *a, const struct cells *cells, int row,
-                   int begin, int end, size_t limit,
-                   const struct ansi_diff_draw *how)
+                   int begin, int end, const struct ansi_diff_draw *how)
 {
     size_t first = (size_t)row * (size_t)a->cols;
     int step = cells->palette == PALETTE_24BIT ? how->step : 0;
@@ -258,7 +257,7 @@ static int put_row(struct ansi_diff *a, const struct cells *cells, int row,
 
         if (may_stay(shown, cell, cells->glyphs, step))
             continue;
-        if (a->length >= limit)
+        if (a->length - a->begun >= how->budget_bytes)
             return col;
         put_jump(a, how->row + row, how->col + col,
                  from < 0 ? -1 : how->col + from);
@@ -280,13 +279,11 @@ static bool stop_at(struct ansi_diff *a, int row, int col)
 bool ansi_diff_picture(struct ansi_diff *a, struct cells *cells,
                        const struct ansi_diff_draw *how)
 {
-    size_t limit = how->budget_bytes > SIZE_MAX - a->length
-                       ? SIZE_MAX
-                       : a->length + how->budget_bytes;
     int start_row = a->next_row;
     int start_col = a->next_col;
 
     assert(cells->cols == a->cols && cells->rows == a->rows);
+    a->begun = a->length;
     /* colour numbers and glyphs have another meaning now */
     if (cells->palette != a->palette || cells->glyphs != a->glyphs)
         ansi_diff_invalidate_all(a);
@@ -302,7 +299,7 @@ bool ansi_diff_picture(struct ansi_diff *a, struct cells *cells,
         if (i > 0 && cells->frame && frame_is_cancelled(cells->frame))
             return stop_at(a, row, begin);
         cells_row(cells, row);
-        stop = put_row(a, cells, row, begin, end, limit, how);
+        stop = put_row(a, cells, row, begin, end, how);
         if (stop < end)
             return stop_at(a, row, stop);
     }

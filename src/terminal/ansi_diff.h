@@ -34,6 +34,7 @@ struct ansi_diff {
     int next_row, next_col; /* start of the next frame */
     char *bytes;            /* output to be written */
     size_t length, capacity;
+    size_t begun;    /* length at the start of the picture */
     uint32_t fg, bg; /* colours that are set at the end of `bytes` */
 };
 

@@ -160,10 +160,11 @@ static void open_image(const struct scene *scene, struct reading *r,
 {
     for (size_t i = 0; i < scene->image_count; i++)
         if (strcmp(scene->images[i].name, r->path) == 0) {
-            r->is_open =
-                image_open_bytes(&r->file, r->path, scene->images[i].bytes,
-                                 scene->images[i].size_bytes, IMAGE_8BIT,
-                                 held_bytes, &r->error);
+            r->is_open = image_open_bytes(
+                &r->file,
+                &(struct file_bytes){r->path, scene->images[i].bytes,
+                                     scene->images[i].size_bytes},
+                IMAGE_8BIT, held_bytes, &r->error);
             return;
         }
     r->is_open =

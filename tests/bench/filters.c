@@ -39,10 +39,12 @@ static double time_frame(struct session *s, struct screen_filter *filter,
                          render_draft(s->engine.render), develop_linear(0),
                          frame);
         else
-            screen_filter_show(filter, render_film(s->engine.render),
-                               render_draft(s->engine.render),
-                               render_surfaces(s->engine.render),
-                               develop_linear(0), form, frame);
+            screen_filter_show(
+                filter,
+                &(struct screen_films){render_film(s->engine.render),
+                                       render_surfaces(s->engine.render),
+                                       render_draft(s->engine.render)},
+                develop_linear(0), form, frame);
         time = used_ms() - begin;
         least = time < least ? time : least;
     }

@@ -299,7 +299,7 @@ static void judge(const char *name, const struct series *of)
 
 static void open_scene(struct series *of, const char *path)
 {
-    const struct scene_options how = {.thread_count = 2};
+    const struct scene_options how = {.path = path, .thread_count = 2};
     struct warnings report = {0};
     char *view_path = NULL;
     struct error err;
@@ -307,8 +307,7 @@ static void open_scene(struct series *of, const char *path)
     view_init(&of->view);
     stop_if(!view_find(&of->view, path, NULL, &view_path, &report, &err), &err);
     view_set_size(&of->view, WIDTH, HEIGHT);
-    stop_if(!scene_open(&of->scene, &of->host, &of->view, path, &how, &report,
-                        &err),
+    stop_if(!scene_open(&of->scene, &of->host, &of->view, &how, &report, &err),
             &err);
     stop_if(!world_guide(&of->host, &of->scene, &of->view, &err), &err);
     warnings_free(&report);

@@ -243,7 +243,9 @@ static bool land(uint64_t *seed, float size, struct place *x)
     aim = v3_add(v3_scale(x->p[0], 1 - u - v),
                  v3_add(v3_scale(x->p[1], u), v3_scale(x->p[2], v)));
     r.d = v3_unit(v3_sub(aim, r.o));
-    if (!triangle_hit(r, shear_of(r), x->p[0], x->p[1], x->p[2], FLOAT_MAX, &h))
+    if (!triangle_hit(r, shear_of(r),
+                      (struct leaf_tri){x->p[0], x->p[1], x->p[2], NO_INDEX},
+                      FLOAT_MAX, &h))
         return false;
     x->at = hit_point_inset(h, x->p[0], x->p[1], x->p[2], &x->error);
     return true;
@@ -273,8 +275,9 @@ static void leave_faces(void *context, uint32_t item, int worker)
         r.o = offset_ray_origin(x.at, x.error,
                                 v3_dot(r.d, x.ng) > 0 ? x.ng : v3_neg(x.ng));
         shot++;
-        bad +=
-            triangle_hit(r, shear_of(r), x.p[0], x.p[1], x.p[2], FLOAT_MAX, &h);
+        bad += triangle_hit(r, shear_of(r),
+                            (struct leaf_tri){x.p[0], x.p[1], x.p[2], NO_INDEX},
+                            FLOAT_MAX, &h);
     }
     atomic_fetch_add(&s->shot, shot);
     atomic_fetch_add(&s->bad, bad);
@@ -328,7 +331,9 @@ static void hit_needles(void *context, uint32_t item, int worker)
         if (i % 3 == 0)
             r.o = v3_add(v3_add(a, v3_sub(a, b)), random_point(&seed, width));
         r.d = v3_unit(v3_sub(at, r.o));
-        if (!triangle_hit(r, shear_of(r), t[0], t[1], t[2], FLOAT_MAX, &h))
+        if (!triangle_hit(r, shear_of(r),
+                          (struct leaf_tri){t[0], t[1], t[2], NO_INDEX},
+                          FLOAT_MAX, &h))
             continue;
         shot++;
         bad += outside(v3_add(r.o, v3_scale(r.d, h.t)), t) > 1e-4;
@@ -369,7 +374,9 @@ static void cross_gaps(void *context, uint32_t item, int worker)
             v3_length(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0]))) < 0.1f)
             continue;
         r.d = v3_unit(v3_sub(middle, r.o));
-        if (!triangle_hit(r, shear_of(r), p[0], p[1], p[2], FLOAT_MAX, &h))
+        if (!triangle_hit(r, shear_of(r),
+                          (struct leaf_tri){p[0], p[1], p[2], NO_INDEX},
+                          FLOAT_MAX, &h))
             continue;
         at = hit_point_inset(h, p[0], p[1], p[2], &error);
         r.o = offset_ray_origin(at, error, ng);
@@ -378,9 +385,11 @@ static void cross_gaps(void *context, uint32_t item, int worker)
             continue;
         lift = v3_scale(ng, 1e-5f);
         shot++;
-        bad += !triangle_hit(r, shear_of(r), v3_add(p[0], lift),
-                             v3_add(p[1], lift), v3_add(p[2], lift), FLOAT_MAX,
-                             &h);
+        bad += !triangle_hit(r, shear_of(r),
+                             (struct leaf_tri){v3_add(p[0], lift),
+                                               v3_add(p[1], lift),
+                                               v3_add(p[2], lift), NO_INDEX},
+                             FLOAT_MAX, &h);
     }
     atomic_fetch_add(&s->shot, shot);
     atomic_fetch_add(&s->bad, bad);

@@ -24,9 +24,12 @@ static inline bool brute_force(const struct world *w, struct ray r,
     for (uint32_t i = 0; i < w->settings.tri_count; i++) {
         struct hit h;
 
-        if (!triangle_hit(r, s, w->positions[w->tris[i].v[0]],
-                          w->positions[w->tris[i].v[1]],
-                          w->positions[w->tris[i].v[2]], best->t, &h) ||
+        if (!triangle_hit(r, s,
+                          (struct leaf_tri){w->positions[w->tris[i].v[0]],
+                                            w->positions[w->tris[i].v[1]],
+                                            w->positions[w->tris[i].v[2]],
+                                            NO_INDEX},
+                          best->t, &h) ||
             h.t == best->t)
             continue;
         h.tri = i;

@@ -24,7 +24,9 @@ struct room {
 
 static inline void room_open(struct room *r, const char *path)
 {
-    struct scene_options how = {.up = SCENE_UP_OF_FILE, .thread_count = 1};
+    struct scene_options how = {.path = path,
+                                .up = SCENE_UP_OF_FILE,
+                                .thread_count = 1};
     struct warnings report = {0};
     struct world world;
     struct error err;
@@ -33,8 +35,8 @@ static inline void room_open(struct room *r, const char *path)
     *r = (struct room){.surfaces = {&r->scene, &r->host}};
     view_init(&r->view);
     check_or_say(view_find(&r->view, path, NULL, &view_path, &report, &err) &&
-                     scene_open(&r->scene, &r->host, &r->view, path, &how,
-                                &report, &err),
+                     scene_open(&r->scene, &r->host, &r->view, &how, &report,
+                                &err),
                  err.text);
     world = world_arrays(&r->host, &r->scene);
     check_or_say(world_ensure_tree(&r->host, &world, NULL, &err), err.text);

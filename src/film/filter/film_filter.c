@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "film/film_error.h"
 #include "film/filter/filter.h"
 
 /* ---- features ---- */
@@ -315,16 +314,16 @@ static void estimate_row(void *context, uint32_t item, int worker)
     film_unlock_row(f, y);
 }
 
-bool film_filter_squares(struct film *f, float exposure, int colour,
-                         struct pool *pool, const struct cancel *cancel,
-                         float *squares, bool *is_known, struct error *err)
+bool film_filter_squares(struct film_squares *s, struct pool *pool,
+                         const struct cancel *cancel, struct error *err)
 {
+    struct film *f = s->film;
     size_t floats = 3 * (size_t)(f->width / 2) * (size_t)f->height;
-    struct estimate e = {.source = {f, film_features_far(f, 1), colour},
+    struct estimate e = {.source = {f, film_features_far(f, 1), s->colour},
                          .rgb = alloc_array(floats, sizeof *e.rgb),
                          .variance = alloc_array(floats, sizeof *e.variance),
-                         .squares = squares,
-                         .factor = develop_factor(develop_linear(exposure))};
+                         .squares = s->squares,
+                         .factor = develop_factor(develop_linear(s->exposure))};
     const struct filter_source source = {&e.source, 2, give_features,
                                          give_light, cancel};
     struct filter filter;
@@ -337,7 +336,7 @@ bool film_filter_squares(struct film *f, float exposure, int colour,
         filter_run(&filter, &source, FILTER_FULL, pool, e.rgb, e.variance);
         filter_free(&filter);
         pool_each(pool, (uint32_t)f->height, estimate_row, &e);
-        *is_known = cancel == NULL || !cancel_requested(cancel);
+        s->is_known = cancel == NULL || !cancel_requested(cancel);
     }
     free(e.rgb);
     free(e.variance);

@@ -16,7 +16,7 @@
 #define GLIM_FILM_FILTER_H
 
 #include "base/thread_pool.h"
-#include "film/film.h"
+#include "film/film_error.h"
 #include "film/filter/filter.h"
 
 /* ---- features ---- */
@@ -42,15 +42,13 @@ void film_features(struct film *film, float far, int y,
  * not. */
 bool film_filter_applies(struct film *film);
 
-/* Writes the squared relative error that noise leaves in each pixel of one
- * colour of a chess board after the filter, as film_error_squares() does before
- * it: only pixels of that colour are filtered, as a picture of half the width.
- * So the numbers are too high by a factor, which is about the same for all. The
- * film can be filtered, and has two pixels in a row. *is_known is false after a
- * cancel, which may be NULL. */
-bool film_filter_squares(struct film *film, float exposure, int colour,
-                         struct pool *pool, const struct cancel *cancel,
-                         float *squares, bool *is_known, struct error *err);
+/* Sets the squares that noise leaves after the filter, as film_error_squares()
+ * does before it: only pixels of the colour are filtered, as a picture of half
+ * the width. So the numbers are too high by a factor, which is about the same
+ * for all. The film can be filtered, and has two pixels in a row. The cancel
+ * may be NULL. */
+bool film_filter_squares(struct film_squares *s, struct pool *pool,
+                         const struct cancel *cancel, struct error *err);
 
 /* Adds the filtered picture to an empty film of the same size, as one sample of
  * each pixel. The pool may be NULL. Blocks. */

@@ -93,12 +93,15 @@ VECTORISED static void add_three(const float *restrict from, int width,
         to[x] = from[x] + from[x + 1] + from[x + 2];
 }
 
-VECTORISED static void weight_row(const float *restrict above,
-                                  const float *restrict row,
-                                  const float *restrict below,
+/* Computes the weights of a row from the distances of three rows. */
+VECTORISED static void weight_row(float (*rows)[WIDTH],
                                   const float *restrict features, float tap,
                                   int width, float *restrict weights)
 {
+    const float *restrict above = rows[0];
+    const float *restrict row = rows[1];
+    const float *restrict below = rows[2];
+
     for (int x = 0; x < width; x++)
         weights[x] =
             filter_weight(tap,
@@ -234,8 +237,8 @@ static void weigh_features_part(const struct filter_planes *p,
         add_three(distance, t.width, rows[y + 1]);
     }
     for (int y = 0; y < t.height; y++)
-        weight_row(rows[y], rows[y + 1], rows[y + 2], none, pairs[k].tap,
-                   t.width, p->weights[0][k] + index_of(p, t.x, t.y + y));
+        weight_row(rows + y, none, pairs[k].tap, t.width,
+                   p->weights[0][k] + index_of(p, t.x, t.y + y));
 }
 
 static void weigh_features(const struct filter_planes *p, struct filter_tile at,
@@ -280,39 +283,47 @@ struct tile {
 
 /* ---- weights ---- */
 
+/* Light of a row of a half. */
+struct light_row {
+    const float *r, *g, *b, *variance;
+};
+
 /* Computes the distances of the pixels at x - 1 to x + width and those `away`
  * from them. */
-VECTORISED static void
-pixel_distances(const float *restrict r, const float *restrict g,
-                const float *restrict b, const float *restrict variance,
-                ptrdiff_t away, int width, float *restrict distance)
+VECTORISED static void pixel_distances(const struct light_row *row,
+                                       ptrdiff_t away, int width,
+                                       float *restrict distance)
 {
+    const struct light_row l = *row;
+
     for (int x = -1; x <= width; x++) {
-        float dr = r[x] - r[x + away];
-        float dg = g[x] - g[x + away];
-        float db = b[x] - b[x + away];
+        float dr = l.r[x] - l.r[x + away];
+        float dg = l.g[x] - l.g[x + away];
+        float db = l.b[x] - l.b[x + away];
 
         distance[x + 1] =
-            filter_pixel_distance(dr * dr + dg * dg + db * db, variance[x],
-                                  variance[x + away]);
+            filter_pixel_distance(dr * dr + dg * dg + db * db, l.variance[x],
+                                  l.variance[x + away]);
     }
 }
 
 /* Computes the distances of the pixels at x - 1 to x + width and the opposite
  * ones `away` from them. */
-VECTORISED static void
-opposite_distances(const float *restrict r, const float *restrict g,
-                   const float *restrict b, const float *restrict variance,
-                   ptrdiff_t away, int width, float *restrict distance)
+VECTORISED static void opposite_distances(const struct light_row *row,
+                                          ptrdiff_t away, int width,
+                                          float *restrict distance)
 {
+    const struct light_row l = *row;
+
     for (int x = -1; x <= width; x++) {
-        float dr = r[x + away] + r[x - away] - 2.0f * r[x];
-        float dg = g[x + away] + g[x - away] - 2.0f * g[x];
-        float db = b[x + away] + b[x - away] - 2.0f * b[x];
+        float dr = l.r[x + away] + l.r[x - away] - 2.0f * l.r[x];
+        float dg = l.g[x + away] + l.g[x - away] - 2.0f * l.g[x];
+        float db = l.b[x + away] + l.b[x - away] - 2.0f * l.b[x];
 
         distance[x + 1] =
-            filter_opposite_distance(dr * dr + dg * dg + db * db, variance[x],
-                                     variance[x + away], variance[x - away]);
+            filter_opposite_distance(dr * dr + dg * dg + db * db, l.variance[x],
+                                     l.variance[x + away],
+                                     l.variance[x - away]);
     }
 }
 
@@ -323,14 +334,14 @@ static void row_distances(const struct tile *t, int h, ptrdiff_t away,
 {
     for (int y = -1; y <= t->at.height; y++) {
         ptrdiff_t at = index_of(t->planes, t->at.x, t->at.y + y);
+        const struct light_row row = {t->from->light[h][0] + at,
+                                      t->from->light[h][1] + at,
+                                      t->from->light[h][2] + at,
+                                      t->from->variance[h] + at};
         float distance[WIDTH + 2];
 
         (is_opposite ? opposite_distances
-                     : pixel_distances)(t->from->light[h][0] + at,
-                                        t->from->light[h][1] + at,
-                                        t->from->light[h][2] + at,
-                                        t->from->variance[h] + at, away,
-                                        t->at.width, distance);
+                     : pixel_distances)(&row, away, t->at.width, distance);
         add_three(distance, t->at.width, rows[y + 1]);
     }
 }
@@ -394,10 +405,7 @@ static void weigh_part(const struct tile *t, int k, ptrdiff_t away,
         (is_opposite ? opposite_features
                      : feature_distances)(&row, away, t->at.width, features);
         for (int h = 0; h < 2; h++) {
-            float(*rows)[WIDTH] = distances[h] + y;
-
-            weight_row(rows[0], rows[1], rows[2], features, pairs[k].tap,
-                       t->at.width,
+            weight_row(distances[h] + y, features, pairs[k].tap, t->at.width,
                        (is_opposite ? t->planes->opposite
                                     : t->planes->weights)[h][k] +
                            at);
@@ -435,31 +443,23 @@ static void weigh(const struct filter_planes *p, struct filter_tile at,
 
 /* ---- averages ---- */
 
-/* Computes the weights of both pixels of opposite ones. */
+/* Joins the weights of a row with those of opposite pixels. */
 VECTORISED static void join(const float *restrict opposite,
-                            const float *restrict ahead,
-                            const float *restrict behind, float inverse_tap,
-                            int width, float *restrict joined_ahead,
-                            float *restrict joined_behind)
+                            const float *restrict weights, float inverse_tap,
+                            int width, float *restrict joined)
 {
-    for (int x = 0; x < width; x++) {
-        joined_ahead[x] =
-            filter_joined_weight(opposite[x], ahead[x], inverse_tap);
-        joined_behind[x] =
-            filter_joined_weight(opposite[x], behind[x], inverse_tap);
-    }
+    for (int x = 0; x < width; x++)
+        joined[x] = filter_joined_weight(opposite[x], weights[x], inverse_tap);
 }
 
 /* Joins the weights of a row, from half h, with those of opposite pixels. */
 static void join_taps(const struct tile *t, int h, ptrdiff_t at,
                       float joined[TAPS][WIDTH], struct taps *taps)
 {
-    for (int k = 0; k < PAIRS; k++) {
-        join(t->planes->opposite[h][k] + at, taps->weights[k],
-             taps->weights[PAIRS + k], 1.0f / pairs[k].tap, t->at.width,
-             joined[k], joined[PAIRS + k]);
+    for (int k = 0; k < TAPS; k++) {
+        join(t->planes->opposite[h][k % PAIRS] + at, taps->weights[k],
+             1.0f / pairs[k % PAIRS].tap, t->at.width, joined[k]);
         taps->weights[k] = joined[k];
-        taps->weights[PAIRS + k] = joined[PAIRS + k];
     }
 }
 

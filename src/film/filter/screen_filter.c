@@ -32,7 +32,7 @@
 /* The films of one run. */
 struct films {
     struct screen_filter *filter;
-    struct film *film, *draft, *surfaces;
+    const struct screen_films *shown;
     bool is_empty; /* the film has no samples */
     float far;
 };
@@ -177,27 +177,29 @@ static inline float seen_share(const struct film *draft, size_t at)
 static void give_features(void *context, int y, const struct filter_row *to)
 {
     const struct films *s = context;
+    struct film *surfaces = s->shown->surfaces;
     struct screen_filter *f = s->filter;
     const struct screen_halves *halves = &f->halves;
     size_t first = row_index(f, y);
 
-    screen_halves_row(&f->halves, s->is_empty ? NULL : s->film, s->surfaces, y);
+    screen_halves_row(&f->halves, s->is_empty ? NULL : s->shown->film, surfaces,
+                      y);
     memcpy(f->raw + 3 * first, halves->raw,
            3 * (size_t)f->width * sizeof *f->raw);
     for (int h = 0; h < 2; h++)
         for (int x = 0; x < f->width; x++)
             to->count[h][x] = halves->count[h][x] > 0.0f ? 1.0f : 0.0f;
-    film_features(s->surfaces, s->far, y,
-                  (struct film_columns){0, 1, s->surfaces->width}, to);
-    film_lock_row(s->surfaces, y);
+    film_features(surfaces, s->far, y,
+                  (struct film_columns){0, 1, surfaces->width}, to);
+    film_lock_row(surfaces, y);
     for (int x = 0; x < f->width; x++) {
         size_t at = first + (size_t)x;
 
-        f->seen[at] = seen_share(s->surfaces, at);
+        f->seen[at] = seen_share(surfaces, at);
         if (f->seen[at] > 0.0f)
             to->normal[0][x] += SEEN_NORMAL;
     }
-    film_unlock_row(s->surfaces, y);
+    film_unlock_row(surfaces, y);
 }
 
 /* Gives the row whose features were given last. */
@@ -303,8 +305,8 @@ static void put_raw(const struct target *t, int x, int y, int count)
         t->frame->rgb + 3 * ((size_t)y * (size_t)t->frame->width + (size_t)x);
 
     if (!t->films->is_empty) {
-        film_preview_part(t->films->film, t->films->draft, t->how, x, y, count,
-                          t->frame);
+        film_preview_part(t->films->shown->film, t->films->shown->draft, t->how,
+                          (struct film_pixels){x, y, 1, count}, t->frame);
         return;
     }
     for (int i = x; i < x + count; i++, to += 3)
@@ -376,13 +378,12 @@ static void put_row(const struct target *t, int y)
     }
 }
 
-bool screen_filter_show(struct screen_filter *f, struct film *film,
-                        struct film *draft, struct film *surfaces,
-                        struct develop how, enum filter_form form,
-                        struct frame *frame)
+bool screen_filter_show(struct screen_filter *f,
+                        const struct screen_films *shown, struct develop how,
+                        enum filter_form form, struct frame *frame)
 {
-    struct films context = {
-        f, film, draft, surfaces, atomic_load(&film->samples) == 0, 0.0f};
+    struct film *film = shown->film, *surfaces = shown->surfaces;
+    struct films context = {f, shown, atomic_load(&film->samples) == 0, 0.0f};
     const struct filter_source source = {&context, 1, give_features, give_light,
                                          frame->cancel};
     struct target target = {&context, how, frame};

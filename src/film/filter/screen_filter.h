@@ -53,16 +53,21 @@ struct screen_filter {
 void screen_filter_draft_size(int frame_width, int frame_height, int *width,
                               int *height);
 
-/* Fills a frame as film_preview() does from film and draft, but filtered.
- * `surfaces` is the draft with surfaces, each pixel of which has a sample; its
- * light counts in the filtered picture. `draft` is that or NULL, as for
- * film_preview(). Returns false and leaves the frame as it is without memory,
- * or if `surfaces` has not the size of a draft for the frame, or for the film
- * if the frame enlarges it. Blocks. */
-bool screen_filter_show(struct screen_filter *f, struct film *film,
-                        struct film *draft, struct film *surfaces,
-                        struct develop how, enum filter_form form,
-                        struct frame *frame);
+/* The films of a picture on the screen. */
+struct screen_films {
+    struct film *film;
+    /* the draft with surfaces, each pixel of which has a sample, or NULL; its
+     * light counts in the filtered picture */
+    struct film *surfaces;
+    struct film *draft; /* the same or NULL, as for film_preview() */
+};
+
+/* Fills a frame as film_preview() does, but filtered. Returns false and leaves
+ * the frame as it is without memory, or if `surfaces` has not the size of a
+ * draft for the frame, or for the film if the frame enlarges it. Blocks. */
+bool screen_filter_show(struct screen_filter *f,
+                        const struct screen_films *films, struct develop how,
+                        enum filter_form form, struct frame *frame);
 
 void screen_filter_free(struct screen_filter *f);
 

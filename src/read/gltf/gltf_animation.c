@@ -144,10 +144,14 @@ static void slerp(const float *a, const float *b, double part, double *to)
         to[i] = weight_a * (double)a[i] + sign * weight_b * (double)b[i];
 }
 
-/* Hermite's spline with the tangents of the keys. */
-static void spline(const struct sampler *s, struct span p, const float *a,
-                   const float *b, float *out, float *in, double *to)
+/* Hermite's spline with the tangents of the keys. `buffer` begins with their
+ * values. */
+static void spline(const struct sampler *s, struct span p, float *buffer,
+                   double *to)
 {
+    const float *a = buffer, *b = buffer + s->width;
+    float *out = buffer + 2 * (size_t)s->width;
+    float *in = buffer + 3 * (size_t)s->width;
     double t = p.part, t2 = t * t, t3 = t2 * t;
 
     read_key(s, p.key, 2, out);
@@ -172,7 +176,7 @@ static void sample(const struct sampler *s, double time_s, bool is_rotation,
         for (uint32_t i = 0; i < s->width; i++)
             to[i] = (double)a[i];
     } else if (s->interpolation == CUBICSPLINE) {
-        spline(s, p, a, b, b + s->width, b + 2 * (size_t)s->width, to);
+        spline(s, p, buffer, to);
     } else if (is_rotation) {
         slerp(a, b, p.part, to);
     } else {

@@ -154,30 +154,36 @@ static uint32_t read_u32(const char *p)
            (uint32_t)b[3] << 24;
 }
 
-/* Reads a chunk at *at, if there is one, and moves behind it. */
-static bool read_chunk(const struct gltf_document *d, const char *bytes,
-                       size_t size_bytes, size_t *at, uint32_t *type,
+/* A .glb file, and the place in it. */
+struct container {
+    const char *path, *bytes;
+    size_t size_bytes, at;
+};
+
+/* Reads the chunk at the place, if there is one, and moves behind it. */
+static bool read_chunk(struct container *c, uint32_t *type,
                        struct gltf_bytes *chunk, struct error *err)
 {
-    size_t length, left = size_bytes - *at;
+    size_t length, left = c->size_bytes - c->at;
 
     if (left < CHUNK_HEADER_BYTES)
         return fail(err,
                     "%s: found %zu byte%s at byte %zu, expected a chunk of %d "
                     "bytes or more",
-                    d->path, left, print_plural(left), *at, CHUNK_HEADER_BYTES);
+                    c->path, left, print_plural(left), c->at,
+                    CHUNK_HEADER_BYTES);
     left -= CHUNK_HEADER_BYTES;
-    length = read_u32(bytes + *at);
+    length = read_u32(c->bytes + c->at);
     if (length > left)
         return fail(err,
                     "%s: found a chunk of %zu bytes at byte %zu, expected at "
                     "most %zu",
-                    d->path, length, *at, left);
-    *type = read_u32(bytes + *at + 4);
-    *at += CHUNK_HEADER_BYTES;
-    chunk->bytes = (const unsigned char *)bytes + *at;
+                    c->path, length, c->at, left);
+    *type = read_u32(c->bytes + c->at + 4);
+    c->at += CHUNK_HEADER_BYTES;
+    chunk->bytes = (const unsigned char *)c->bytes + c->at;
     chunk->size_bytes = length;
-    *at += length;
+    c->at += length;
     return true;
 }
 
@@ -186,8 +192,9 @@ static bool read_container(struct gltf_document *d, const char *bytes,
                            size_t size_bytes, struct gltf_bytes *json,
                            struct error *err)
 {
-    size_t at = GLB_HEADER_BYTES;
+    struct container c = {d->path, bytes, size_bytes, GLB_HEADER_BYTES};
     uint32_t type = 0;
+    size_t left;
 
     if (size_bytes < GLB_HEADER_BYTES)
         return fail(err, "%s: found %zu byte%s, expected a .glb file", d->path,
@@ -196,27 +203,28 @@ static bool read_container(struct gltf_document *d, const char *bytes,
         return fail(err, "%s: found glTF %" PRIu32 ".0, expected glTF 2.0",
                     d->path, read_u32(bytes + 4));
     if (read_u32(bytes + 8) < size_bytes)
-        size_bytes = read_u32(bytes + 8);
-    if (size_bytes < GLB_HEADER_BYTES)
-        size_bytes = GLB_HEADER_BYTES;
-    if (!read_chunk(d, bytes, size_bytes, &at, &type, json, err))
+        c.size_bytes = read_u32(bytes + 8);
+    if (c.size_bytes < GLB_HEADER_BYTES)
+        c.size_bytes = GLB_HEADER_BYTES;
+    if (!read_chunk(&c, &type, json, err))
         return false;
     if (type != CHUNK_JSON)
         return fail(err,
                     "%s: found a chunk of type 0x%08" PRIx32
                     " first, expected JSON",
                     d->path, type);
-    while (size_bytes - at >= CHUNK_HEADER_BYTES) {
+    while (c.size_bytes - c.at >= CHUNK_HEADER_BYTES) {
         struct gltf_bytes chunk = {NULL, 0, NULL};
 
-        if (!read_chunk(d, bytes, size_bytes, &at, &type, &chunk, err))
+        if (!read_chunk(&c, &type, &chunk, err))
             return false;
         if (type == CHUNK_BIN && d->chunk.bytes == NULL)
             d->chunk = chunk;
     }
-    return at == size_bytes ||
+    left = c.size_bytes - c.at;
+    return left == 0 ||
            fail(err, "%s: found %zu byte%s at byte %zu, expected a chunk",
-                d->path, size_bytes - at, print_plural(size_bytes - at), at);
+                d->path, left, print_plural(left), c.at);
 }
 
 /* ---- the JSON ---- */

@@ -95,13 +95,18 @@ static bool add_view(struct walk *walk, const void *bytes, size_t size_bytes)
                                  json_object()) == 0;
 }
 
+/* A view with what was unpacked. */
+struct unpacked {
+    const struct draco_attribute *attribute;
+    uint32_t view, count;
+};
+
 /* Appends an accessor of a view, and makes it the one that `object` has under
  * this key. The old one, if any, has its other members. */
 static bool add_accessor(struct walk *walk, const struct gltf_value *object,
-                         const char *key, uint32_t view,
-                         const struct draco_attribute *a, uint32_t count,
-                         struct error *err)
+                         const char *key, struct unpacked u, struct error *err)
 {
+    const struct draco_attribute *a = u.attribute;
     static const char *const types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     const struct gltf_document *d = walk->document;
     json_t *list = json_object_get(d->root, "accessors");
@@ -121,9 +126,9 @@ static bool add_accessor(struct walk *walk, const struct gltf_value *object,
                          "found sparse values of another componentType than "
                          "%" PRIu32 ", which Draco's have",
                          a->component);
-    made = json_pack("{sIsIsIsssbsO*}", "bufferView", (json_int_t)view,
+    made = json_pack("{sIsIsIsssbsO*}", "bufferView", (json_int_t)u.view,
                      "componentType", (json_int_t)a->component, "count",
-                     (json_int_t)count, "type", types[a->component_count - 1],
+                     (json_int_t)u.count, "type", types[a->component_count - 1],
                      "normalized",
                      json_is_true(json_object_get(old.json, "normalized")),
                      "sparse", sparse);
@@ -212,15 +217,19 @@ static bool take_primitive(struct walk *walk, const struct gltf_packed *p,
             continue;
         part =
             gltf_packed_find(&walk->list, r, (uint32_t)json_number_value(id));
-        if (!add_accessor(walk, &p->attributes, name, part->view,
-                          &part->attribute, r->vertex_count, err))
+        if (!add_accessor(walk, &p->attributes, name,
+                          (struct unpacked){&part->attribute, part->view,
+                                            r->vertex_count},
+                          err))
             return false;
     }
     return (json_object_set_new(p->primitive->json, "mode",
                                 json_integer(MODE_TRIANGLES)) == 0 ||
             out_of_memory(&p->extension, err)) &&
-           add_accessor(walk, p->primitive, "indices", r->index_view, &index,
-                        3 * r->tri_count, err);
+           add_accessor(walk, p->primitive, "indices",
+                        (struct unpacked){&index, r->index_view,
+                                          3 * r->tri_count},
+                        err);
 }
 
 /* Requests are answered in the order of the primitives that show them first. */

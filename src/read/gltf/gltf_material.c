@@ -34,11 +34,12 @@ struct reader {
     struct error *err;
 };
 
-static const struct gltf_texture_use of_color = {false, CHANNEL_DEFAULT, 0};
-static const struct gltf_texture_use of_red = {true, CHANNEL_RED, 0};
-static const struct gltf_texture_use of_green = {true, CHANNEL_GREEN, 0};
-static const struct gltf_texture_use of_blue = {true, CHANNEL_BLUE, 0};
-static const struct gltf_texture_use of_alpha = {true, CHANNEL_ALPHA, 0};
+static const struct gltf_texture_use of_color = {NULL, false, CHANNEL_DEFAULT,
+                                                 0};
+static const struct gltf_texture_use of_red = {NULL, true, CHANNEL_RED, 0};
+static const struct gltf_texture_use of_green = {NULL, true, CHANNEL_GREEN, 0};
+static const struct gltf_texture_use of_blue = {NULL, true, CHANNEL_BLUE, 0};
+static const struct gltf_texture_use of_alpha = {NULL, true, CHANNEL_ALPHA, 0};
 
 /* ---- statements ---- */
 
@@ -76,8 +77,9 @@ static bool read_map(struct reader *r, const struct gltf_value *object,
 {
     struct gltf_value info;
 
-    return gltf_texture_read(r->textures, object, key, use,
-                             &r->source.maps[map], &info, r->err);
+    use.key = key;
+    return gltf_texture_read(r->textures, object, use, &r->source.maps[map],
+                             &info, r->err);
 }
 
 static void warn(struct reader *r, const char *kind, const char *what)
@@ -134,11 +136,13 @@ static bool read_metal_and_roughness(struct reader *r)
 static bool read_normals(struct reader *r, const struct gltf_value *v,
                          const char *key, enum mtl_map map)
 {
+    struct gltf_texture_use use = of_alpha;
     struct gltf_value info;
     double scale = 1;
 
-    if (!gltf_texture_read(r->textures, v, key, of_alpha, &r->source.maps[map],
-                           &info, r->err) ||
+    use.key = key;
+    if (!gltf_texture_read(r->textures, v, use, &r->source.maps[map], &info,
+                           r->err) ||
         !read_number(r, &info, "scale", &scale))
         return false;
     *material_values_map_scale(&r->source, map) = fmin(fmax(scale, -1e3), 1e3);

@@ -33,32 +33,37 @@ static bool open_attribute(const struct gltf_value *attributes, const char *key,
            gltf_accessor_open(attributes->document, index, a, err);
 }
 
+/* An attribute, and the numbers of components that it may have. */
+struct attribute {
+    const char *key;
+    uint32_t least, most;
+};
+
 /* Checks the numbers of components and elements. */
 static bool check_attribute(const struct gltf_value *attributes,
-                            const char *key, const struct gltf_accessor *a,
-                            uint32_t least, uint32_t most, uint32_t count,
+                            struct attribute kind,
+                            const struct gltf_accessor *a, uint32_t count,
                             struct error *err)
 {
-    if (a->component_count < least || a->component_count > most)
+    if (a->component_count < kind.least || a->component_count > kind.most)
         return gltf_fail(attributes, err,
                          "found %s of %" PRIu32
                          " components, expected %" PRIu32,
-                         key, a->component_count, most);
+                         kind.key, a->component_count, kind.most);
     return a->count == count ||
            gltf_fail(attributes, err,
                      "found %" PRIu32 " element%s in %s, expected %" PRIu32
                      " as in POSITION",
-                     a->count, print_plural(a->count), key, count);
+                     a->count, print_plural(a->count), kind.key, count);
 }
 
-static bool open_optional(const struct gltf_value *attributes, const char *key,
-                          uint32_t least, uint32_t most, uint32_t count,
+static bool open_optional(const struct gltf_value *attributes,
+                          struct attribute kind, uint32_t count,
                           struct gltf_accessor *a, bool *is_there,
                           struct error *err)
 {
-    return open_attribute(attributes, key, a, is_there, err) &&
-           (!*is_there ||
-            check_attribute(attributes, key, a, least, most, count, err));
+    return open_attribute(attributes, kind.key, a, is_there, err) &&
+           (!*is_there || check_attribute(attributes, kind, a, count, err));
 }
 
 static bool open_joints(const struct gltf_value *attributes,
@@ -70,10 +75,10 @@ static bool open_joints(const struct gltf_value *attributes,
     for (uint32_t i = 0; i < GLTF_JOINT_SETS; i++) {
         bool has_joints, has_weights;
 
-        if (!open_optional(attributes, joints[i], 4, 4, p->vertex_count,
-                           &p->joints[i], &has_joints, err) ||
-            !open_optional(attributes, weights[i], 4, 4, p->vertex_count,
-                           &p->weights[i], &has_weights, err))
+        if (!open_optional(attributes, (struct attribute){joints[i], 4, 4},
+                           p->vertex_count, &p->joints[i], &has_joints, err) ||
+            !open_optional(attributes, (struct attribute){weights[i], 4, 4},
+                           p->vertex_count, &p->weights[i], &has_weights, err))
             return false;
         if (!has_joints || !has_weights)
             break;
@@ -105,12 +110,15 @@ static bool open_targets(const struct gltf_value *value,
             continue;
         t->weight = shape->weights[i];
         if (!gltf_item_object(&list, i, &v, err) ||
-            !open_optional(&v, "POSITION", 3, 3, p->vertex_count, &t->positions,
-                           &t->has_positions, err) ||
-            !open_optional(&v, "NORMAL", 3, 3, p->vertex_count, &t->normals,
-                           &t->has_normals, err) ||
-            !open_optional(&v, "TANGENT", 3, 3, p->vertex_count, &t->tangents,
-                           &t->has_tangents, err))
+            !open_optional(&v, (struct attribute){"POSITION", 3, 3},
+                           p->vertex_count, &t->positions, &t->has_positions,
+                           err) ||
+            !open_optional(&v, (struct attribute){"NORMAL", 3, 3},
+                           p->vertex_count, &t->normals, &t->has_normals,
+                           err) ||
+            !open_optional(&v, (struct attribute){"TANGENT", 3, 3},
+                           p->vertex_count, &t->tangents, &t->has_tangents,
+                           err))
             return false;
         p->target_count++;
     }
@@ -194,17 +202,18 @@ static bool open_attributes(const struct gltf_value *v,
 {
     uint32_t n = p->vertex_count;
 
-    return check_attribute(v, "POSITION", &p->positions, 3, 3, n, err) &&
-           open_optional(v, "NORMAL", 3, 3, n, &p->normals, &p->has_normals,
-                         err) &&
-           open_optional(v, "TANGENT", 4, 4, n, &p->tangents, &p->has_tangents,
-                         err) &&
-           open_optional(v, "TEXCOORD_0", 2, 2, n, &p->uvs[0],
-                         &p->has_uv_set[0], err) &&
-           open_optional(v, "TEXCOORD_1", 2, 2, n, &p->uvs[1],
-                         &p->has_uv_set[1], err) &&
-           open_optional(v, "COLOR_0", 3, 4, n, &p->colors, &p->has_colors,
-                         err) &&
+    return check_attribute(v, (struct attribute){"POSITION", 3, 3},
+                           &p->positions, n, err) &&
+           open_optional(v, (struct attribute){"NORMAL", 3, 3}, n, &p->normals,
+                         &p->has_normals, err) &&
+           open_optional(v, (struct attribute){"TANGENT", 4, 4}, n,
+                         &p->tangents, &p->has_tangents, err) &&
+           open_optional(v, (struct attribute){"TEXCOORD_0", 2, 2}, n,
+                         &p->uvs[0], &p->has_uv_set[0], err) &&
+           open_optional(v, (struct attribute){"TEXCOORD_1", 2, 2}, n,
+                         &p->uvs[1], &p->has_uv_set[1], err) &&
+           open_optional(v, (struct attribute){"COLOR_0", 3, 4}, n, &p->colors,
+                         &p->has_colors, err) &&
            open_joints(v, p, err);
 }
 

@@ -273,9 +273,8 @@ static bool read_entry(struct gltf_textures *t, uint32_t index,
 }
 
 bool gltf_texture_read(struct gltf_textures *t, const struct gltf_value *object,
-                       const char *key, struct gltf_texture_use use,
-                       uint32_t *texture, struct gltf_value *info,
-                       struct error *err)
+                       struct gltf_texture_use use, uint32_t *texture,
+                       struct gltf_value *info, struct error *err)
 {
     struct texture to = texture_default();
     struct texture_origin origin = {.file = NO_INDEX};
@@ -284,7 +283,7 @@ bool gltf_texture_read(struct gltf_textures *t, const struct gltf_value *object,
     uint32_t index;
 
     *texture = NO_INDEX;
-    if (!gltf_object(object, key, info, err))
+    if (!gltf_object(object, use.key, info, err))
         return false;
     if (info->json == NULL)
         return true;

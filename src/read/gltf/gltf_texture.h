@@ -36,6 +36,7 @@ struct gltf_textures {
 
 /* What a material reads from a texture. */
 struct gltf_texture_use {
+    const char *key;  /* of the member that names it: "normalTexture" */
     bool is_data;     /* not decoded from sRGB */
     uint32_t channel; /* enum texture_channel, of data */
     uint32_t flags;   /* enum texture_flag */
@@ -49,11 +50,10 @@ bool gltf_textures_begin(struct gltf_textures *textures,
                          struct error *err);
 void gltf_textures_end(struct gltf_textures *textures);
 
-/* Reads the texture that a member of `object` names, such as
- * "normalTexture". *texture becomes NO_INDEX if it is absent or unusable. *info
- * is the member. */
+/* Reads the texture that a member of `object` names. *texture becomes NO_INDEX
+ * if it is absent or unusable. *info is the member. */
 bool gltf_texture_read(struct gltf_textures *textures,
-                       const struct gltf_value *object, const char *key,
+                       const struct gltf_value *object,
                        struct gltf_texture_use use, uint32_t *texture,
                        struct gltf_value *info, struct error *err);
 

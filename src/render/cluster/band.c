@@ -203,12 +203,12 @@ static enum pass_result render_passes(const struct band *b,
 }
 
 enum pass_result band_render(struct band *b, struct backend *backend,
-                             const struct host_world *host,
-                             const struct world *world, int x0, int y0,
+                             const struct backend_picture *whole,
                              uint64_t first_sample, const struct cancel *cancel,
                              struct error *err)
 {
     struct film *f = &b->film;
+    struct backend_picture part = *whole;
     size_t pixels = (size_t)f->width * (size_t)f->height;
     enum pass_result result;
 
@@ -219,7 +219,9 @@ enum pass_result band_render(struct band *b, struct backend *backend,
         f->counts[i] = b->before[i];
         atomic_fetch_add(&f->samples, b->before[i]);
     }
-    if (!backend->begin(backend, host, world, f, x0, y0 + b->range.y, err))
+    part.film = f;
+    part.y0 += b->range.y;
+    if (!backend->begin(backend, &part, err))
         return PASS_FAILED;
     result = render_passes(b, backend, cancel, err);
     for (size_t i = 0; i < pixels; i++) {

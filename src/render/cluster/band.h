@@ -86,11 +86,10 @@ bool band_init(struct band *b, int width, const struct band_range *range,
 void band_take(struct band *b, const struct film *film,
                const struct band_range *range);
 
-/* Renders the band of a film whose corner is (x0, y0) in the picture, and whose
- * pixels begin with sample first_sample. */
+/* Renders the band of a picture, whose own film is not used. Its pixels begin
+ * with sample first_sample. */
 enum pass_result band_render(struct band *b, struct backend *backend,
-                             const struct host_world *host,
-                             const struct world *world, int x0, int y0,
+                             const struct backend_picture *whole,
                              uint64_t first_sample, const struct cancel *cancel,
                              struct error *err);
 

@@ -38,8 +38,8 @@ static void *run(void *argument)
         t->has_work = false;
         w = t->work;
         pthread_mutex_unlock(&t->lock);
-        result = band_render(w.band, w.backend, w.host, w.world, w.x0, w.y0,
-                             w.first_sample, w.cancel, &err);
+        result = band_render(w.band, w.backend, &w.whole, w.first_sample,
+                             w.cancel, &err);
         pthread_mutex_lock(&t->lock);
         t->result = result;
         t->error = err;

@@ -18,9 +18,7 @@ struct band_thread;
 struct band_work {
     struct band *band;
     struct backend *backend;
-    const struct host_world *host;
-    const struct world *world;
-    int x0, y0; /* corner of the whole film in the picture */
+    struct backend_picture whole; /* its film is not used */
     uint64_t first_sample;
     const struct cancel *cancel;
 };

@@ -19,10 +19,8 @@ struct cluster_ranks {
     struct rank_tally *tallies; /* of each rank */
     int waiting_count;          /* bands of this pass without an answer */
     uint32_t epoch;             /* passes so far */
-    const struct host_world *host;
     struct world world;
-    struct film *film;
-    int x0, y0; /* corner of the film in the picture */
+    struct backend_picture picture; /* of that world */
 };
 
 /* Samples of a pass for each rank, at least: its end takes time. */
@@ -91,11 +89,11 @@ static void add_held(struct progress *p)
                                          .first = h->answer->first,
                                          .pass = p->plan.pass};
 
-        if (!band_plan_is_next(p->c->film, &range)) {
+        if (!band_plan_is_next(p->c->picture.film, &range)) {
             link = &h->next;
             continue;
         }
-        if (!band_answer_add(h->answer, h->size, p->c->film, p->err))
+        if (!band_answer_add(h->answer, h->size, p->c->picture.film, p->err))
             p->has_failed = true;
         *link = h->next;
         free(h->answer);
@@ -201,22 +199,20 @@ static void start_local(struct progress *p)
 
     if (!band_plan_next(&p->plan, &range))
         return;
-    if (!band_init(&p->local, c->film->width, &range, c->film->surfaces != NULL,
-                   p->err)) {
+    if (!band_init(&p->local, c->picture.film->width, &range,
+                   c->picture.film->surfaces != NULL, p->err)) {
         p->has_failed = true;
         band_free(&p->local);
         return;
     }
-    band_take(&p->local, c->film, &range);
+    band_take(&p->local, c->picture.film, &range);
     rank_tally_give(&c->tallies[0]);
     band_thread_begin(c->thread,
                       &(struct band_work){.band = &p->local,
                                           .backend = c->local,
-                                          .host = c->host,
-                                          .world = &c->world,
-                                          .x0 = c->x0,
-                                          .y0 = c->y0,
-                                          .first_sample = c->film->first_sample,
+                                          .whole = c->picture,
+                                          .first_sample =
+                                              c->picture.film->first_sample,
                                           .cancel = p->cancel});
 }
 
@@ -226,8 +222,8 @@ static void add_local(struct progress *p)
 {
     struct band *b = &p->local;
 
-    if (band_plan_is_next(p->c->film, &b->range)) {
-        film_merge(p->c->film, b->range.y, &b->film);
+    if (band_plan_is_next(p->c->picture.film, &b->range)) {
+        film_merge(p->c->picture.film, b->range.y, &b->film);
         add_held(p);
     } else {
         size_t size;
@@ -260,7 +256,7 @@ static struct rank_order *make_order(const struct cluster_ranks *c,
                                      size_t *size)
 {
     const uint16_t *shares = range->pass.shares;
-    size_t width = (size_t)c->film->width;
+    size_t width = (size_t)c->picture.film->width;
     size_t at = (size_t)range->y * width, pixels = (size_t)range->rows * width;
     struct rank_order *o =
         alloc_array(sizeof *o + pixels * (sizeof(uint64_t) + sizeof *shares),
@@ -275,9 +271,10 @@ static struct rank_order *make_order(const struct cluster_ranks *c,
                              .epoch = c->epoch,
                              .range = *range,
                              .has_shares = shares != NULL,
-                             .before = band_plan_before(c->film, range, at)};
+                             .before =
+                                 band_plan_before(c->picture.film, range, at)};
     for (size_t i = 0; i < pixels; i++) {
-        counts[i] = band_plan_before(c->film, range, at + i);
+        counts[i] = band_plan_before(c->picture.film, range, at + i);
         o->has_counts = o->has_counts || counts[i] != o->before;
     }
     used = o->has_counts ? pixels * sizeof *counts : 0;
@@ -389,7 +386,8 @@ static enum pass_result cluster_pass(struct cluster_ranks *c,
 
     c->epoch++;
     c->waiting_count = 0;
-    p.plan = band_plan_begin(c->film, pass, wire_size(), most_rows(c->film));
+    p.plan = band_plan_begin(c->picture.film, pass, wire_size(),
+                             most_rows(c->picture.film));
     result = run_bands(&p);
     free_held(&p); /* of a pass that has stopped */
     return result;
@@ -436,24 +434,19 @@ static void unload(struct backend *base)
 
 static bool begin_local(struct backend_cluster *c, struct error *err)
 {
-    c->is_begun =
-        c->ranks.local->begin(c->ranks.local, c->ranks.host, &c->ranks.world,
-                              c->ranks.film, c->ranks.x0, c->ranks.y0, err);
+    c->is_begun = c->ranks.local->begin(c->ranks.local, &c->ranks.picture, err);
     c->base.upload_count = c->ranks.local->upload_count;
     return c->is_begun;
 }
 
-static bool begin(struct backend *base, const struct host_world *host,
-                  const struct world *world, struct film *film, int x0, int y0,
+static bool begin(struct backend *base, const struct backend_picture *picture,
                   struct error *err)
 {
     struct backend_cluster *c = (struct backend_cluster *)base;
 
-    c->ranks.host = host;
-    c->ranks.world = *world;
-    c->ranks.film = film;
-    c->ranks.x0 = x0;
-    c->ranks.y0 = y0;
+    c->ranks.world = *picture->world;
+    c->ranks.picture = *picture;
+    c->ranks.picture.world = &c->ranks.world;
     c->is_announced = false;
     for (int rank = 0; rank < wire_size(); rank++)
         rank_tally_begin(&c->ranks.tallies[rank]);
@@ -466,14 +459,15 @@ static void announce(struct backend_cluster *c)
     struct world_array list[WORLD_LIST_COUNT];
     struct rank_order o = {.kind = ORDER_BEGIN,
                            .settings = c->ranks.world.settings,
-                           .width = c->ranks.film->width,
-                           .x0 = c->ranks.x0,
-                           .y0 = c->ranks.y0,
-                           .has_surfaces = c->ranks.film->surfaces != NULL,
-                           .first_sample = c->ranks.film->first_sample};
+                           .width = c->ranks.picture.film->width,
+                           .x0 = c->ranks.picture.x0,
+                           .y0 = c->ranks.picture.y0,
+                           .has_surfaces =
+                               c->ranks.picture.film->surfaces != NULL,
+                           .first_sample = c->ranks.picture.film->first_sample};
 
     world_list(&c->ranks.world, list);
-    memcpy(o.versions, c->ranks.host->versions, sizeof o.versions);
+    memcpy(o.versions, c->ranks.picture.host->versions, sizeof o.versions);
     for (int i = 0; i < WORLD_LIST_COUNT; i++)
         o.sizes[i] = list[i].size_bytes;
     for (int rank = 1; rank < wire_size(); rank++)
@@ -506,7 +500,7 @@ static enum pass_result pass_alone(struct backend_cluster *c,
                                    const struct cancel *cancel,
                                    struct error *err)
 {
-    uint64_t before = atomic_load(&c->ranks.film->samples);
+    uint64_t before = atomic_load(&c->ranks.picture.film->samples);
     enum pass_result result;
 
     if (!c->is_begun && !begin_local(c, err))
@@ -514,7 +508,7 @@ static enum pass_result pass_alone(struct backend_cluster *c,
     rank_tally_give(&c->ranks.tallies[0]);
     result = c->ranks.local->pass(c->ranks.local, pass, cancel, err);
     rank_tally_take(&c->ranks.tallies[0],
-                    atomic_load(&c->ranks.film->samples) - before);
+                    atomic_load(&c->ranks.picture.film->samples) - before);
     return result;
 }
 

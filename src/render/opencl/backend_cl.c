@@ -287,24 +287,23 @@ static void choose_kernels(struct backend_cl *b, uint32_t features)
             : &b->full;
 }
 
-static bool cl_begin(struct backend *base, const struct host_world *host,
-                     const struct world *world, struct film *film, int x0,
-                     int y0, struct error *err)
+static bool cl_begin(struct backend *base, const struct backend_picture *p,
+                     struct error *err)
 {
     struct backend_cl *b = (struct backend_cl *)base;
-    size_t pixel_count = (size_t)film->width * (size_t)film->height;
+    size_t pixel_count = (size_t)p->film->width * (size_t)p->film->height;
 
-    choose_kernels(b, world->settings.features);
+    choose_kernels(b, p->world->settings.features);
     cl_machine_drop(&b->machine, &b->shares);
-    b->x0 = (uint32_t)x0;
-    b->y0 = (uint32_t)y0;
+    b->x0 = (uint32_t)p->x0;
+    b->y0 = (uint32_t)p->y0;
     b->complete_points = 0;
-    return cl_world_update(&b->world, &b->machine, host, world, &b->bvh,
+    return cl_world_update(&b->world, &b->machine, p, &b->bvh,
                            &base->upload_count, err) &&
-           cl_film_begin(&b->film, &b->machine, film, err) &&
+           cl_film_begin(&b->film, &b->machine, p->film, err) &&
            cl_readback_begin(&b->slots[0].reading, &b->film, err) &&
            cl_readback_begin(&b->slots[1].reading, &b->film, err) &&
-           (atomic_load(&film->samples) > 0
+           (atomic_load(&p->film->samples) > 0
                 ? cl_film_upload(&b->film, &b->machine, err)
                 : clear_film(b, pixel_count, err));
 }

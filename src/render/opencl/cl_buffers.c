@@ -17,24 +17,23 @@ static bool upload(cl_mem *buffer, const struct cl_machine *m, const void *data,
 }
 
 bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
-                     const struct host_world *host, const struct world *w,
-                     const struct bvh *bvh, uint64_t *upload_count,
-                     struct error *err)
+                     const struct backend_picture *p, const struct bvh *bvh,
+                     uint64_t *upload_count, struct error *err)
 {
     struct world_array list[WORLD_LIST_COUNT];
 
-    world_list(w, list);
+    world_list(p->world, list);
     list[WORLD_LIST_nodes].data = bvh->nodes;
     list[WORLD_LIST_nodes].size_bytes = bvh->node_count * sizeof *bvh->nodes;
     list[WORLD_LIST_leaf_tris].data = bvh->leaf_tris;
     list[WORLD_LIST_leaf_tris].size_bytes =
         bvh->leaf_tri_count * sizeof *bvh->leaf_tris;
-    if (!upload(&c->buffers[CL_SETTINGS], m, &w->settings, sizeof w->settings,
-                false, err))
+    if (!upload(&c->buffers[CL_SETTINGS], m, &p->world->settings,
+                sizeof p->world->settings, false, err))
         return false;
     ++*upload_count;
     for (int i = 0; i < WORLD_LIST_COUNT; i++) {
-        uint64_t version = host->versions[list[i].part];
+        uint64_t version = p->host->versions[list[i].part];
         cl_mem *buffer = &c->buffers[CL_ARRAYS + i];
 
         if (*buffer != NULL && c->versions[i] == version)
@@ -236,15 +235,21 @@ void cl_readback_free(struct cl_readback *r)
     *r = (struct cl_readback){0};
 }
 
-/* Enqueues a read of every stride-th row of a device buffer. The last row is
- * read by itself, as NVIDIA's driver refuses a rectangle whose last row pitch
- * ends beyond the buffer. `done` may be NULL. */
-static bool read_rows(const struct cl_readback *r, const struct cl_film *f,
-                      const struct cl_machine *m, cl_mem buffer, void *to,
-                      size_t pixel_bytes, uint32_t stride, cl_event *done,
+/* Every stride-th row of a film's buffers. */
+struct grid_rows {
+    const struct cl_machine *machine;
+    size_t width, first, count, stride;
+};
+
+/* Enqueues a read of rows of a device buffer. The last row is read by itself,
+ * as NVIDIA's driver refuses a rectangle whose last row pitch ends beyond the
+ * buffer. `done` may be NULL. */
+static bool read_rows(const struct grid_rows *r, cl_mem buffer,
+                      size_t pixel_bytes, void *to, cl_event *done,
                       struct error *err)
 {
-    size_t row_bytes = (size_t)f->film->width * pixel_bytes;
+    const struct cl_machine *m = r->machine;
+    size_t row_bytes = r->width * pixel_bytes;
     size_t last = r->count - 1;
     const size_t from[3] = {0, r->first, 0};
     const size_t origin[3] = {0, 0, 0};
@@ -254,13 +259,13 @@ static bool read_rows(const struct cl_readback *r, const struct cl_film *f,
             cl_machine_check(m,
                              m->api->EnqueueReadBufferRect(
                                  m->queue, buffer, CL_FALSE, from, origin,
-                                 region, row_bytes * stride, 0, row_bytes, 0,
+                                 region, row_bytes * r->stride, 0, row_bytes, 0,
                                  to, 0, NULL, NULL),
                              "clEnqueueReadBufferRect", err)) &&
            cl_machine_check(m,
                             m->api->EnqueueReadBuffer(
                                 m->queue, buffer, CL_FALSE,
-                                (r->first + last) * stride * row_bytes,
+                                (r->first + last) * r->stride * row_bytes,
                                 row_bytes, (char *)to + last * row_bytes, 0,
                                 NULL, done),
                             "clEnqueueReadBuffer", err);
@@ -270,15 +275,16 @@ bool cl_readback_enqueue(struct cl_readback *r, const struct cl_film *f,
                          const struct cl_machine *m, uint32_t stride,
                          cl_event *done, struct error *err)
 {
-    return read_rows(r, f, m, f->sums, r->sums, PIXEL_SUMS_BYTES, stride, NULL,
+    const struct grid_rows rows = {m, (size_t)f->film->width, r->first,
+                                   r->count, stride};
+
+    return read_rows(&rows, f->sums, PIXEL_SUMS_BYTES, r->sums, NULL, err) &&
+           read_rows(&rows, f->odd_sums, PIXEL_SUMS_BYTES, r->odd_sums, NULL,
                      err) &&
-           read_rows(r, f, m, f->odd_sums, r->odd_sums, PIXEL_SUMS_BYTES,
-                     stride, NULL, err) &&
            (f->surfaces == NULL ||
-            read_rows(r, f, m, f->surfaces, r->surfaces, sizeof *r->surfaces,
-                      stride, NULL, err)) &&
-           read_rows(r, f, m, f->counts, r->counts, sizeof *r->counts, stride,
-                     done, err);
+            read_rows(&rows, f->surfaces, sizeof *r->surfaces, r->surfaces,
+                      NULL, err)) &&
+           read_rows(&rows, f->counts, sizeof *r->counts, r->counts, done, err);
 }
 
 void cl_readback_store(struct cl_readback *r, struct cl_film *f,

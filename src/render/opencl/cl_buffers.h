@@ -22,9 +22,9 @@
 #include <stdint.h>
 
 #include "film/film.h"
+#include "render/backend.h"
 #include "render/opencl/cl_device.h"
 #include "world/bvh/bvh.h"
-#include "world/world.h"
 #include "kernels/cl_task.h"
 
 /* ---- world ---- */
@@ -41,10 +41,9 @@ struct cl_world {
 };
 
 /* Uploads the settings, and the arrays whose version differs from the buffer's.
- * Adds their number to *upload_count. `world` is lent from the host; `bvh` is
- * the tree of the host's shape. */
+ * Adds their number to *upload_count. `bvh` is the tree of the host's shape. */
 bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
-                     const struct host_world *host, const struct world *world,
+                     const struct backend_picture *picture,
                      const struct bvh *bvh, uint64_t *upload_count,
                      struct error *err);
 

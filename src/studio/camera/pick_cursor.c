@@ -45,14 +45,13 @@ static void describe(const struct pick_cursor *cursor, const struct pick *pick,
 /* ---- finding surfaces ---- */
 
 bool pick_cursor_point(const struct cells_rect *fit, int width_px,
-                       int height_px, int col, int row, double *x_px,
-                       double *y_px)
+                       int height_px, int col, int row, double point_px[2])
 {
     if (col < fit->col || col >= fit->col + fit->cols || row < fit->row ||
         row >= fit->row + fit->rows)
         return false;
-    *x_px = (col - fit->col + 0.5) * width_px / fit->cols;
-    *y_px = (row - fit->row + 0.5) * height_px / fit->rows;
+    point_px[0] = (col - fit->col + 0.5) * width_px / fit->cols;
+    point_px[1] = (row - fit->row + 0.5) * height_px / fit->rows;
     return true;
 }
 
@@ -69,12 +68,12 @@ static bool pick_cell(const struct pick_cursor *cursor, int col, int row,
     const struct session *s = cursor->control->session;
     struct surfaces surfaces = surfaces_of(cursor);
     struct rect r = pick_cursor_shown_rect(cursor);
-    double x_px, y_px;
+    double point_px[2];
 
     return pick_cursor_point(&cursor->screen->fit, r.width, r.height, col, row,
-                             &x_px, &y_px) &&
-           surfaces_pick(&surfaces, &s->edit.now.view, r.x + x_px, r.y + y_px,
-                         pick);
+                             point_px) &&
+           surfaces_pick(&surfaces, &s->edit.now.view, r.x + point_px[0],
+                         r.y + point_px[1], pick);
 }
 
 static bool pick_under_cursor(const struct pick_cursor *cursor,

@@ -41,8 +41,7 @@ struct rect pick_cursor_shown_rect(const struct pick_cursor *cursor);
  * width_px x height_px pixels and covers the cells of `fit`. Returns false for
  * a cell outside of these. */
 bool pick_cursor_point(const struct cells_rect *fit, int width_px,
-                       int height_px, int col, int row, double *x_px,
-                       double *y_px);
+                       int height_px, int col, int row, double point_px[2]);
 
 /* Show the cursor at its last cell, at first in the middle, or hide it. */
 void pick_cursor_show(struct pick_cursor *cursor);

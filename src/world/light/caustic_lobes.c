@@ -567,25 +567,29 @@ static uint32_t split_node(struct build *b, uint32_t node, uint32_t axis,
 }
 
 /* Cuts off what is more than `gap` outside of the box of the photons, up to a
- * margin. Returns the node that is left, and the others in cut[]. */
+ * margin. */
+struct cut {
+    float gap, margin;
+    uint32_t nodes[6], count; /* what is cut off */
+};
+
+/* Returns the node that is left. */
 static uint32_t cut_sides(struct build *b, uint32_t node, struct box space,
-                          struct box photons, float gap, float margin,
-                          uint32_t cut[6], uint32_t *cut_count)
+                          struct box photons, struct cut *c)
 {
-    *cut_count = 0;
     for (uint32_t axis = 0; axis < 3; axis++) {
         float lo = v3_axis(photons.lo, axis), hi = v3_axis(photons.hi, axis);
 
-        if (lo - v3_axis(space.lo, axis) > gap) {
-            uint32_t child = split_node(b, node, axis, lo - margin);
+        if (lo - v3_axis(space.lo, axis) > c->gap) {
+            uint32_t child = split_node(b, node, axis, lo - c->margin);
 
-            cut[(*cut_count)++] = child;
+            c->nodes[c->count++] = child;
             node = child + 1;
         }
-        if (v3_axis(space.hi, axis) - hi > gap) {
-            uint32_t child = split_node(b, node, axis, hi + margin);
+        if (v3_axis(space.hi, axis) - hi > c->gap) {
+            uint32_t child = split_node(b, node, axis, hi + c->margin);
 
-            cut[(*cut_count)++] = child + 1;
+            c->nodes[c->count++] = child + 1;
             node = child;
         }
     }
@@ -600,16 +604,16 @@ static bool make_leaf(struct build *b, uint32_t node, struct range r,
     struct vec3 size = v3_sub(photons.hi, photons.lo);
     float side = v3_max_component(size);
     struct candidates found = {.count = 0};
-    uint32_t cut[6], cut_count, count = find_near(b, r, around);
+    struct cut cut = {.gap = GAP * side, .margin = MARGIN * side};
+    uint32_t count = find_near(b, r, around);
 
     find_candidates(b, count, 0.25f * v3_dot(size, size), &found);
-    node = cut_sides(b, node, space, photons, GAP * side, MARGIN * side, cut,
-                     &cut_count);
+    node = cut_sides(b, node, space, photons, &cut);
     if (!add_lobes(b, &found, &b->to->nodes[node]))
         return false;
-    for (uint32_t i = 0; i < cut_count; i++) {
-        b->to->nodes[cut[i]] = b->to->nodes[node];
-        b->to->nodes[cut[i]].split *= FAR_SHARE;
+    for (uint32_t i = 0; i < cut.count; i++) {
+        b->to->nodes[cut.nodes[i]] = b->to->nodes[node];
+        b->to->nodes[cut.nodes[i]].split *= FAR_SHARE;
     }
     return true;
 }
@@ -681,11 +685,11 @@ static bool make_root(struct build *b, uint32_t facing, struct range r)
 {
     const struct vec3 all = v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX);
     struct box photons = box_of(b, r);
-    float margin =
-        OUTER_MARGIN * v3_max_component(v3_sub(photons.hi, photons.lo));
-    uint32_t cut[6], cut_count;
-    uint32_t node = cut_sides(b, facing, (struct box){v3_neg(all), all},
-                              photons, 0.0f, margin, cut, &cut_count);
+    struct cut cut = {.margin =
+                          OUTER_MARGIN *
+                          v3_max_component(v3_sub(photons.hi, photons.lo))};
+    uint32_t node =
+        cut_sides(b, facing, (struct box){v3_neg(all), all}, photons, &cut);
 
     return make_node(b, node, r, r, photons);
 }
@@ -735,8 +739,8 @@ static bool build(struct caustic_lobes *to, const struct bvh8_world *w,
                          ? PHOTONS_ROUGH
                          : PHOTONS;
     struct build b = {.to = to};
-    bool ok =
-        photons_trace(w, lights, PHOTONS_OF_LAMPS, count, 1, box, pool, p);
+    const struct photon_plan plan = {PHOTONS_OF_LAMPS, count, 1, box};
+    bool ok = photons_trace(w, lights, &plan, pool, p);
 
     b.unit = p->power * p->caster_area / count;
     b.rest = REST * 2 * M_PI * p->power / box;

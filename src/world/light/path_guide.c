@@ -82,8 +82,9 @@ static bool caustics_find(const struct bvh8_world *w,
                           struct pool *pool, struct guide_flux *caustics)
 {
     struct photons p = {.landings = NULL};
-    bool ok = photons_trace(w, lights, PHOTONS_OF_TRIANGLES, PHOTONS, LANDINGS,
-                            box, pool, &p);
+    const struct photon_plan plan = {PHOTONS_OF_TRIANGLES, PHOTONS, LANDINGS,
+                                     box};
+    bool ok = photons_trace(w, lights, &plan, pool, &p);
 
     for (uint32_t i = 0; ok && i < p.landing_count; i++) {
         const struct landing *l = &p.landings[i];

@@ -57,6 +57,8 @@ struct photon {
     bool needs_rough; /* it is of no use if the next surface is smooth */
     uint32_t chain;
     uint32_t aim; /* triangle of the caster, which it has to hit first */
+    uint32_t number;
+    bool is_of_lamp;
 };
 
 bool photons_cast(const struct material *m)
@@ -187,12 +189,10 @@ static double lamp_irradiance(const struct search *s, uint32_t lamp,
     if (lamp >= points)
         return (double)w->directional_lights[lamp - points].power;
     for (uint32_t i = 0; i < PLACES; i++) {
-        struct vec3 p, wi, radiance;
-        float pdf;
+        struct light_sample l;
 
-        if (point_light_sample(w, lamp, places[i], v2(0.5f, 0.5f), &p, &wi,
-                               &radiance, &pdf))
-            sum += color_mean(radiance) / (double)pdf;
+        if (point_light_sample(w, lamp, places[i], v2(0.5f, 0.5f), &l))
+            sum += color_mean(l.radiance) / (double)l.pdf;
     }
     return sum / PLACES;
 }
@@ -298,17 +298,16 @@ static float leave_triangle(const struct world *w, uint32_t light,
 static float leave_point(const struct search *s, uint32_t i, struct vec3 to,
                          struct vec2 u, struct photon *p)
 {
-    struct vec3 radiance, wi;
-    float pdf;
+    struct light_sample l;
 
-    if (!point_light_sample(&s->w->world, i, to, u, &p->ray.o, &wi, &radiance,
-                            &pdf))
+    if (!point_light_sample(&s->w->world, i, to, u, &l))
         return 0.0f;
-    p->ray.d = v3_neg(wi);
+    p->ray.o = l.p;
+    p->ray.d = v3_neg(l.wi);
     p->ray.from = 0;
-    p->flux = (float)color_mean(radiance);
+    p->flux = (float)color_mean(l.radiance);
     p->radiance = p->flux;
-    return pdf * s->lamp_powers[i];
+    return l.pdf * s->lamp_powers[i];
 }
 
 /* Aims a photon of a disc or a single direction from outside of the scene. */
@@ -353,6 +352,8 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
     struct vec3 to;
     float cosine, density;
 
+    p->number = i;
+    p->is_of_lamp = s->source == PHOTONS_OF_LAMPS;
     p->aim = triangle_cdf_choose(&s->casters, choice.y);
     p->ray.key = hash_u32(i);
     p->chain = light;
@@ -397,21 +398,21 @@ static float photon_choose(struct photon *p, float reflectance, float u)
     return reflectance + (u - chance) / (1.0f - chance) * (1.0f - reflectance);
 }
 
-/* Scatters the photon at a surface. Russian roulette keeps its flux. Returns
- * false if the photon is absorbed. */
+/* Scatters the photon at a surface, which is vertex `vertex` of its path.
+ * Russian roulette keeps its flux. Returns false if the photon is absorbed. */
 static bool photon_scatter(struct photon *p, const struct bsdf *b,
                            const struct surface_point *v, uint32_t material,
-                           uint32_t i, uint32_t vertex, bool is_lamp)
+                           uint32_t vertex)
 {
     struct vec3 wo = surface_to_local(v, v3_neg(p->ray.d));
-    struct vec2 choice = photon_2d(i, vertex + 1, 1);
+    struct vec2 choice = photon_2d(p->number, vertex + 1, 1);
     struct bsdf_sample s;
     struct vec3 wi;
 
-    if (is_lamp)
+    if (p->is_of_lamp)
         choice.x = photon_choose(p, reflectance_at(b, wo), choice.x);
-    if (!surface_scatter(v, b, wo, photon_2d(i, vertex + 1, 0), choice.x, &s,
-                         &wi) ||
+    if (!surface_scatter(v, b, wo, photon_2d(p->number, vertex + 1, 0),
+                         choice.x, &s, &wi) ||
         !(choice.y < v3_max_component(s.weight)) ||
         (s.is_delta && p->needs_rough))
         return false;
@@ -424,10 +425,11 @@ static bool photon_scatter(struct photon *p, const struct bsdf *b,
     return true;
 }
 
-static void photon_follow(const struct search *s, struct photon p, uint32_t i)
+static void photon_follow(const struct search *s, struct photon p)
 {
     const struct world *w = &s->w->world;
-    struct landing *landings = &s->landings[(size_t)i * s->landings_each];
+    struct landing *landings =
+        &s->landings[(size_t)p.number * s->landings_each];
     uint32_t landed = 0;
 
     for (uint32_t vertex = 1; vertex <= PHOTON_VERTICES; vertex++) {
@@ -453,8 +455,7 @@ static void photon_follow(const struct search *s, struct photon p, uint32_t i)
             if (landed == s->landings_each)
                 return;
         }
-        if (!photon_scatter(&p, &b, &v, material, i, vertex,
-                            s->source == PHOTONS_OF_LAMPS))
+        if (!photon_scatter(&p, &b, &v, material, vertex))
             return;
     }
 }
@@ -466,7 +467,7 @@ static void photon_send(void *context, uint32_t i, int worker)
 
     (void)worker;
     if (photon_open(s, i, &p))
-        photon_follow(s, p, i);
+        photon_follow(s, p);
 }
 
 /* Returns twice the diagonal of the box around the triangles, or more. */
@@ -481,18 +482,18 @@ static float far_away(const struct world *w)
 }
 
 bool photons_trace(const struct bvh8_world *w, const struct lights *lights,
-                   enum photon_source source, uint32_t count,
-                   uint32_t landings_each, double box, struct pool *pool,
+                   const struct photon_plan *plan, struct pool *pool,
                    struct photons *photons)
 {
     struct search s = {.w = w,
-                       .source = source,
-                       .box = box,
+                       .source = plan->source,
+                       .box = plan->box,
                        .reach = far_away(&w->world),
-                       .landings_each = landings_each};
+                       .landings_each = plan->landings_each};
     bool ok = find_lists(&s, lights);
 
-    *photons = (struct photons){.landing_count = count * landings_each};
+    *photons =
+        (struct photons){.landing_count = plan->count * plan->landings_each};
     photons->landings =
         alloc_array(photons->landing_count, sizeof *photons->landings);
     s.landings = photons->landings;
@@ -501,7 +502,7 @@ bool photons_trace(const struct bvh8_world *w, const struct lights *lights,
         triangle_cdf_total(&s.casters) > 0) {
         photons->power = s.power;
         photons->caster_area = triangle_cdf_total(&s.casters);
-        pool_each(pool, count, photon_send, &s);
+        pool_each(pool, plan->count, photon_send, &s);
     }
     free(s.lamp_powers);
     triangle_cdf_free(&s.lights);

@@ -59,13 +59,18 @@ bool photons_possible(const struct world *w, enum photon_source source);
 /* Returns true if all lights of this kind are points or single directions. */
 bool photons_need_rough(const struct world *w, enum photon_source source);
 
-/* Sends `count` photons and keeps the first `landings_each` landings of each.
- * `box` is the surface area of the box around the scene. A photon of flux 1
- * stands for the power of the lights times the area of the casters over the
- * number of photons. */
+/* Photons to be sent. */
+struct photon_plan {
+    enum photon_source source;
+    uint32_t count;
+    uint32_t landings_each; /* the first ones of each photon are kept */
+    double box;             /* surface area of the box around the scene */
+};
+
+/* Sends photons. One of flux 1 stands for the power of the lights times the
+ * area of the casters over the number of photons. */
 bool photons_trace(const struct bvh8_world *w, const struct lights *lights,
-                   enum photon_source source, uint32_t count,
-                   uint32_t landings_each, double box, struct pool *pool,
+                   const struct photon_plan *plan, struct pool *pool,
                    struct photons *photons);
 
 void photons_free(struct photons *photons);

@@ -81,8 +81,10 @@ static void render_whole(struct film *f, const struct pass *pass)
 {
     struct error err;
 
-    assert_true(
-        backend->begin(backend, &mesh.host, &mesh.world, f, 11, 7, &err));
+    assert_true(backend->begin(backend,
+                               &(struct backend_picture){&mesh.host,
+                                                         &mesh.world, f, 11, 7},
+                               &err));
     assert_true(backend->pass(backend, pass, &never, &err) == PASS_DONE);
 }
 
@@ -99,7 +101,9 @@ static void render_range(struct band *band, const struct film *f,
 
     check_or_say(band_init(band, WIDTH, range, true, &err), err.text);
     band_take(band, f, range);
-    assert_true(band_render(band, backend, &mesh.host, &mesh.world, 11, 7,
+    assert_true(band_render(band, backend,
+                            &(struct backend_picture){&mesh.host, &mesh.world,
+                                                      NULL, 11, 7},
                             f->first_sample, cancel, &err) == result);
 }
 

@@ -23,7 +23,9 @@ struct opened {
 
 static void open_files(struct opened *o, const char *scene, const char *view)
 {
-    struct scene_options how = {.up = SCENE_UP_OF_FILE, .thread_count = 2};
+    struct scene_options how = {.path = scene,
+                                .up = SCENE_UP_OF_FILE,
+                                .thread_count = 2};
     char *path = NULL;
     struct error err;
 
@@ -32,7 +34,7 @@ static void open_files(struct opened *o, const char *scene, const char *view)
     put("v.view", view);
     check_or_say(view_find(&o->view, scene, "v.view", &path, &o->report,
                            &err) &&
-                     scene_open(&o->scene, &o->world, &o->view, scene, &how,
+                     scene_open(&o->scene, &o->world, &o->view, &how,
                                 &o->report, &err),
                  err.text);
     free(path);

@@ -149,13 +149,11 @@ static float spread_light(int x, int y, uint64_t index)
 static void take_squares(struct film *f, float exposure, int colour,
                          float *squares)
 {
+    struct film_squares s = {f, exposure, colour, squares, false};
     struct error err;
-    bool is_known = false;
 
-    check_or_say(film_filter_squares(f, exposure, colour, NULL, NULL, squares,
-                                     &is_known, &err),
-                 err.text);
-    assert_true(is_known);
+    check_or_say(film_filter_squares(&s, NULL, NULL, &err), err.text);
+    assert_true(s.is_known);
 }
 
 /* Errors of a colour do not depend on the light of the other one, in films of

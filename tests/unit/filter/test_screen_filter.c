@@ -80,7 +80,8 @@ static void show(struct film *young)
 {
     film_preview(&film, young, develop_linear(0), &raw);
     film_preview(&film, young, develop_linear(0), &clean);
-    assert_true(screen_filter_show(&filter, &film, young, &draft,
+    assert_true(screen_filter_show(&filter,
+                                   &(struct screen_films){&film, &draft, young},
                                    develop_linear(0), FILTER_FULL, &clean));
 }
 
@@ -287,8 +288,10 @@ static void other_frames_stay(void **state)
     add_samples(&draft, 1, 0, noisy_light);
     assert_true(frame_init(&other, WIDTH - 1, HEIGHT, &err));
     memset(other.rgb, 77, BYTES - 3 * HEIGHT);
-    assert_false(screen_filter_show(&filter, &film, &draft, &draft,
-                                    develop_linear(0), FILTER_FULL, &other));
+    assert_false(
+        screen_filter_show(&filter,
+                           &(struct screen_films){&film, &draft, &draft},
+                           develop_linear(0), FILTER_FULL, &other));
     for (int i = 0; i < BYTES - 3 * HEIGHT; i++)
         assert_int_equal(other.rgb[i], 77);
     frame_free(&other);

@@ -24,12 +24,14 @@ struct opened {
 /* Opens model.gltf with the lines of a view. */
 static bool open_with(struct opened *o, const char *lines)
 {
-    const struct scene_options how = {.thread_count = 1, .view_lines = lines};
+    const struct scene_options how = {.path = "model.gltf",
+                                      .thread_count = 1,
+                                      .view_lines = lines};
 
     memset(o, 0, sizeof *o);
     view_init(&o->view);
-    return scene_open(&o->scene, &o->world, &o->view, "model.gltf", &how,
-                      &o->report, &o->err);
+    return scene_open(&o->scene, &o->world, &o->view, &how, &o->report,
+                      &o->err);
 }
 
 static void open_model(struct opened *o, const char *lines)
@@ -223,8 +225,8 @@ static void views_set_the_unit(void **state)
         check_close(lamp_of(&o, LAMP_DIRECTIONAL), cases[i].sun,
                     1e-12 * cases[i].sun);
         assert_false(warns(&o, NOT_KNOWN));
-        check_or_say(view_format(&o.view, "v.view", "", 0, &text, &size_bytes,
-                                 &err),
+        check_or_say(view_format(&o.view, &(struct file_bytes){"v.view", "", 0},
+                                 &text, &size_bytes, &err),
                      err.text);
         assert_non_null(strstr(text, cases[i].line));
         free(text);

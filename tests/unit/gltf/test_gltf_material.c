@@ -451,7 +451,8 @@ static void saved_materials_are_the_same(void **state)
     texture_count = l.scene.texture_count;
     change.name = "all of it";
     change.before = change.after = &l.scene.material_origins[1].source;
-    assert_true(mtl_rewrite(&l.scene, "a.gltf.mtl", "", 0, &change, 1, &text,
+    assert_true(mtl_rewrite(&l.scene, &(struct file_bytes){"a.gltf.mtl", "", 0},
+                            (struct mtl_changes){&change, 1}, &text,
                             &size_bytes, &l.err));
     assert_true(
         mtl_parse(&l.scene, text, size_bytes, "a.gltf.mtl", &l.report, &l.err));

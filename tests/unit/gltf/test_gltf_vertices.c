@@ -52,14 +52,17 @@ static int check_tangents(const struct loaded *l)
         if (t.vt[0] == NO_INDEX || t.vn[0] == NO_INDEX)
             continue;
         n = normal_at(w, t.vn[0], instance);
-        if (!vertex_tangents(w, t, instance, h, n, &u[0], &v[0]) ||
+        if (!vertex_tangents(
+                w, &(struct bump_place){.t = t, .instance = instance, .h = h},
+                n, &u[0], &v[0]) ||
             !uv_tangents(w, w->uvs, t, instance, &u[1], &v[1]))
             continue;
         check_at_most(-(double)v3_dot(u[0], u[1]), -0.5);
         check_at_most(-(double)v3_dot(v[0], v[1]), -0.5);
         /* seen from behind they are the same */
-        assert_true(
-            vertex_tangents(w, t, instance, h, v3_neg(n), &u[1], &v[1]));
+        assert_true(vertex_tangents(
+            w, &(struct bump_place){.t = t, .instance = instance, .h = h},
+            v3_neg(n), &u[1], &v[1]));
         check_close((double)v3_dot(v[0], v[1]), 1, 1e-5);
         count++;
     }
@@ -152,8 +155,11 @@ static void the_sign_turns_along_v(void **state)
     for (int w = -1; w <= 1; w += 2) {
         write_file((float)w, "{\"mesh\":0}", GRAIN);
         load(&l, "a.gltf");
-        assert_true(
-            vertex_tangents(&l.world, l.scene.tris[0], NO_INDEX, h, n, &u, &v));
+        assert_true(vertex_tangents(&l.world,
+                                    &(struct bump_place){.t = l.scene.tris[0],
+                                                         .instance = NO_INDEX,
+                                                         .h = h},
+                                    n, &u, &v));
         check_close((double)u.y, 1, 1e-6);
         check_close((double)v.x, -w, 1e-6);
         unload(&l);

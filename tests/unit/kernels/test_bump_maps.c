@@ -12,8 +12,11 @@ static struct vec3 bumped(const struct loaded *l, float u, float v,
 {
     struct uv_pair uv = {{u, v}, {u, v}};
 
-    return bumped_normal(&l->world, &l->material, l->scene.tris[0], NO_INDEX,
-                         (struct hit){.b0 = 1}, uv, up, up, wo);
+    return bumped_normal(&l->world, &l->material,
+                         &(struct bump_place){l->scene.tris[0], NO_INDEX,
+                                              (struct hit){.b0 = 1}, uv, up,
+                                              wo},
+                         up);
 }
 
 static void check_direction(struct vec3 n, double x, double y, double z)
@@ -111,11 +114,14 @@ static void normal_maps_use_tangents(void **state)
     t = l.scene.tris[0];
     for (uint32_t k = 0; k < 3; k++)
         t.vn[k] = k;
-    check_direction(bumped_normal(&l.world, &l.material, t, NO_INDEX, h, uv, up,
-                                  up, up),
-                    -51. / 255, 85. / 255, 187. / 255);
-    check_direction(bumped_normal(&l.world, &l.material, t, NO_INDEX, h, uv,
-                                  down, down, down),
+    check_direction(
+        bumped_normal(&l.world, &l.material,
+                      &(struct bump_place){t, NO_INDEX, h, uv, up, up}, up),
+        -51. / 255, 85. / 255, 187. / 255);
+    check_direction(bumped_normal(&l.world, &l.material,
+                                  &(struct bump_place){t, NO_INDEX, h, uv, down,
+                                                       down},
+                                  down),
                     -51. / 255, 85. / 255, -187. / 255);
     unload(&l);
 }

@@ -172,18 +172,17 @@ static bool note_load(struct backend *b, struct host_world *host,
     return true;
 }
 
-static bool note_begin(struct backend *b, const struct host_world *host,
-                       const struct world *world, struct film *film, int x0,
-                       int y0, struct error *err)
+static bool note_begin(struct backend *b, const struct backend_picture *p,
+                       struct error *err)
 {
     struct notes *n = (struct notes *)b;
     int i = n->begin_count++;
 
-    (void)host, (void)film, (void)err;
+    (void)err;
     assert_in_range(i, 0, 1);
-    n->worlds[i] = *world;
-    n->x0[i] = x0;
-    n->y0[i] = y0;
+    n->worlds[i] = *p->world;
+    n->x0[i] = p->x0;
+    n->y0[i] = p->y0;
     return true;
 }
 

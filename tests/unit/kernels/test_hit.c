@@ -56,7 +56,9 @@ static void hits_agree_with_long_double(void **state)
         struct ray r = {point(&seed), v3_unit(point(&seed)), FLOAT_MAX, 0, 0};
         struct exact x = intersect(r, p0, p1, p2);
         struct hit h;
-        bool found = triangle_hit(r, shear_of(r), p0, p1, p2, FLOAT_MAX, &h);
+        bool found = triangle_hit(r, shear_of(r),
+                                  (struct leaf_tri){p0, p1, p2, NO_INDEX},
+                                  FLOAT_MAX, &h);
         const long double edge = 1e-3L;
 
         if (x.t > edge && x.u > edge && x.v > edge && x.u + x.v < 1 - edge) {
@@ -100,7 +102,9 @@ static void aimed_rays_end_at_the_triangle(void **state)
         r.d = v3_sub(hit_point(h, p0, p1, p2, &error), r.o);
         t = aimed_distance(r, p0, p1, p2);
         check_close(t, (double)intersect(r, p0, p1, p2).t, 1e-3);
-        if (triangle_hit(r, shear_of(r), p0, p1, p2, FLOAT_MAX, &h))
+        if (triangle_hit(r, shear_of(r),
+                         (struct leaf_tri){p0, p1, p2, NO_INDEX}, FLOAT_MAX,
+                         &h))
             assert_true(h.t == t);
         else
             missed++;
@@ -129,7 +133,8 @@ static void needles_are_hit_where_they_are(void **state)
             r.o =
                 v3_add(v3_add(a, v3_sub(a, b)), v3_scale(point(&seed), width));
         r.d = v3_unit(v3_sub(at, r.o));
-        if (!triangle_hit(r, shear_of(r), a, b, c, FLOAT_MAX, &h))
+        if (!triangle_hit(r, shear_of(r), (struct leaf_tri){a, b, c, NO_INDEX},
+                          FLOAT_MAX, &h))
             continue;
         at = v3_add(r.o, v3_scale(r.d, h.t));
         hits++;
@@ -166,8 +171,12 @@ static void faces_in_one_plane_have_equal_distances(void **state)
         }
         r.d = v3_add(p[0], v3_add(p[1], p[2]));
         r.d = v3_unit(v3_sub(v3_scale(r.d, 1 / 3.0f), r.o));
-        if (!triangle_hit(r, shear_of(r), p[0], p[1], p[2], FLOAT_MAX, &one) ||
-            !triangle_hit(r, shear_of(r), p[3], p[4], p[5], FLOAT_MAX, &other))
+        if (!triangle_hit(r, shear_of(r),
+                          (struct leaf_tri){p[0], p[1], p[2], NO_INDEX},
+                          FLOAT_MAX, &one) ||
+            !triangle_hit(r, shear_of(r),
+                          (struct leaf_tri){p[3], p[4], p[5], NO_INDEX},
+                          FLOAT_MAX, &other))
             continue;
         hits++;
         assert_true(one.t == other.t);
@@ -192,10 +201,13 @@ static void both_windings_have_equal_distances(void **state)
         struct hit one, other;
 
         r.d = v3_unit(v3_sub(v3_lerp(v3_lerp(a, b, 0.4f), c, 0.3f), r.o));
-        if (!triangle_hit(r, shear_of(r), a, b, c, FLOAT_MAX, &one))
+        if (!triangle_hit(r, shear_of(r), (struct leaf_tri){a, b, c, NO_INDEX},
+                          FLOAT_MAX, &one))
             continue;
         hits++;
-        assert_true(triangle_hit(r, shear_of(r), a, c, b, FLOAT_MAX, &other));
+        assert_true(triangle_hit(r, shear_of(r),
+                                 (struct leaf_tri){a, c, b, NO_INDEX},
+                                 FLOAT_MAX, &other));
         assert_true(one.t == other.t && one.b0 == other.b0 &&
                     one.b1 == other.b2 && one.b2 == other.b1);
     }
@@ -347,7 +359,9 @@ static void no_ray_hits_its_own_face(void **state)
                      v3_add(v3_scale(p1, u), v3_scale(p2, v)));
         in.o = v3_scale(point(&seed), 1.5f);
         in.d = v3_unit(v3_sub(aim, in.o));
-        if (!triangle_hit(in, shear_of(in), p0, p1, p2, FLOAT_MAX, &h))
+        if (!triangle_hit(in, shear_of(in),
+                          (struct leaf_tri){p0, p1, p2, NO_INDEX}, FLOAT_MAX,
+                          &h))
             continue;
         p = hit_point_inset(h, p0, p1, p2, &error);
         frame_around(ng, &t, &b);
@@ -358,8 +372,9 @@ static void no_ray_hits_its_own_face(void **state)
         if (!(v3_dot(out.d, ng) > 0))
             continue;
         out.o = offset_ray_origin(p, error, ng);
-        assert_false(
-            triangle_hit(out, shear_of(out), p0, p1, p2, FLOAT_MAX, &again));
+        assert_false(triangle_hit(out, shear_of(out),
+                                  (struct leaf_tri){p0, p1, p2, NO_INDEX},
+                                  FLOAT_MAX, &again));
     }
 }
 
@@ -385,7 +400,9 @@ static void near_sheets_are_both_hit(void **state)
         in.o = v3_scale(point(&seed), 1.5f);
         in.d = v3_unit(
             v3_sub(v3_scale(v3_add(p0, v3_add(p1, p2)), 1 / 3.0f), in.o));
-        if (!triangle_hit(in, shear_of(in), p0, p1, p2, FLOAT_MAX, &h))
+        if (!triangle_hit(in, shear_of(in),
+                          (struct leaf_tri){p0, p1, p2, NO_INDEX}, FLOAT_MAX,
+                          &h))
             continue;
         p = hit_point_inset(h, p0, p1, p2, &error);
         q0 = v3_add(p0, v3_scale(ng, 1e-5f));
@@ -396,8 +413,9 @@ static void near_sheets_are_both_hit(void **state)
         out.d = v3_unit(v3_add(v3_add(v3_scale(t, (float)(rest * cos(angle))),
                                       v3_scale(b, (float)(rest * sin(angle)))),
                                v3_scale(ng, (float)z)));
-        assert_true(
-            triangle_hit(out, shear_of(out), q0, q1, q2, FLOAT_MAX, &h));
+        assert_true(triangle_hit(out, shear_of(out),
+                                 (struct leaf_tri){q0, q1, q2, NO_INDEX},
+                                 FLOAT_MAX, &h));
     }
 }
 

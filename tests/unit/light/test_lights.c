@@ -28,7 +28,8 @@ static double density_along(const struct world *w, const struct receiver *r,
         struct vec3 error;
         struct hit h;
 
-        if (triangle_hit(ray, shear, p0, p1, p2, FLOAT_MAX, &h))
+        if (triangle_hit(ray, shear, (struct leaf_tri){p0, p1, p2, NO_INDEX},
+                         FLOAT_MAX, &h))
             sum +=
                 (double)light_pdf_at(w, r, i, hit_point(h, p0, p1, p2, &error));
     }

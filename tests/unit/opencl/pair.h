@@ -78,7 +78,9 @@ static inline int close_device(void **state)
 static inline void open_pair(struct pair *p, const char *path, int width,
                              int height)
 {
-    struct scene_options how = {.up = SCENE_UP_OF_FILE, .thread_count = 1};
+    struct scene_options how = {.path = path,
+                                .up = SCENE_UP_OF_FILE,
+                                .thread_count = 1};
     struct warnings report = {0};
     struct error err;
     char *view_path;
@@ -88,8 +90,8 @@ static inline void open_pair(struct pair *p, const char *path, int width,
     view_init(&p->view);
     assert_non_null(cpu);
     check_or_say(view_find(&p->view, path, NULL, &view_path, &report, &err) &&
-                     scene_open(&p->scene, &p->world, &p->view, path, &how,
-                                &report, &err) &&
+                     scene_open(&p->scene, &p->world, &p->view, &how, &report,
+                                &err) &&
                      world_guide(&p->world, &p->scene, &p->view, &err),
                  err.text);
     p->view.width_px = width;

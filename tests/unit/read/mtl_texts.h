@@ -45,8 +45,10 @@ static inline char *rewrite(const struct scene *scene, const char *path,
     struct error err;
     char *new_text;
 
-    check_or_say(mtl_rewrite(scene, path, text, size_bytes, changes, count,
-                             &new_text, new_size_bytes, &err),
+    check_or_say(mtl_rewrite(scene,
+                             &(struct file_bytes){path, text, size_bytes},
+                             (struct mtl_changes){changes, count}, &new_text,
+                             new_size_bytes, &err),
                  err.text);
     new_text = realloc(new_text, *new_size_bytes + 1);
     assert_non_null(new_text);

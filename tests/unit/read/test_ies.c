@@ -355,8 +355,8 @@ static void unusable_files_shine_evenly(void **state)
         assert_non_null(profile);
         for (uint32_t k = 0; k < profile_value_count(profile); k++)
             check_close((double)profile->values[k], 1, 0);
-        check_or_say(view_format(&view, "v.view", "", 0, &text, &size_bytes,
-                                 &err),
+        check_or_say(view_format(&view, &(struct file_bytes){"v.view", "", 0},
+                                 &text, &size_bytes, &err),
                      err.text);
         assert_non_null(strstr(text, strstr(lines[i], " ies")));
         free(text);
@@ -387,8 +387,9 @@ static void view_files_name_profiles(void **state)
     check_close((double)view.lamps.items[0].profile->values[0], 1, 1e-6);
     assert_true(view_copy(&copy, &view));
     assert_true(lamps_equal(&view.lamps, &copy.lamps));
-    check_or_say(view_format(&view, "v.view", line, strlen(line), &text,
-                             &size_bytes, &err),
+    check_or_say(view_format(&view,
+                             &(struct file_bytes){"v.view", line, strlen(line)},
+                             &text, &size_bytes, &err),
                  err.text);
     assert_non_null(strstr(text, line));
     free(text);

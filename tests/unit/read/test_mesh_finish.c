@@ -28,7 +28,7 @@ struct opened {
 
 static void open_model(struct opened *o, const char *path, const char *view)
 {
-    const struct scene_options how = {.thread_count = 1};
+    const struct scene_options how = {.path = path, .thread_count = 1};
     struct error err;
     char *view_path;
 
@@ -36,7 +36,7 @@ static void open_model(struct opened *o, const char *path, const char *view)
     view_init(&o->view);
     check_or_say(view_find(&o->view, path, view, &view_path, &o->report,
                            &err) &&
-                     scene_open(&o->scene, &o->world, &o->view, path, &how,
+                     scene_open(&o->scene, &o->world, &o->view, &how,
                                 &o->report, &err),
                  err.text);
     free(view_path);
@@ -103,10 +103,12 @@ static void edits_are_saved_beside_the_model(void **state)
     clay = o.scene.material_origins[MESH_MATERIAL].source;
     copy = clay;
     copy.base_color = (struct mtl_color){{.25, .5, .75}, 1};
-    check_or_say(mtl_save(&o.scene, "m.ply.mtl",
-                          &(struct mtl_change){"clay.2", "clay", &clay, &copy},
-                          1, &change, &err),
-                 err.text);
+    check_or_say(
+        mtl_save(&o.scene, "m.ply.mtl",
+                 (struct mtl_changes){
+                     &(struct mtl_change){"clay.2", "clay", &clay, &copy}, 1},
+                 &change, &err),
+        err.text);
     close_model(&o);
     has("m.ply.mtl", "\nnewmtl clay.2\nKd 0.25 0.5 0.75\nKd_roughness 0.5\n");
     open_model(&o, "m.ply", NULL);
@@ -114,7 +116,9 @@ static void edits_are_saved_beside_the_model(void **state)
     assert_true(material_values_equal(&copy, &clay));
     copy.diffuse_roughness.value = .25;
     check_or_say(mtl_save(&o.scene, "m.ply.mtl",
-                          &(struct mtl_change){"clay", NULL, &clay, &copy}, 1,
+                          (struct mtl_changes){
+                              &(struct mtl_change){"clay", NULL, &clay, &copy},
+                              1},
                           &change, &err),
                  err.text);
     close_model(&o);

@@ -84,13 +84,15 @@ static void check_file(const struct expectation *e)
     struct host_world world = {.tris = NULL};
     struct warnings report = {0};
     /* boxes are in the file's own axes */
-    const struct scene_options how = {.up = SCENE_UP_Y, .thread_count = 1};
+    const struct scene_options how = {.path = e->path,
+                                      .up = SCENE_UP_Y,
+                                      .thread_count = 1};
     struct view view;
     struct error err = {""};
     bool ok;
 
     view_init(&view);
-    ok = scene_open(&scene, &world, &view, e->path, &how, &report, &err);
+    ok = scene_open(&scene, &world, &view, &how, &report, &err);
     if (e->loads && !ok)
         print_error("%s\n", err.text);
     if (e->is_refused && ok)

@@ -365,7 +365,8 @@ static void saved_files_keep_their_permissions(void **state)
     redden(&after);
     change = (struct mtl_change){"m", NULL, &l.scene.material_origins[1].source,
                                  &after};
-    check_or_say(mtl_save(&l.scene, path, &change, 1, &written, &err),
+    check_or_say(mtl_save(&l.scene, path, (struct mtl_changes){&change, 1},
+                          &written, &err),
                  err.text);
     assert_int_equal(stat(path, &st), 0);
     assert_int_equal(st.st_mode & 0777, 0640);
@@ -373,7 +374,8 @@ static void saved_files_keep_their_permissions(void **state)
     assert_string_equal(text, "newmtl m\nKd 1 0.5 0.25\n");
     free(text);
     assert_int_equal(unlink(path), 0);
-    assert_false(mtl_save(&l.scene, path, &change, 1, &written, &err));
+    assert_false(mtl_save(&l.scene, path, (struct mtl_changes){&change, 1},
+                          &written, &err));
     check_has(err.text, "no such file");
     unload(&l);
     free(path);

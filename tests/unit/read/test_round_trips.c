@@ -114,8 +114,8 @@ static bool check_view(const char *bytes, size_t size)
         warnings_free(&none);
         return false;
     }
-    check_or_say(view_format(&view, "t.view", bytes, size, &text, &text_bytes,
-                             &err),
+    check_or_say(view_format(&view, &(struct file_bytes){"t.view", bytes, size},
+                             &text, &text_bytes, &err),
                  err.text);
     ok = view_parse(&again, text, text_bytes, "t.view", &none, &err);
     if (!ok || !views_are_equal(&view, &again)) {
@@ -124,8 +124,9 @@ static bool check_view(const char *bytes, size_t size)
     }
     check_or_say(ok, err.text);
     assert_true(views_are_equal(&view, &again));
-    assert_true(view_format(&again, "t.view", text, text_bytes, &second,
-                            &second_bytes, &err));
+    assert_true(view_format(&again,
+                            &(struct file_bytes){"t.view", text, text_bytes},
+                            &second, &second_bytes, &err));
     assert_int_equal(second_bytes, text_bytes);
     assert_memory_equal(second, text, text_bytes);
     free(second);
@@ -312,7 +313,8 @@ static bool check_mtl(const char *bytes, size_t size)
         changes[i] = (struct mtl_change){i < count ? name : copies[m - 1],
                                          i < count ? NULL : name, s, &after[i]};
     }
-    ok = mtl_rewrite(&l.scene, "t.mtl", bytes, size, changes, 2 * count, &text,
+    ok = mtl_rewrite(&l.scene, &(struct file_bytes){"t.mtl", bytes, size},
+                     (struct mtl_changes){changes, 2 * count}, &text,
                      &text_bytes, &err);
     if (!ok)
         print_text_bytes(bytes, size);
@@ -371,8 +373,10 @@ static void copies_keep_what_follows_a_nul(void **state)
     assert_true(load(&l, bytes, sizeof bytes - 1));
     const struct material_values *s = &l.scene.material_origins[1].source;
     struct mtl_change c = {"b", "a", s, s};
-    check_or_say(mtl_rewrite(&l.scene, "t.mtl", bytes, sizeof bytes - 1, &c, 1,
-                             &text, &size, &err),
+    check_or_say(mtl_rewrite(&l.scene,
+                             &(struct file_bytes){"t.mtl", bytes,
+                                                  sizeof bytes - 1},
+                             (struct mtl_changes){&c, 1}, &text, &size, &err),
                  err.text);
     static const char want[] = "newmtl a\nKa 0 0\0\0\nfoo\nNi 3\n\n"
                                "newmtl b\nKa 0 0\0\0\nfoo\nNi 3\n";
@@ -396,8 +400,10 @@ static void copies_of_the_default_are_of_no_block(void **state)
 
     (void)state;
     assert_true(load(&l, bytes, sizeof bytes - 1));
-    check_or_say(mtl_rewrite(&l.scene, "t.mtl", bytes, sizeof bytes - 1, &c, 1,
-                             &text, &size, &err),
+    check_or_say(mtl_rewrite(&l.scene,
+                             &(struct file_bytes){"t.mtl", bytes,
+                                                  sizeof bytes - 1},
+                             (struct mtl_changes){&c, 1}, &text, &size, &err),
                  err.text);
     static const char want[] = "newmtl\nKd 1 0 0\nnewmtl a\nNi 3\n\nnewmtl b\n";
     assert_int_equal(size, sizeof want - 1);

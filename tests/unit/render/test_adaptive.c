@@ -187,7 +187,7 @@ static void take_film(struct film *film, struct adaptive *a, uint64_t mean,
     film_clear(film);
     adaptive_reset(a);
     take_samples(film, a, ADAPTIVE_FIRST, x0);
-    assert_true(adaptive_decide(a, &adaptive_film, film, 0, NULL, NULL, &err));
+    assert_true(adaptive_decide(a, film, 0, NULL, NULL, &err));
     take_samples(film, a, mean, x0);
 }
 
@@ -244,8 +244,7 @@ static void a_share_does_not_depend_on_its_pixel(void **state)
                                  ? &flash
                                  : &(struct path_sample){{1, 1, 1}, 1, 0},
                              NULL, (const int[]){1});
-            assert_true(adaptive_decide(&a[i], &adaptive_film, &film, 0, NULL,
-                                        NULL, &err));
+            assert_true(adaptive_decide(&a[i], &film, 0, NULL, NULL, &err));
         }
         assert_int_equal(a[0].shares[at], a[1].shares[at]);
         for (int x = 0; x < 20 * 14; x++)
@@ -326,8 +325,7 @@ static void shares_follow_deviations(void **state)
         film_add_row(&film, (struct film_pixels){x, y, 1, 1}, &sample, NULL,
                      (const int[]){1});
     }
-    assert_true(
-        adaptive_decide(&a, &adaptive_film, &film, 0, NULL, NULL, &err));
+    assert_true(adaptive_decide(&a, &film, 0, NULL, NULL, &err));
     for (int i = 0; i < 64 * 64; i++) {
         left += i % 64 < 25 ? a.shares[i] : 0;
         right += i % 64 >= 39 ? a.shares[i] : 0;
@@ -355,8 +353,7 @@ static void equal_deviations_have_equal_shares(void **state)
         film_add_row(&film, (struct film_pixels){i % 17, i / 17 % 10, 1, 1},
                      &sample, NULL, (const int[]){1});
     }
-    assert_true(
-        adaptive_decide(&a, &adaptive_film, &film, 0, NULL, NULL, &err));
+    assert_true(adaptive_decide(&a, &film, 0, NULL, NULL, &err));
     for (int i = 0; i < 17 * 10; i++)
         check_close((double)a.shares[i] / SHARE_ONE, 1, 0.001);
     adaptive_free(&a);

@@ -256,19 +256,19 @@ static void picks_are_not_random(void **state)
 static void cells_cover_the_picture(void **state)
 {
     struct cells_rect fit = {.col = 3, .row = 2, .cols = 40, .rows = 10};
-    double x, y;
+    double p[2];
 
     (void)state;
-    assert_true(pick_cursor_point(&fit, 200, 100, 3, 2, &x, &y));
-    check_close(x, 2.5, 1e-12);
-    check_close(y, 5, 1e-12);
-    assert_true(pick_cursor_point(&fit, 200, 100, 42, 11, &x, &y));
-    check_close(x, 197.5, 1e-12);
-    check_close(y, 95, 1e-12);
-    assert_false(pick_cursor_point(&fit, 200, 100, 2, 2, &x, &y));
-    assert_false(pick_cursor_point(&fit, 200, 100, 3, 1, &x, &y));
-    assert_false(pick_cursor_point(&fit, 200, 100, 43, 2, &x, &y));
-    assert_false(pick_cursor_point(&fit, 200, 100, 3, 12, &x, &y));
+    assert_true(pick_cursor_point(&fit, 200, 100, 3, 2, p));
+    check_close(p[0], 2.5, 1e-12);
+    check_close(p[1], 5, 1e-12);
+    assert_true(pick_cursor_point(&fit, 200, 100, 42, 11, p));
+    check_close(p[0], 197.5, 1e-12);
+    check_close(p[1], 95, 1e-12);
+    assert_false(pick_cursor_point(&fit, 200, 100, 2, 2, p));
+    assert_false(pick_cursor_point(&fit, 200, 100, 3, 1, p));
+    assert_false(pick_cursor_point(&fit, 200, 100, 43, 2, p));
+    assert_false(pick_cursor_point(&fit, 200, 100, 3, 12, p));
 }
 
 int main(void)
