@@ -13,6 +13,7 @@
 
 #include "kernels/dialect.h"
 #include "kernels/features.h"
+#include "kernels/material_maps.h"
 
 #define NO_INDEX 0xffffffffu
 
@@ -57,17 +58,12 @@ struct material {
     float alpha;          /* GGX roughness; below ALPHA_SMOOTH: a delta lobe */
     struct vec3 emission; /* radiance to both sides; 0: no light */
     float ior;
-    uint32_t kind;             /* enum material_kind */
-    uint32_t color_texture;    /* multiplies color; NO_INDEX: none */
-    uint32_t emission_texture; /* multiplies emission; NO_INDEX: none */
-    float opacity;             /* probability that a ray is stopped */
-    struct vec3 specular;      /* reflectance of the face at normal incidence */
-    uint32_t specular_texture; /* multiplies specular; NO_INDEX: none */
-    uint32_t alpha_texture;    /* its square multiplies alpha; NO_INDEX: none */
-    uint32_t metal_texture;    /* multiplies metalness; NO_INDEX: none */
-    uint32_t opacity_texture;  /* its alpha multiplies opacity */
-    uint32_t color_is_opaque;  /* 1: the alpha of color_texture does not */
-    float metalness;           /* these four of MATERIAL_PRINCIPLED */
+    uint32_t kind;            /* enum material_kind */
+    float opacity;            /* probability that a ray is stopped */
+    struct vec3 specular;     /* reflectance of the face at normal incidence */
+    uint32_t color_is_opaque; /* 1: the alpha of color_texture does not
+                                 multiply opacity */
+    float metalness;          /* these four of MATERIAL_PRINCIPLED */
     float transmission;
     float coat; /* weight of the clear coat */
     float coat_alpha;
@@ -77,29 +73,21 @@ struct material {
     struct vec2 grain; /* direction of the wider axis, in units of the tangents
                           along u and v */
     struct vec3 attenuation; /* absorption in solids: attenuation.h */
-    /* these multiply weights and, squared, coat_alpha; NO_INDEX: none */
-    uint32_t transmission_texture, coat_texture, coat_alpha_texture;
-    uint32_t sheen_texture; /* multiplies sheen; NO_INDEX: none */
-    uint32_t is_thin; /* 1: glass of MATERIAL_PRINCIPLED is a thin sheet */
-    uint32_t normal_texture; /* shading normals in tangent space */
-    uint32_t bump_texture;   /* heights in alpha */
-    float bump_scale;        /* height of an alpha of 1, in texels */
-    float normal_strength;   /* 0: the map of normals has no effect; 1: all */
-    float normal_depth;      /* the same for its third component */
+    uint32_t is_thin;      /* 1: glass of MATERIAL_PRINCIPLED is a thin sheet */
+    float bump_scale;      /* height of an alpha of 1, in texels */
+    float normal_strength; /* 0: the map of normals has no effect; 1: all */
+    float normal_depth;    /* the same for its third component */
     float film; /* weight of a thin film on MATERIAL_PRINCIPLED: thin_film.h */
     float film_ior;
-    float film_thickness; /* in nanometres */
+    float film_thickness; /* these two in nanometres */
+    float film_thinnest;
     float cutoff; /* above 0: coverage from here on is 1, below it is 0 */
-    /* the rest is of FEATURE_TEXTURE_OPTIONS; NO_INDEX: none */
-    uint32_t specular_weight_texture; /* multiplies specular */
-    uint32_t sheen_alpha_texture;     /* its square multiplies sheen_alpha */
-    uint32_t film_texture;            /* multiplies film */
-    uint32_t film_thickness_texture;  /* 0: film_thinnest; 1: film_thickness */
-    float film_thinnest;              /* in nanometres */
-    uint32_t coat_normal_texture; /* FEATURE_COAT_NORMALS: of the coat alone */
-    float coat_normal_strength;   /* as normal_strength */
-    uint32_t grain_texture; /* red and green turn the grain from where it is at
-                               1, 1/2; blue is a factor of its strength */
+    float coat_normal_strength; /* as normal_strength */
+#define MATERIAL_MAP_MEMBER(name, member, ...) uint32_t member;
+#define MATERIAL_MAP_NO_MEMBER(...)
+    MATERIAL_MAP_LIST(MATERIAL_MAP_MEMBER, MATERIAL_MAP_NO_MEMBER)
+#undef MATERIAL_MAP_MEMBER
+#undef MATERIAL_MAP_NO_MEMBER
 };
 
 /* Roughness below which a microfacet lobe is a delta lobe. */

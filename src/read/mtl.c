@@ -715,41 +715,25 @@ static const struct mtl_property *find_property(const struct parser *p,
     return NULL;
 }
 
+/* Returns the map of a statement, or MTL_MAPS. */
+static enum mtl_map find_map(const struct parser *p, struct word key)
+{
+    for (int i = 0; i < MTL_MAPS; i++) {
+        const struct mtl_map_kind *m = &mtl_maps[i];
+        bool has_second = !m->is_second_of_blender || p->dialect != MTL_CLASSIC;
+
+        for (int k = 0; k < MTL_MAP_KEYS && m->keys[k] != NULL; k++)
+            if (word_is(key, m->keys[k]) && (k == 0 || has_second))
+                return (enum mtl_map)i;
+    }
+    return MTL_MAPS;
+}
+
 static bool read_property(struct parser *p, struct word key)
 {
     struct material_values *s = &p->source;
-    static const struct {
-        const char *key;
-        enum mtl_map map;
-        bool is_data;
-        bool is_of_blender; /* has this meaning in its files only */
-    } maps[] = {
-        {"map_Kd", MTL_MAP_COLOR, false, false},
-        {"map_Ks", MTL_MAP_SPECULAR, false, false},
-        {"map_Ke", MTL_MAP_EMISSION, false, false},
-        {"map_Pr", MTL_MAP_ROUGHNESS, true, false},
-        {"map_Ns", MTL_MAP_ROUGHNESS, true, true},
-        {"map_Pm", MTL_MAP_METALNESS, true, false},
-        {"map_refl", MTL_MAP_METALNESS, true, true},
-        {"map_d", MTL_MAP_OPACITY, true, false},
-        {"map_Tf", MTL_MAP_TRANSMISSION, true, false},
-        {"map_Pc", MTL_MAP_COAT, true, false},
-        {"map_Pcr", MTL_MAP_COAT_ROUGHNESS, true, false},
-        {"map_Ps", MTL_MAP_SHEEN, true, false},
-        {"map_Ps_color", MTL_MAP_SHEEN_COLOR, false, false},
-        {"map_Ps_roughness", MTL_MAP_SHEEN_ROUGHNESS, true, false},
-        {"map_Ks_weight", MTL_MAP_SPECULAR_WEIGHT, true, false},
-        {"map_Pf", MTL_MAP_FILM, true, false},
-        {"map_Pf_thickness", MTL_MAP_FILM_THICKNESS, true, false},
-        {"map_grain", MTL_MAP_GRAIN, true, false},
-        {"map_Pc_norm", MTL_MAP_COAT_NORMAL, true, false},
-        {"norm", MTL_MAP_NORMAL, true, false},
-        {"map_Kn", MTL_MAP_NORMAL, true, false},
-        {"bump", MTL_MAP_BUMP, true, false},
-        {"map_bump", MTL_MAP_BUMP, true, false},
-        {"map_Bump", MTL_MAP_BUMP, true, false},
-    };
     const struct mtl_property *property = find_property(p, key);
+    enum mtl_map map = find_map(p, key);
 
     if (word_is(key, "Ke"))
         return read_light(p, key);
@@ -761,12 +745,9 @@ static bool read_property(struct parser *p, struct word key)
         return property->is_color ? read_color(p, key, member)
                                   : read_number(p, key, member);
     }
-    for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++) {
-        if (word_is(key, maps[i].key) &&
-            (p->dialect != MTL_CLASSIC || !maps[i].is_of_blender))
-            return read_map(p, key, maps[i].is_data, &s->maps[maps[i].map],
-                            material_values_map_scale(s, maps[i].map));
-    }
+    if (map != MTL_MAPS)
+        return read_map(p, key, mtl_maps[map].is_data, &s->maps[map],
+                        material_values_map_scale(s, map));
     skip_statement(p, key);
     return true;
 }

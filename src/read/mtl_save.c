@@ -14,8 +14,7 @@
 #include "read/mtl.h"
 
 /* Keys with the same meaning. The first is the one that is written. */
-#define MTL_ALIASES_MAX 3
-typedef const char *const mtl_aliases[MTL_ALIASES_MAX];
+typedef const char *const mtl_aliases[MTL_MAP_KEYS];
 
 struct mtl_document {
     char *bytes;
@@ -157,7 +156,7 @@ static bool mtl_document_has_key(const struct mtl_document *t,
 {
     struct word word = {t->bytes + s->key, s->key_end - s->key};
 
-    for (int i = 0; i < MTL_ALIASES_MAX && keys[i] != NULL; i++)
+    for (int i = 0; i < MTL_MAP_KEYS && keys[i] != NULL; i++)
         if (word_is(word, keys[i]))
             return true;
     return false;
@@ -375,39 +374,14 @@ static bool mtl_document_append_block(struct mtl_document *t, const char *name,
 
 static mtl_aliases light_keys = {"Ke", "Ke_blackbody"};
 static mtl_aliases blackbody_keys = {"Ke_blackbody", "Ke"};
-static mtl_aliases classic_map_keys[MTL_MAPS] = {
-    {"map_Kd"},
-    {"map_Ks"},
-    {"map_Ke"},
-    {"map_Pr"},
-    {"map_Pm"},
-    {"map_d"},
-    {"map_Tf"},
-    {"map_Pc"},
-    {"map_Pcr"},
-    {"map_Ps"},
-    {"map_Ps_color"},
-    {"map_Ps_roughness"},
-    {"map_Ks_weight"},
-    {"map_Pf"},
-    {"map_Pf_thickness"},
-    {"map_grain"},
-    {"map_Pc_norm"},
-    {"norm", "map_Kn"},
-    {"map_Bump", "map_bump", "bump"},
-};
-static mtl_aliases roughness_of_blender = {"map_Pr", "map_Ns"};
-static mtl_aliases metal_of_blender = {"map_Pm", "map_refl"};
 
-/* Returns the keys that mean this map in a file of the material's dialect. */
-static const char *const *map_keys(const struct material_values *s,
-                                   enum mtl_map map)
+/* Sets the keys that mean this map in a file of the material's dialect. */
+static void map_keys(const struct material_values *s, enum mtl_map map,
+                     const char *keys[MTL_MAP_KEYS])
 {
-    if (s->dialect != MTL_CLASSIC && map == MTL_MAP_ROUGHNESS)
-        return roughness_of_blender;
-    if (s->dialect != MTL_CLASSIC && map == MTL_MAP_METALNESS)
-        return metal_of_blender;
-    return classic_map_keys[map];
+    memcpy(keys, mtl_maps[map].keys, sizeof mtl_maps[map].keys);
+    if (mtl_maps[map].is_second_of_blender && s->dialect == MTL_CLASSIC)
+        keys[1] = NULL;
 }
 
 struct writer {
@@ -598,7 +572,7 @@ static bool write_map(struct writer *w, const struct mtl_change *c,
 {
     bool was_on = material_values_map(c->before, map) != NO_INDEX;
     bool is_on = material_values_map(c->after, map) != NO_INDEX;
-    const char *const *keys = map_keys(c->after, map);
+    const char *keys[MTL_MAP_KEYS];
     struct mtl_block b;
     size_t hash;
     char *value;
@@ -606,6 +580,7 @@ static bool write_map(struct writer *w, const struct mtl_change *c,
 
     if (was_on == is_on)
         return true;
+    map_keys(c->after, map, keys);
     if (!is_on)
         return mtl_document_comment(&w->text, c->name, keys);
     if (!mtl_document_find_block(&w->text, c->name, &b))

@@ -21,34 +21,20 @@
 #define IOR_DEFAULT 1.5
 #define IOR_MAX     1e6
 
+#define NO_TEXTURE(name, member, ...) .member = NO_INDEX,
+#define ADDRESS(name, member, ...)    &m->member,
+#define NOTHING(...)
+
 struct material material_default(void)
 {
     struct material m = {
         .color = {MATERIAL_GREY, MATERIAL_GREY, MATERIAL_GREY},
         .ior = (float)IOR_DEFAULT,
         .kind = MATERIAL_DIFFUSE,
-        .color_texture = NO_INDEX,
-        .emission_texture = NO_INDEX,
-        .specular_texture = NO_INDEX,
-        .alpha_texture = NO_INDEX,
-        .metal_texture = NO_INDEX,
-        .opacity_texture = NO_INDEX,
-        .transmission_texture = NO_INDEX,
-        .coat_texture = NO_INDEX,
-        .coat_alpha_texture = NO_INDEX,
-        .sheen_texture = NO_INDEX,
-        .normal_texture = NO_INDEX,
-        .bump_texture = NO_INDEX,
-        .bump_scale = 1,
-        .coat_normal_texture = NO_INDEX,
+        MATERIAL_MAP_LIST(NO_TEXTURE, NOTHING).bump_scale = 1,
         .coat_normal_strength = 1,
         .normal_strength = 1,
         .normal_depth = 1,
-        .specular_weight_texture = NO_INDEX,
-        .sheen_alpha_texture = NO_INDEX,
-        .film_texture = NO_INDEX,
-        .film_thickness_texture = NO_INDEX,
-        .grain_texture = NO_INDEX,
         .opacity = 1,
         .grain = {1, 0},
     };
@@ -58,26 +44,7 @@ struct material material_default(void)
 
 uint32_t *material_map(struct material *m, uint32_t number)
 {
-    uint32_t *const all[MATERIAL_MAPS] = {
-        &m->color_texture,
-        &m->emission_texture,
-        &m->specular_texture,
-        &m->alpha_texture,
-        &m->metal_texture,
-        &m->opacity_texture,
-        &m->normal_texture,
-        &m->bump_texture,
-        &m->transmission_texture,
-        &m->coat_texture,
-        &m->coat_alpha_texture,
-        &m->sheen_texture,
-        &m->specular_weight_texture,
-        &m->sheen_alpha_texture,
-        &m->film_texture,
-        &m->film_thickness_texture,
-        &m->grain_texture,
-        &m->coat_normal_texture,
-    };
+    uint32_t *const all[] = {MATERIAL_MAP_LIST(ADDRESS, NOTHING)};
 
     return all[number];
 }
@@ -483,19 +450,12 @@ static void check_map(const struct material_values *s, enum mtl_map which,
     if (map != NO_INDEX)
         warnings_add(at->report, "maps that their material does not use",
                      "%s: found %s, which this material does not use: ignored",
-                     at->path, mtl_map_keys[which]);
+                     at->path, mtl_maps[which].keys[0]);
 }
 
 struct material material_from_source(const struct material_values *source,
                                      const char *path, struct warnings *report)
 {
-    static const enum mtl_map kind_maps[] = {
-        MTL_MAP_COLOR,       MTL_MAP_SPECULAR,        MTL_MAP_ROUGHNESS,
-        MTL_MAP_METALNESS,   MTL_MAP_OPACITY,         MTL_MAP_TRANSMISSION,
-        MTL_MAP_COAT,        MTL_MAP_COAT_ROUGHNESS,  MTL_MAP_SHEEN,
-        MTL_MAP_SHEEN_COLOR, MTL_MAP_SHEEN_ROUGHNESS, MTL_MAP_SPECULAR_WEIGHT,
-        MTL_MAP_FILM,        MTL_MAP_FILM_THICKNESS,  MTL_MAP_GRAIN,
-        MTL_MAP_COAT_NORMAL};
     struct statement_place at = {path, report};
     struct material m = material_default();
     const struct material_values factors = material_values_with_factors(source);
@@ -509,8 +469,14 @@ struct material material_from_source(const struct material_values *source,
         make_glass(&m, MATERIAL_THIN_GLASS, s, &at);
     else
         make_opaque(&m, illum, s, &at);
-    for (size_t i = 0; i < sizeof kind_maps / sizeof kind_maps[0]; i++)
-        check_map(s, kind_maps[i], &m, &at);
+    m.emission_texture = material_values_map(s, MTL_MAP_EMISSION);
+    m.normal_texture = material_values_map(s, MTL_MAP_NORMAL);
+    if (m.normal_texture != NO_INDEX)
+        m.normal_strength = (float)s->map_scales[MTL_MAP_NORMAL];
+    m.bump_texture = material_values_map(s, MTL_MAP_BUMP);
+    m.bump_scale = (float)s->map_scales[MTL_MAP_BUMP];
+    for (int i = 0; i < MTL_MAPS; i++)
+        check_map(s, (enum mtl_map)i, &m, &at);
     if (m.kind == MATERIAL_THIN_GLASS && m.ior == 1 &&
         is_white_or_absent(&s->transmission) && m.color_texture == NO_INDEX)
         warnings_add(report, "invisible materials",
@@ -523,13 +489,7 @@ struct material material_from_source(const struct material_values *source,
                      "%s:%" PRIu64 ": found Tf_distance, which solid glass "
                      "uses: ignored",
                      path, s->attenuation_distance.line);
-    m.normal_texture = material_values_map(s, MTL_MAP_NORMAL);
-    if (m.normal_texture != NO_INDEX)
-        m.normal_strength = (float)s->map_scales[MTL_MAP_NORMAL];
-    m.bump_texture = material_values_map(s, MTL_MAP_BUMP);
-    m.bump_scale = (float)s->map_scales[MTL_MAP_BUMP];
     m.emission = statement_radiance(&light, &at);
-    m.emission_texture = material_values_map(s, MTL_MAP_EMISSION);
     return m;
 }
 

@@ -68,8 +68,12 @@
 #define MATERIAL_FILM_IOR_MAX       10
 #define MATERIAL_FILM_THICKNESS_MAX 2000
 
-/* Maps of a material. */
-#define MATERIAL_MAPS 18
+/* Maps of a material with textures of their own. */
+#define MATERIAL_MAP_ONE(...) +1
+#define MATERIAL_MAP_NONE(...)
+enum { MATERIAL_MAPS = MATERIAL_MAP_LIST(MATERIAL_MAP_ONE, MATERIAL_MAP_NONE) };
+#undef MATERIAL_MAP_ONE
+#undef MATERIAL_MAP_NONE
 
 struct material material_default(void);
 

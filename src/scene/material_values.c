@@ -8,60 +8,22 @@
 #include "image/color.h"
 #include "kernels/types.h"
 
-#define MEMBER(name) offsetof(struct material_values, name)
+#define COLOR(member, key) \
+    {key, offsetof(struct material_values, member), true},
+#define NUMBER(member, key) \
+    {key, offsetof(struct material_values, member), false},
 
 const struct mtl_property mtl_properties[MTL_PROPERTIES] = {
-    {"Kd", MEMBER(base_color), true},
-    {"Ks", MEMBER(specular_color), true},
-    {"Tf", MEMBER(transmission), true},
-    {"Ka", MEMBER(ambient), true},
-    {"Tf_attenuation", MEMBER(attenuation), true},
-    {"Ps_color", MEMBER(sheen_color), true},
-    {"illum", MEMBER(illum), false},
-    {"Ns", MEMBER(shininess), false},
-    {"Ni", MEMBER(ior), false},
-    {"d", MEMBER(opacity), false},
-    {"Tr", MEMBER(transparency), false},
-    {"Pr", MEMBER(roughness), false},
-    {"Pm", MEMBER(metalness), false},
-    {"Pc", MEMBER(coat), false},
-    {"Pcr", MEMBER(coat_roughness), false},
-    {"Kd_roughness", MEMBER(diffuse_roughness), false},
-    {"Ps", MEMBER(sheen), false},
-    {"aniso", MEMBER(anisotropy), false},
-    {"anisor", MEMBER(anisotropy_rotation), false},
-    {"Tf_distance", MEMBER(attenuation_distance), false},
-    {"Tf_thin", MEMBER(thinness), false},
-    {"Ps_roughness", MEMBER(sheen_roughness), false},
-    {"Pf", MEMBER(film), false},
-    {"Pf_ior", MEMBER(film_ior), false},
-    {"Pf_thickness", MEMBER(film_thickness), false},
-    {"Pf_thinnest", MEMBER(film_thinnest), false},
-    {"d_cutoff", MEMBER(cutoff), false},
-    {"Ks_full", MEMBER(specular_scale), false},
-};
+    MTL_PROPERTY_LIST(COLOR, NUMBER)};
 
-const char *const mtl_map_keys[MTL_MAPS] = {
-    [MTL_MAP_COLOR] = "map_Kd",
-    [MTL_MAP_SPECULAR] = "map_Ks",
-    [MTL_MAP_EMISSION] = "map_Ke",
-    [MTL_MAP_ROUGHNESS] = "map_Pr",
-    [MTL_MAP_METALNESS] = "map_Pm",
-    [MTL_MAP_OPACITY] = "map_d",
-    [MTL_MAP_TRANSMISSION] = "map_Tf",
-    [MTL_MAP_COAT] = "map_Pc",
-    [MTL_MAP_COAT_ROUGHNESS] = "map_Pcr",
-    [MTL_MAP_SHEEN] = "map_Ps",
-    [MTL_MAP_SHEEN_COLOR] = "map_Ps_color",
-    [MTL_MAP_SHEEN_ROUGHNESS] = "map_Ps_roughness",
-    [MTL_MAP_SPECULAR_WEIGHT] = "map_Ks_weight",
-    [MTL_MAP_FILM] = "map_Pf",
-    [MTL_MAP_FILM_THICKNESS] = "map_Pf_thickness",
-    [MTL_MAP_GRAIN] = "map_grain",
-    [MTL_MAP_COAT_NORMAL] = "map_Pc_norm",
-    [MTL_MAP_NORMAL] = "norm",
-    [MTL_MAP_BUMP] = "map_Bump",
-};
+#define FACTOR(member)                          offsetof(struct material_values, member)
+#define KEYS(...)                               {__VA_ARGS__}, false
+#define KEY_OR_BLENDER(...)                     {__VA_ARGS__}, true
+#define MAP(name, member, is_data, factor, ...) {is_data, factor, __VA_ARGS__},
+#define INSTEAD(name, is_data, factor, ...)     {is_data, factor, __VA_ARGS__},
+
+const struct mtl_map_kind mtl_maps[MTL_MAPS] = {
+    MATERIAL_MAP_LIST(MAP, INSTEAD)};
 
 struct material_values material_values_empty(void)
 {
@@ -146,26 +108,16 @@ struct material_values
 material_values_with_factors(const struct material_values *source)
 {
     struct material_values s = *source;
-    const struct {
-        enum mtl_map map;
-        struct mtl_number *factor;
-    } numbers[] = {
-        {MTL_MAP_ROUGHNESS, &s.roughness},
-        {MTL_MAP_METALNESS, &s.metalness},
-        {MTL_MAP_COAT, &s.coat},
-        {MTL_MAP_COAT_ROUGHNESS, &s.coat_roughness},
-        {MTL_MAP_SHEEN, &s.sheen},
-        {MTL_MAP_SHEEN_COLOR, &s.sheen},
-        {MTL_MAP_SHEEN_ROUGHNESS, &s.sheen_roughness},
-        {MTL_MAP_FILM, &s.film},
-    };
     struct mtl_color light = material_values_light(&s);
 
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
-        if (material_values_map(&s, numbers[i].map) != NO_INDEX)
-            imply_number(numbers[i].factor, numbers[i].factor == &s.coat
-                                                ? material_values_full_coat(&s)
-                                                : 1);
+    for (int i = 0; i < MTL_MAPS; i++) {
+        void *factor = (char *)&s + mtl_maps[i].factor;
+
+        if (mtl_maps[i].factor != 0 &&
+            material_values_map(&s, (enum mtl_map)i) != NO_INDEX)
+            imply_number(factor,
+                         factor == &s.coat ? material_values_full_coat(&s) : 1);
+    }
     if (material_values_map(&s, MTL_MAP_COLOR) != NO_INDEX)
         imply_color(&s.base_color, mtl_color_is_black(&s.base_color));
     if (material_values_map(&s, MTL_MAP_SPECULAR) != NO_INDEX)

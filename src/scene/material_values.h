@@ -34,31 +34,21 @@ struct mtl_color {
     uint64_t line;
 };
 
-enum mtl_map {
-    MTL_MAP_COLOR,
-    MTL_MAP_SPECULAR,
-    MTL_MAP_EMISSION,
-    MTL_MAP_ROUGHNESS,
-    MTL_MAP_METALNESS,
-    MTL_MAP_OPACITY,
-    MTL_MAP_TRANSMISSION,
-    MTL_MAP_COAT,
-    MTL_MAP_COAT_ROUGHNESS,
-    MTL_MAP_SHEEN,
-    MTL_MAP_SHEEN_COLOR, /* in place of MTL_MAP_SHEEN */
-    MTL_MAP_SHEEN_ROUGHNESS,
-    MTL_MAP_SPECULAR_WEIGHT,
-    MTL_MAP_FILM,
-    MTL_MAP_FILM_THICKNESS,
-    MTL_MAP_GRAIN,
-    MTL_MAP_COAT_NORMAL,
-    MTL_MAP_NORMAL,
-    MTL_MAP_BUMP,
-    MTL_MAPS
+/* The maps of kernels/material_maps.h. */
+#define MTL_MAP_NAME(name, ...) MTL_MAP_##name,
+enum mtl_map { MATERIAL_MAP_LIST(MTL_MAP_NAME, MTL_MAP_NAME) MTL_MAPS };
+#undef MTL_MAP_NAME
+
+#define MTL_MAP_KEYS 3
+
+struct mtl_map_kind {
+    bool is_data;
+    size_t factor; /* offset in material_values of an mtl_number; 0: none */
+    const char *keys[MTL_MAP_KEYS]; /* of its statements; NULL: no more */
+    bool is_second_of_blender;      /* keys[1] is it in files of Blender only */
 };
 
-/* Keys of the map statements. Some have other keys as well. */
-extern const char *const mtl_map_keys[MTL_MAPS];
+extern const struct mtl_map_kind mtl_maps[MTL_MAPS];
 
 /* The program whose meaning the statements of a file have. */
 enum mtl_dialect {
@@ -67,19 +57,53 @@ enum mtl_dialect {
     MTL_BLENDER_4  /* Blender 4.0 and later */
 };
 
+/*
+ * Statements of one colour or one number: member of struct material_values,
+ * key. Each row is read, compared and saved by the same code, colours first.
+ * Ke, Ke_blackbody and the maps have code of their own.
+ */
+/* clang-format off */
+#define MTL_PROPERTY_LIST(COLOR, NUMBER)                                       \
+    COLOR(base_color, "Kd")                                                    \
+    COLOR(specular_color, "Ks")                                                \
+    COLOR(transmission, "Tf")                                                  \
+    COLOR(ambient, "Ka") /* read in files of Blender only */                   \
+    COLOR(attenuation, "Tf_attenuation")                                       \
+    COLOR(sheen_color, "Ps_color")                                             \
+    NUMBER(illum, "illum")                                                     \
+    NUMBER(shininess, "Ns")                                                    \
+    NUMBER(ior, "Ni")                                                          \
+    NUMBER(opacity, "d")                                                       \
+    NUMBER(transparency, "Tr")                                                 \
+    NUMBER(roughness, "Pr")                                                    \
+    NUMBER(metalness, "Pm")                                                    \
+    NUMBER(coat, "Pc")                                                         \
+    NUMBER(coat_roughness, "Pcr")                                              \
+    NUMBER(diffuse_roughness, "Kd_roughness")                                  \
+    NUMBER(sheen, "Ps")                                                        \
+    NUMBER(anisotropy, "aniso")                                                \
+    NUMBER(anisotropy_rotation, "anisor")                                      \
+    NUMBER(attenuation_distance, "Tf_distance")                                \
+    NUMBER(thinness, "Tf_thin")                                                \
+    NUMBER(sheen_roughness, "Ps_roughness")                                    \
+    NUMBER(film, "Pf")                                                         \
+    NUMBER(film_ior, "Pf_ior")                                                 \
+    NUMBER(film_thickness, "Pf_thickness")                                     \
+    NUMBER(film_thinnest, "Pf_thinnest")                                       \
+    NUMBER(cutoff, "d_cutoff")                                                 \
+    NUMBER(specular_scale, "Ks_full")
+/* clang-format on */
+
 struct material_values {
     uint32_t dialect; /* enum mtl_dialect, that of the whole file */
-    struct mtl_color base_color, specular_color, emission, transmission,
-        attenuation, sheen_color;
-    struct mtl_color ambient; /* read in files of Blender only */
+#define MTL_COLOR(member, key)  struct mtl_color member;
+#define MTL_NUMBER(member, key) struct mtl_number member;
+    MTL_PROPERTY_LIST(MTL_COLOR, MTL_NUMBER)
+#undef MTL_COLOR
+#undef MTL_NUMBER
+    struct mtl_color emission;
     /* the two numbers of Ke_blackbody, which replaces Ke */
     struct mtl_number kelvin, luminance;
-    struct mtl_number illum, shininess, ior, opacity, transparency, roughness,
-        metalness, coat, coat_roughness, diffuse_roughness;
-    struct mtl_number sheen, sheen_roughness, anisotropy, anisotropy_rotation,
-        attenuation_distance, thinness;
-    struct mtl_number film, film_ior, film_thickness, film_thinnest, cutoff;
-    struct mtl_number specular_scale;
     uint32_t maps[MTL_MAPS]; /* numbers of textures, or NO_INDEX */
     uint32_t maps_off; /* bit set of 1 << enum mtl_map: maps to be ignored */
     /* factors for the heights of MTL_MAP_BUMP, and for x and y of maps of
@@ -87,18 +111,16 @@ struct material_values {
     double map_scales[MTL_MAPS];
 };
 
-/* A statement of one colour or one number. Statements of this table are read,
- * compared and saved by the same code. Ke, Ke_blackbody and the maps have code
- * of their own. */
 struct mtl_property {
     const char *key;
     size_t member; /* offset in material_values of an mtl_color or mtl_number */
     bool is_color;
 };
 
-#define MTL_PROPERTIES 28
+#define MTL_ONE(...) +1
+enum { MTL_PROPERTIES = MTL_PROPERTY_LIST(MTL_ONE, MTL_ONE) };
+#undef MTL_ONE
 
-/* All statements of one colour or number, colours first. */
 extern const struct mtl_property mtl_properties[MTL_PROPERTIES];
 
 /* Returns the source of a material without statements. */

@@ -381,7 +381,7 @@ const char *parameter_label(const struct owner *o)
 {
     if (o->row->label != NULL)
         return o->row->label;
-    return o->row == &map_parameter ? mtl_map_keys[o->map]
+    return o->row == &map_parameter ? mtl_maps[o->map].keys[0]
                                     : lamp_kinds[o->lamp.kind];
 }
 
