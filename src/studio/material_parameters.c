@@ -470,7 +470,7 @@ const struct parameter_row map_parameter = {NULL,
                                             .set = set_map,
                                             CHOICES(map_states)};
 
-const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
+const struct parameter_row material_parameters[] = {
     {"type", ALL, VALUE_CHOICE, NULL, .get = get_kind, .set = set_kind,
      CHOICES(kind_names)},
     {"colour", OPAQUE, VALUE_COLOR, &scale_unit, .get = get_color,
@@ -522,6 +522,7 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
      .set = set_emission},
     {"of colour", ALL, VALUE_LIGHT_COLOR, &scale_kelvin,
      .get = get_emission_color, .set = set_emission_color},
+    {.label = NULL},
 };
 
 const char *material_parameters_summary(const struct material_values *source,

@@ -15,9 +15,8 @@
 #include "studio/parameter_table.h"
 #include "world/world.h"
 
-#define MATERIAL_PARAMETERS 27
-
-extern const struct parameter_row material_parameters[MATERIAL_PARAMETERS];
+/* The rows of all kinds of material; the last one has no label. */
+extern const struct parameter_row material_parameters[];
 
 /* The row of each map. */
 extern const struct parameter_row map_parameter;

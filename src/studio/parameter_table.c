@@ -292,6 +292,7 @@ static const struct parameter_row object_rows[] = {
     {"material", ALL, VALUE_CHOICE, NULL, .get = get_assigned,
      .set = set_assigned, .name = material_name,
      .expected = "the name of a material"},
+    {.label = NULL},
 };
 
 static const struct parameter_row light_rows[] = {
@@ -315,6 +316,7 @@ static const struct parameter_row light_rows[] = {
     {"exposure", ALL, VALUE_NUMBER, &scale_exposure, LIGHTING(exposure)},
     {"tone", ALL, VALUE_CHOICE, NULL, LIGHTING(tone), CHOICES(view_tones),
      .expected = "linear, reinhard or aces"},
+    {.label = NULL},
 };
 
 /* Rows of each lamp. */
@@ -344,25 +346,33 @@ static const struct parameter_row lamp_rows[] = {
 
 #define COUNT(rows) ((int)(sizeof(rows) / sizeof(rows)[0]))
 
-static const struct {
-    const struct parameter_row *rows;
-    int count;
-} tables[] = {
-    [PAGE_MATERIALS] = {material_parameters, MATERIAL_PARAMETERS},
-    [PAGE_OBJECTS] = {object_rows, COUNT(object_rows)},
-    [PAGE_LIGHT] = {light_rows, COUNT(light_rows)},
-};
+/* Returns row i of the parameters that all owners of a page have, or NULL.
+ * *after becomes i less their number. */
+static const struct parameter_row *row_at(enum selection_page page, int i,
+                                          int *after)
+{
+    static const struct parameter_row *const tables[] = {
+        [PAGE_MATERIALS] = material_parameters,
+        [PAGE_OBJECTS] = object_rows,
+        [PAGE_LIGHT] = light_rows,
+    };
+    const struct parameter_row *row = tables[page];
+
+    for (*after = i; row->label != NULL; row++, --*after)
+        if (*after == 0)
+            return row;
+    return NULL;
+}
 
 bool parameter_choose_row(struct owner *o, int i)
 {
     enum selection_page page = o->selection->page;
-    int after = i - tables[page].count;
+    int after;
 
     o->lamp_number = NO_INDEX;
-    if (after < 0) {
-        o->row = &tables[page].rows[i];
+    o->row = row_at(page, i, &after);
+    if (o->row != NULL)
         return true;
-    }
     if (page == PAGE_MATERIALS && after < MTL_MAPS) {
         o->row = &map_parameter;
         o->map = (enum mtl_map)after;

@@ -90,9 +90,8 @@ static struct owner open_source(const struct material_values *source,
     struct owner o = {.selection = NULL};
 
     material_parameters_open(&o, source, NULL);
-    for (int i = 0; i < MATERIAL_PARAMETERS; i++) {
-        const struct parameter_row *row = &material_parameters[i];
-
+    for (const struct parameter_row *row = material_parameters;
+         row->label != NULL; row++) {
         if (strcmp(row->label, label) == 0 && (row->kinds >> o.kind & 1) != 0)
             o.row = row;
     }
