@@ -4,7 +4,6 @@
 #include <inttypes.h>
 
 #include "base/print.h"
-#include "base/text_width.h"
 
 void json_write_string(FILE *to, const char *text)
 {

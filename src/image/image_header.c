@@ -10,7 +10,6 @@
 #include "image/image_bytes.h"
 #include "image/image_exr_read.h"
 #include "image/image_hdr.h"
-#include "image/image_pfm.h"
 #include "image/image_psd.h"
 #include "image/image_webp.h"
 #include "image/stb.h"

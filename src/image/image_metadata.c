@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "base/print.h"
-#include "base/text_width.h"
 
 /* Copies the longest beginning of the text that fits, with a '?' for what is
  * not shown. */

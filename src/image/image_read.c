@@ -12,7 +12,6 @@
 #include "image/image_exr_read.h"
 #include "image/image_hdr.h"
 #include "image/image_header.h"
-#include "image/image_pfm.h"
 #include "image/image_psd.h"
 #include "image/image_webp.h"
 #include "image/stb.h"

@@ -7,7 +7,7 @@
 
 #include "base/geometry.h"
 #include "base/memory.h"
-#include "base/text_width.h"
+#include "base/print.h"
 #include "render/projection.h"
 #include "kernels/instance.h"
 #include "kernels/traverse.h"

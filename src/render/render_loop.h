@@ -30,7 +30,7 @@
 #include "film/film_error.h"
 #include "film/film_file.h"
 #include "render/backend.h"
-#include "render/render_limits.h"
+#include "render/pass_plan.h"
 
 struct rect {
     int x, y, width, height;

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
  * autosave_file.h - files of autosaved sessions, from which the next session of
- * a scene goes on, and the folder of them
- *
- * The head of a file is text: a line for each key, in a fixed order, and a
- * checksum. It has the lengths of the parts that follow it. A checksum of its
- * own protects all parts but the film, which has checksums in it. The folder is
- * `sessions` in the user's state folder, with one file for each scene, named
- * after the hash of the scene's absolute path. Files are removed when they are
- * older than 30 days, and the oldest ones when all together have more than
- * 1 GiB.
+ * a scene goes on, the folder of them, and the thread that writes them
  *
  * Units:     bytes, nanoseconds; ages in seconds
- * Ownership: autosave_file_free() frees; a zeroed struct is empty
- * Threads:   files and autosave_prune() any; the rest of the folder main only
- * Errors:    one line that begins with the path
+ * Ownership: autosave_file_free() frees; a zeroed struct is empty;
+ *            autosave_writer_free() frees, after waiting for a file that is
+ * being written Threads:   files and autosave_prune() any; the rest of the
+ * folder main only; the writer from one thread Errors:    one line that begins
+ * with the path; those of the writer come from autosave_writer_finish()
  */
 #ifndef GLIM_AUTOSAVE_FILE_H
 #define GLIM_AUTOSAVE_FILE_H
@@ -24,7 +18,21 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "base/background.h"
 #include "base/error.h"
+#include "session/session.h"
+
+/* ---- files ---- */
+
+/*
+ * The head of a file is text: a line for each key, in a fixed order, and a
+ * checksum. It has the lengths of the parts that follow it. A checksum of its
+ * own protects all parts but the film, which has checksums in it. The folder is
+ * `sessions` in the user's state folder, with one file for each scene, named
+ * after the hash of the scene's absolute path. Files are removed when they are
+ * older than 30 days, and the oldest ones when all together have more than
+ * 1 GiB.
+ */
 
 /* ---- files ---- */
 
@@ -108,5 +116,50 @@ void autosave_describe(char text[AUTOSAVE_TEXT_BYTES],
 /* Removes what is too old or too much, and prints a line for each file, the
  * last one first. Fails without a state folder. */
 bool autosave_print_list(FILE *to, struct error *err);
+
+/* ---- the writer ---- */
+
+/*
+ * The thread first copies the film and hashes the world, neither of which may
+ * change before that is complete. Screen and render do not wait for the rest. A
+ * film whose bytes are too many is left out.
+ */
+
+/* Size limits of a film's copy in memory and of its bytes in the file. */
+#define AUTOSAVE_COPY_BYTES_MAX ((uint64_t)1 << 30)
+#define AUTOSAVE_FILM_BYTES_MAX ((size_t)1 << 28)
+
+struct autosave_writer {
+    struct background copying;
+    /* set before the thread starts */
+    struct autosave_file kept; /* its film is made by the thread */
+    const char *path;
+    bool has_film;
+    struct render *render;
+    const char *kernels_path;
+    struct world world;
+    struct film_header header;
+    struct film_range range;
+    /* owned by the thread until autosave_writer_finish() joins it */
+    bool is_film_left_out; /* since it is too large */
+    bool is_written;
+    struct error error;
+};
+
+bool autosave_writer_init(struct autosave_writer *w, struct error *err);
+
+/* Starts to write a session, with the film of the render if has_film. Frees
+ * `k`, at the end or after a failure. `path` is the caller's until the end.
+ * Nothing is being written. */
+bool autosave_writer_begin(struct autosave_writer *w, struct session *s,
+                           struct autosave_file *k, const char *path,
+                           bool has_film, struct error *err);
+
+/* Blocks until the file is written. Returns false, with the error, if it, or
+ * its film, is not. *is_film_left_out says that the film is too large. */
+bool autosave_writer_finish(struct autosave_writer *w, bool *is_film_left_out,
+                            struct error *err);
+
+void autosave_writer_free(struct autosave_writer *w);
 
 #endif

@@ -10,8 +10,8 @@
 #include "base/print.h"
 #include "base/thread_pool.h"
 #include "film/image_write.h"
+#include "session/frame_series.h"
 #include "session/option_table.h"
-#include "session/video_pipe.h"
 #include "terminal/xmalloc.h"
 
 const char *const options_shows[] = {

@@ -1,23 +1,60 @@
 // SPDX-License-Identifier: MIT
 /*
  * frame_series.h - the pictures of a moving camera or an animated scene: their
- * poses, the names of their files, and the progress of all of them
+ * poses, the names of their files, their progress, and a video that a process
+ * of ffmpeg writes from them
  *
- * Frames are numbered from 0. Frame k of a turntable of N is turned by
- * k * 360 / N degrees; those of a flight have equal steps along the numbered
- * views. Without either, the scene is loaded again for each frame, as its
- * animation poses it at k / fps seconds.
- *
- * Ownership: frame_series_end() frees; session and options are the caller's
+ * Ownership: frame_series_end() frees; session and options are the caller's;
+ *            video_pipe_close() ends the process
  * Threads:   main only
- * Errors:    too few numbered views; scenes without an animation
+ * Errors:    too few numbered views; scenes without an animation; no ffmpeg, or
+ * one that fails; its own words go to standard error
  */
 #ifndef GLIM_FRAME_SERIES_H
 #define GLIM_FRAME_SERIES_H
 
+#include <sys/types.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "image/frame.h"
 #include "render/progress.h"
 #include "session/session.h"
-#include "session/video_pipe.h"
+
+/* ---- videos ---- */
+
+struct video_pipe {
+    const char *path;
+    pid_t process; /* 0: none */
+    int fd;
+    struct file_identity before; /* the file of that name at the start */
+    bool is_missing;             /* after a failed open: there is no ffmpeg */
+};
+
+/* Returns true if the name ends like that of a video: .mp4, .webm or .webp. */
+bool video_pipe_is_name(const char *path);
+
+/* Starts ffmpeg, which replaces the file. */
+bool video_pipe_open(struct video_pipe *v, const char *path, int width,
+                     int height, double fps, struct error *err);
+
+/* Adds a picture of the video's size. Blocks until ffmpeg has read it. */
+bool video_pipe_write(struct video_pipe *v, const struct frame *frame,
+                      struct error *err);
+
+/* Ends the video and waits until ffmpeg has written it. If it fails, or hangs
+ * when a signal ends the program, what it has written of the file is removed. A
+ * zeroed struct is closed. */
+bool video_pipe_close(struct video_pipe *v, struct error *err);
+
+/* ---- series ---- */
+
+/*
+ * Frames are numbered from 0. Frame k of a turntable of N is turned by
+ * k * 360 / N degrees; those of a flight have equal steps along the numbered
+ * views. Without either, the scene is loaded again for each frame, as its
+ * animation poses it at k / fps seconds.
+ */
 
 struct frame_series {
     struct session *session;

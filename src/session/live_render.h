@@ -18,10 +18,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "session/autosave_writer.h"
+#include "session/autosave_file.h"
 #include "session/reload.h"
-#include "session/save_thread.h"
 #include "session/session.h"
+#include "session/session_save.h"
 
 /* The line for the person in the place of the status line. */
 struct message {

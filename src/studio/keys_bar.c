@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "base/text_width.h"
+#include "base/print.h"
 #include "studio/progress_panel.h"
 
 /* ---- hints ---- */

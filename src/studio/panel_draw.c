@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/text_width.h"
+#include "base/print.h"
 #include "studio/keys_bar.h"
 #include "studio/material_parameters.h"
 #include "terminal/gauge.h"

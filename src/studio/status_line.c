@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/print.h"
-#include "base/text_width.h"
 #include "render/error_text.h"
 #include "render/progress.h"
 

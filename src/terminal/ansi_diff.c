@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "terminal/sgr.h"
+#include "terminal/theme.h"
 
 /* ---- differences ---- */
 

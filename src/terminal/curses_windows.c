@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text_width.h"
+#include "base/print.h"
 #include "terminal/glyphs.h"
-#include "terminal/sgr.h"
+#include "terminal/theme.h"
 #include "terminal/tty.h"
 #include "terminal/xmalloc.h"
 

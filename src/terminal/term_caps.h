@@ -14,7 +14,6 @@
 #include <stdbool.h>
 
 #include "terminal/pixel_graphics.h"
-#include "terminal/sgr.h"
 #include "terminal/theme.h"
 #include "terminal/tty.h"
 #include "terminal/tty_input.h"

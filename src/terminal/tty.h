@@ -19,7 +19,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
-#include "terminal/sgr.h"
+#include "terminal/theme.h"
 
 struct tty_size {
     int cols, rows;

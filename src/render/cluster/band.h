@@ -1,26 +1,29 @@
 // SPDX-License-Identifier: MIT
 /*
  * band.h - bands of a film's rows: the order in which ranks get them, the
- * samples that a rank renders in a film of its own, and the message that it
- * answers
+ * samples that a rank renders in a film of its own, the message that it
+ * answers, and the thread that renders them while its owner serves messages
  *
+ * Units:     pixels, rows of a film, mean samples per pixel
+ * Ownership: band_free() and band_thread_destroy() free; a zeroed struct band
+ * is empty; what a band is rendered from is borrowed until it is done; the
+ *            caller frees answers
+ * Threads:   one at a time
+ * Errors:    out of memory, errors of the backend, damaged bytes, no thread
+ */
+#ifndef GLIM_BAND_H
+#define GLIM_BAND_H
+
+#include "render/backend.h"
+
+/*
  * A pass is divided into bands of rows. Each band is a part of a rank's share
  * of the rows that are left, so that bands are large at first and small at the
  * end, and a slow rank gets fewer of them. If there are too few rows for the
  * ranks, the samples of the pass are divided, too, into slices, which are
  * handed out one after the other. Sums are integers, so the bands can be added
  * to the whole film in any order (film_merge()).
- *
- * Units:     pixels, rows of a film, mean samples per pixel
- * Ownership: band_free() frees; a zeroed struct is empty; the caller frees
- *            answers
- * Threads:   one at a time
- * Errors:    out of memory, errors of the backend, damaged bytes
  */
-#ifndef GLIM_BAND_H
-#define GLIM_BAND_H
-
-#include "render/backend.h"
 
 /* ---- plans ---- */
 
@@ -115,5 +118,36 @@ struct band_answer *band_answer_make(struct band *b, uint32_t epoch,
 /* Adds the samples of an answer to the film. */
 bool band_answer_add(const struct band_answer *a, size_t size,
                      struct film *film, struct error *err);
+
+/* ---- the thread ---- */
+
+struct band_thread;
+
+/* A band and what it is rendered from. */
+struct band_work {
+    struct band *band;
+    struct backend *backend;
+    struct backend_picture whole; /* its film is not used */
+    uint64_t first_sample;
+    const struct cancel *cancel;
+};
+
+struct band_thread *band_thread_create(struct error *err);
+
+/* Starts to render. The thread is idle. */
+void band_thread_begin(struct band_thread *t, const struct band_work *work);
+
+/* Returns the band once after it is done, with its result; NULL before. */
+struct band *band_thread_end(struct band_thread *t, enum pass_result *result,
+                             struct error *err);
+
+/* Returns true between begin and end. */
+bool band_thread_is_busy(const struct band_thread *t);
+
+/* Sleeps for this time, or until a band in progress is done. */
+void band_thread_wait(struct band_thread *t, long timeout_ns);
+
+/* Waits for the band in progress, if any. */
+void band_thread_destroy(struct band_thread *t);
 
 #endif

@@ -7,7 +7,6 @@
 #include "film/film.h"
 #include "film/film_pack.h"
 #include "render/cluster/band.h"
-#include "render/cluster/band_thread.h"
 #include "render/cluster/cluster.h"
 #include "render/cluster/rank_tally.h"
 #include "render/cluster/wire.h"

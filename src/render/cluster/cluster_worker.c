@@ -6,7 +6,6 @@
 
 #include "base/memory.h"
 #include "render/cluster/band.h"
-#include "render/cluster/band_thread.h"
 #include "render/cluster/wire.h"
 
 /* A worker, its copy of rank 0's world, and the band in progress. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "studio/camera/camera_moves.h"
+#include "studio/camera/camera_input.h"
 #include "studio/camera/framing.h"
 
 /* Share of an object that is seen from which it counts as not hidden. */

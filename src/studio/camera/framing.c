@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/geometry.h"
-#include "studio/camera/camera_moves.h"
+#include "studio/camera/camera_input.h"
 #include "kernels/instance.h"
 
 /* Turns of the camera that are tried, in degrees. */

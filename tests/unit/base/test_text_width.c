@@ -2,7 +2,7 @@
 #include <locale.h>
 #include <string.h>
 
-#include "base/text_width.h"
+#include "base/print.h"
 #include "tests/unit/check.h"
 
 /* Greek and Latin letters take one column, CJK and emoji two. Combining marks

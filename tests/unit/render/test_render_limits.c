@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/unit/check.h"
 
-#include "render/render_limits.h"
+#include "render/pass_plan.h"
 
 /* The upper end of the interval counts: the error is below the limit with the
  * stated confidence. */

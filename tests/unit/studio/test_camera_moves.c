@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "studio/camera/camera_moves.h"
+#include "studio/camera/camera_input.h"
 
 #define ASPECT 1.25 /* of the picture */
 

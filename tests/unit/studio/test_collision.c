@@ -11,7 +11,6 @@
 
 #include "base/geometry.h"
 #include "studio/camera/camera_input.h"
-#include "studio/camera/camera_moves.h"
 #include "studio/camera/framing.h"
 #include "studio/camera/surfaces.h"
 #include "tests/unit/folder.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/unit/check.h"
 
-#include "terminal/sgr.h"
+#include "terminal/theme.h"
 
 static void palette_follows_the_environment(void **state)
 {
