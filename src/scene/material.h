@@ -1,8 +1,24 @@
 // SPDX-License-Identifier: MIT
 /*
  * material.h - the material that the kernels render, made from the statements
- * of an MTL file
+ * of an MTL file, and the kernel features that it needs
  *
+ * Units:     absorption is per unit of length of the file
+ * Threads:   any
+ * Errors:    impossible values are replaced, with a warning
+ */
+#ifndef GLIM_MATERIAL_H
+#define GLIM_MATERIAL_H
+
+#include <stdbool.h>
+
+#include "base/warnings.h"
+#include "scene/material_values.h"
+#include "kernels/types.h"
+
+/* ---- materials ---- */
+
+/*
  * The kind of a material is the first of these that applies:
  *   glass        illum 6 or 7; colour Tf times map_Kd
  *   thin glass   illum 4 or 9, unless Tf is white or absent and d is below 1 or
@@ -39,17 +55,7 @@
  * Ka with illum 3 and 6 if there is no Pm; roughness is 1 - sqrt(Ns / 1000);
  * illum 9, and 6 with d below 1, are no glass; and from 4.0 on Ks scales twice
  * the Fresnel reflectance of Ni, and Pc is 4 times the weight of the coat.
- *
- * Units:     absorption is per unit of length of the file
- * Threads:   any
- * Errors:    impossible values are replaced, with a warning
  */
-#ifndef GLIM_MATERIAL_H
-#define GLIM_MATERIAL_H
-
-#include "base/warnings.h"
-#include "scene/material_values.h"
-#include "kernels/types.h"
 
 /* Reflectance of plastic whose Ks is 1. Exporters write Ks 0.5 for ordinary
  * surfaces, which then reflect 4 %, like glass and varnish. */
@@ -94,5 +100,14 @@ struct material material_from_source(const struct material_values *source,
 struct material_values
 material_values_needed(const struct material_values *file,
                        const struct material_values *wanted);
+
+/* ---- features ---- */
+
+/* Returns a set of enum feature. */
+uint32_t material_features(const struct material *material,
+                           const struct texture *textures);
+
+/* Returns true if materials of these features use the tangents of vertices. */
+bool features_use_tangents(uint32_t features);
 
 #endif

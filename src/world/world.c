@@ -13,7 +13,7 @@
 #include "base/print.h"
 #include "image/color.h"
 #include "image/image_read.h"
-#include "scene/material_features.h"
+#include "scene/material.h"
 #include "world/bvh/instance_trees.h"
 #include "world/light/daylight.h"
 #include "world/light/guide_grid.h"

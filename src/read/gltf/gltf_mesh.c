@@ -13,7 +13,7 @@
 #include "read/gltf/gltf_node.h"
 #include "read/gltf/gltf_primitive.h"
 #include "read/gltf/gltf_value.h"
-#include "scene/material_features.h"
+#include "scene/material.h"
 #include "scene/scene.h"
 #include "kernels/types.h"
 #include "kernels/vec.h"

@@ -19,7 +19,6 @@
 #include "render/opencl/cl_source.h"
 #include "render/render_loop.h"
 #include "scene/material.h"
-#include "scene/material_features.h"
 #include "world/world.h"
 
 /* ---- the self-test ---- */
