@@ -12,8 +12,8 @@
 
 #include "base/decimal.h"
 #include "base/file.h"
-#include "base/json.h"
 #include "base/memory.h"
+#include "session/stats_json.h"
 
 /* Finds the finite number of a member of the object. */
 static bool find_number(const char *json, const char *name, double *number)
