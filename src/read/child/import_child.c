@@ -14,7 +14,6 @@
 #include "base/name_table.h"
 #include "read/child/import_material.h"
 #include "read/child/import_stream.h"
-#include "read/child/import_view.h"
 
 /* What is done once for each place of a mesh in the tree of nodes: it is
  * counted, or an array of it is written. */
