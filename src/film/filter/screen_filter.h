@@ -25,7 +25,6 @@
 #define GLIM_SCREEN_FILTER_H
 
 #include "film/filter/filter.h"
-#include "film/filter/screen_detail.h"
 #include "film/filter/screen_halves.h"
 
 struct screen_filter {

@@ -10,7 +10,7 @@
 #include "tests/unit/check.h"
 
 #include "film/filter/filter.h"
-#include "film/filter/screen_detail.h"
+#include "film/filter/screen_halves.h"
 
 #define WIDTH  96
 #define HEIGHT 60
