@@ -5,7 +5,7 @@
  */
 #include <math.h>
 
-#include "inspect/snapshot.h"
+#include "studio/comparison.h"
 #include "tests/unit/check.h"
 
 #define WIDTH  128
