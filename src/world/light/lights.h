@@ -7,9 +7,9 @@
  * the next triangle it is one light if both are much alike and form a flat
  * face, like the halves of a quad. light_tree.h builds the tree.
  *
- * Units:     normalised scene units
- * Ownership: lights_free() frees; a zeroed struct has no lights
- * Threads:   one thread builds; read only after
+ * Units:     normalised scene units; texture coordinates; radiance, as the mean
+ * of the channels Ownership: lights_free() and texture_power_free() free;
+ * zeroed structs have none Threads:   one thread builds; read only after
  * Errors:    memory
  */
 #ifndef GLIM_LIGHTS_H
@@ -17,6 +17,40 @@
 
 #include "base/error.h"
 #include "kernels/types.h"
+
+/* ---- power of textured emitters ---- */
+
+/*
+ * A summed-area table of the texels (Crow 1984) has the mean over any rectangle
+ * of the repeating image. A triangle is covered by bands of such rectangles,
+ * with a margin, so that its mean is above 0 if any texel that it shows is.
+ */
+
+struct texture_power_sums {
+    double *sums; /* over texels above and left: (width + 1)(height + 1) */
+    uint32_t width, height;
+};
+
+/* Sums up the radiance of a material, which has an emission texture. */
+bool texture_power_init(struct texture_power_sums *f, const struct world *w,
+                        const struct material *m, struct error *err);
+
+/* Returns the mean over the whole image. */
+double texture_power_whole(const struct texture_power_sums *footprint);
+
+/* Returns the mean over a triangle with these texture coordinates. */
+double texture_power_mean(const struct texture_power_sums *f,
+                          const struct vec2 uv[3]);
+
+void texture_power_free(struct texture_power_sums *f);
+
+/* ---- lights ---- */
+
+/*
+ * An emissive triangle is a light if it has enough power to be sampled. With
+ * the next triangle it is one light if both are much alike and form a flat
+ * face, like the halves of a quad. light_tree.h builds the tree.
+ */
 
 struct lights {
     struct light *lights; /* in the order of their first triangles */

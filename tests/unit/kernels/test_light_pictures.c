@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "world/light/lights.h"
-#include "world/light/texture_power.h"
 #include "kernels/light.h"
 
 #include "tests/unit/check.h"
