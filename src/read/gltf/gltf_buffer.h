@@ -5,13 +5,22 @@
  * Units:     bytes
  * Ownership: buffers and views are the document's
  * Threads:   one
- * Errors:    a file that cannot be read, bytes that are too short or too many
+ * Errors:    a file that cannot be read, bytes that are too short or too many,
+ * what cannot be unpacked or is too large for its packed bytes
  */
 #ifndef GLIM_GLTF_BUFFER_H
 #define GLIM_GLTF_BUFFER_H
 
 #include "read/gltf/gltf_document.h"
 #include "read/gltf/gltf_value.h"
+
+/* ---- EXT_meshopt_compression ---- */
+
+/* Unpacks the view of this extension object. */
+bool gltf_meshopt_unpack(const struct gltf_value *extension,
+                         struct gltf_view *view, struct error *err);
+
+/* ---- buffers ---- */
 
 /* Read the arrays "buffers" and "bufferViews" of the document. */
 bool gltf_buffers_read(struct gltf_document *document, struct error *err);
