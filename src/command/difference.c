@@ -197,7 +197,7 @@ void tile_test_free(struct tile_test *test)
 
 /* Dark pixels are compared with this radiance instead of their own, as in
  * relMSE. */
-#define DARK 0.1
+#define DARK_MEAN 0.1
 
 /* Returns the mean difference of a pixel's channels, relative to the reference.
  */
@@ -209,7 +209,7 @@ static double relative_at(const struct picture_pair *p, size_t pixel)
         difference += ((double)p->rgb[i] - (double)p->reference[i]) / 3;
         reference += (double)p->reference[i] / 3;
     }
-    return difference / hypot(reference, DARK);
+    return difference / hypot(reference, DARK_MEAN);
 }
 
 static void draw_tiles(const struct tile_test *test, struct frame *frame)

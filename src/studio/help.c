@@ -158,7 +158,7 @@ static void draw_item(const struct help_item *item)
 static void draw_search(const struct help *help, int row, int cols,
                         const char *note)
 {
-    static const struct key_hint hints[] = {{"Esc", "closes"},
+    static const struct key_hint usual[] = {{"Esc", "closes"},
                                             {"type", "to search"},
                                             {NULL, NULL}};
     static const struct key_hint page_hints[] = {{"Esc", "closes"},
@@ -174,7 +174,7 @@ static void draw_search(const struct help *help, int row, int cols,
     }
     windows_text(WINDOW_OVER, row, 2, cols, ROLE_FAINT, note);
     key_hints_draw(WINDOW_OVER, row - 1, 2, cols,
-                   help->page_count > 1 ? page_hints : hints);
+                   help->page_count > 1 ? page_hints : usual);
 }
 
 void help_draw(struct help *help, const struct keymap *keys, bool in_panel,
