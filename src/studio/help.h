@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * help.h - the help: keys in groups, searched by typing
+ * help.h - what keys do: the help, which is searched by typing, and the bar
+ * that the picture leaves free for the keys of now
  *
  * Units:     terminal cells
+ * Ownership: texts stay the caller's
  * Threads:   main only
  */
 #ifndef GLIM_HELP_H
@@ -11,7 +13,66 @@
 #include <stdbool.h>
 
 #include "session/keymap.h"
+#include "session/live_render.h"
+#include "terminal/curses_windows.h"
 #include "terminal/screen.h"
+
+/* ---- the bar ---- */
+
+/*
+ * A picture of another shape than the window is moved to the left or the top,
+ * so that there is one bar, at the right or at the bottom. Keys are at its
+ * foot, in one row or one below the other. The rest of it is for the progress.
+ */
+
+/* ---- hints ---- */
+
+struct key_hint {
+    const char *key;
+    const char *does; /* one word or two; NULL ends a list */
+};
+
+/* Writes hints into `cols` columns of a row until the next one does not fit.
+ * Returns those that are left. */
+const struct key_hint *key_hints_draw(enum window_part part, int row, int col,
+                                      int cols, const struct key_hint *hints);
+
+/* ---- the bar ---- */
+
+/* What the person is doing. */
+enum keys_state {
+    KEYS_NONE, /* nothing is drawn */
+    KEYS_LIVE,
+    KEYS_PAUSED,
+    KEYS_NORMAL,
+    KEYS_CURSOR,
+    KEYS_PANEL, /* its own keys are at its foot */
+    KEYS_PANEL_NORMAL,
+    KEYS_ORBIT,
+    KEYS_VIEW,    /* a view other than light */
+    KEYS_DRAWING, /* over the picture */
+    KEYS_COMPARE,
+    KEYS_STATES
+};
+
+struct keys_bar {
+    enum keys_state state;   /* that is drawn; KEYS_NONE: has to be drawn */
+    struct window_rect area; /* of the bar; no columns: there is none */
+    int key_rows;            /* at its foot */
+};
+
+/* Moves the picture of a new layout, and finds the bar beside or below it. */
+void keys_bar_lay_out(struct keys_bar *bar, struct screen *screen);
+
+/* Returns the part above the keys if it has room for the progress, or NULL. */
+const struct window_rect *keys_bar_room(const struct keys_bar *bar,
+                                        struct window_rect *room);
+
+/* Draws the keys of a state, if it is another one than before. */
+void keys_bar_draw(struct keys_bar *bar, const struct live_render *control,
+                   struct screen *screen, enum keys_state state);
+
+/* ---- the help ---- */
 
 #define HELP_ENTRY_COLS  36
 #define HELP_KEY_COLS    8

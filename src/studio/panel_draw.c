@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/print.h"
-#include "studio/keys_bar.h"
+#include "studio/help.h"
 #include "studio/material_parameters.h"
 #include "terminal/gauge.h"
 #include "kernels/tone.h"

@@ -26,7 +26,6 @@
 #include "studio/glyph_choice.h"
 #include "studio/help.h"
 #include "studio/inspector.h"
-#include "studio/keys_bar.h"
 #include "studio/progress_panel.h"
 #include "terminal/screen.h"
 
