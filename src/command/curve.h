@@ -16,7 +16,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "command/picture_error.h"
+#include "command/difference.h"
 #include "command/reference_info.h"
 #include "film/film_error.h"
 

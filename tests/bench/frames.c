@@ -17,7 +17,7 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "command/picture_error.h"
+#include "command/difference.h"
 #include "session/session.h"
 
 #define FRAME_NS  (1000000000u / 60)

@@ -8,7 +8,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "command/picture_error.h"
+#include "command/difference.h"
 #include "command/reference_info.h"
 #include "film/image_write.h"
 #include "terminal/xmalloc.h"

@@ -7,7 +7,7 @@
 
 #include "tests/unit/check.h"
 
-#include "command/picture_error.h"
+#include "command/difference.h"
 
 /* Differences 0.1, 0 and -0.3 in the first pixel, 0 in the second. */
 static void errors_are_those_by_hand(void **state)

@@ -8,7 +8,7 @@
 #include "tests/unit/check.h"
 #include "tests/unit/noise.h"
 
-#include "command/picture_error.h"
+#include "command/difference.h"
 #include "command/replicates.h"
 
 enum { SIDE = 30, VALUES = 3 * SIDE * SIDE, TRIES = 300 };
