@@ -15,9 +15,9 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/cgroup_quota.h"
 #include "base/clock.h"
 #include "base/hash.h"
+#include "base/machine.h"
 #include "base/memory.h"
 #include "base/stop.h"
 

@@ -10,7 +10,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-#include "base/cgroup_quota.h"
+#include "base/machine.h"
 
 /* ---- functions ---- */
 

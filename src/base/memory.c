@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <sys/mman.h>
 
-#include "base/cgroup_quota.h"
+#include "base/machine.h"
 
 /* ---- allocation ---- */
 

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "base/cgroup_quota.h"
+#include "base/machine.h"
 #include "base/memory.h"
 
 /* ---- threads ---- */

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "base/cgroup_quota.h"
+#include "base/machine.h"
 #include "base/memory.h"
 
 /* ---- quantiles of Student's t ---- */

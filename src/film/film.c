@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/cgroup_quota.h"
+#include "base/machine.h"
 #include "base/memory.h"
 #include "base/simd4.h"
 #include "image/area.h"

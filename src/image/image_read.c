@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/cgroup_quota.h"
 #include "base/file.h"
+#include "base/machine.h"
 #include "base/memory.h"
 #include "image/color.h"
 #include "image/image_exr_read.h"

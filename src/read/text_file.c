@@ -9,7 +9,7 @@
 #define ZLIB_CONST
 #include <zlib.h>
 
-#include "base/cgroup_quota.h"
+#include "base/machine.h"
 #include "base/memory.h"
 
 /* Value of windowBits for files of gzip: the largest window, and 16. */

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/cpu_features.h"
+#include "base/machine.h"
 
 /* BUILDS(X) lists the builds of the kernel that the program has (kernels.mk),
  * the fastest instruction set first and, for each, the fewest features first.

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/cpu_features.h"
+#include "base/machine.h"
 #include "base/memory.h"
 
 /* ---- builds of the loops ---- */

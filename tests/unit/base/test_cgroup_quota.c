@@ -6,7 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "base/cgroup_quota.h"
+#include "base/machine.h"
 
 static void put_in_tree(const char *path, const char *text)
 {

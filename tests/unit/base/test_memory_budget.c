@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/unit/check.h"
 
-#include "base/cgroup_quota.h"
+#include "base/machine.h"
 #include "base/memory.h"
 
 /* Items are taken until the size is used, and what does not fit takes

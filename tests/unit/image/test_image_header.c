@@ -7,7 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "base/cgroup_quota.h"
+#include "base/machine.h"
 #include "tests/unit/whole_image.h"
 
 /* Most memory that the process may gain from a file that promises gigabytes. */
