@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/background.h"
 #include "base/clock.h"
-#include "base/event_fd.h"
 #include "base/memory.h"
 #include "base/thread_pool.h"
 #include "render/progress.h"

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/event_fd.h"
+#include "base/background.h"
 #include "base/memory.h"
 #include "world/world_materials.h"
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * background.h - work in a background thread, of which a descriptor tells the
- * event loop when it is complete
+ * background.h - work in a background thread, and descriptors with which
+ * threads and signal handlers wake an event loop
  *
- * The work may first copy data that the main thread changes afterwards.
- *
- * Ownership: background_free() frees; no work is in progress then
- * Threads:   all functions from one thread, except background_has_copied(),
- *            which the work calls
- * Errors:    background_init() and background_begin() fail for the system's
- *            reasons
+ * Ownership: background_free() frees, when no work is in progress; a descriptor
+ * is the caller's to close() Threads:   descriptors any; all functions of a
+ * background from one thread, except background_has_copied(), which the work
+ * calls Errors:    the system's reasons for no thread and no descriptor
  */
 #ifndef GLIM_BACKGROUND_H
 #define GLIM_BACKGROUND_H
@@ -18,6 +15,22 @@
 #include <stdbool.h>
 
 #include "base/error.h"
+
+/* ---- descriptors ---- */
+
+/* Returns the descriptor, or -1 and a message that begins with `whose`. */
+int event_fd_open(const char *whose, struct error *err);
+
+/* Makes the descriptor readable until event_fd_clear(). Signal handlers that
+ * restore errno may call it. */
+void event_fd_set(int fd);
+void event_fd_clear(int fd);
+
+/* ---- work ---- */
+
+/*
+ * The work may first copy data that the main thread changes afterwards.
+ */
 
 struct background {
     int event_fd; /* readable when the work is complete */

@@ -12,8 +12,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "base/background.h"
 #include "base/clock.h"
-#include "base/event_fd.h"
 #include "base/file.h"
 #include "base/print.h"
 #include "base/stop.h"

@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/background.h"
 #include "base/clock.h"
-#include "base/event_fd.h"
 #include "base/memory.h"
 #include "base/stop.h"
 #include "base/thread_pool.h"

@@ -9,8 +9,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/background.h"
 #include "base/clock.h"
-#include "base/event_fd.h"
 #include "base/print.h"
 #include "base/stop.h"
 #include "session/save.h"
