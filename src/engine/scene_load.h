@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
  * scene_load.h - the formats of scene files, and loads a scene from its files
+ * with the light that it lacks
  *
  * Units:     those of the scene file
  * Ownership: the caller frees scene and world
@@ -12,6 +13,32 @@
 
 #include "scene/scene.h"
 #include "world/world.h"
+
+/* ---- what a model shows by its own light ---- */
+
+/*
+ * A few thousand paths through a small picture measure the light that surfaces
+ * reflect. Emission and sky that the camera sees itself count on request: a
+ * lamp that shines into the camera need not show anything else.
+ */
+
+struct light_probe {
+    double mean;  /* mean luminance, of which each sample adds 1 at most */
+    double shown; /* share of the picture that is not black */
+};
+
+/* Measures the world with the lamps that it has, and the sky and camera of the
+ * view. Builds the world's tree. */
+bool light_probe_take(struct light_probe *probe, struct host_world *host,
+                      const struct scene *scene, const struct view *view,
+                      bool counts_seen, struct error *err);
+
+/* Returns true if this light does enough beside the light that could be added:
+ * `with` is measured with both. Light that shows nothing never does. */
+bool light_probe_suffices(const struct light_probe *own,
+                          const struct light_probe *with);
+
+/* ---- scenes ---- */
 
 /* ---- formats ---- */
 

@@ -3,13 +3,12 @@
  * test_light_probe.c - light that surfaces reflect is measured, and decides
  * whether a model is lit as a studio
  */
-#include "engine/light_probe.h"
+#include "engine/scene_load.h"
 
 #include <stdlib.h>
 #include <unistd.h>
 
 #include "base/memory.h"
-#include "engine/scene_load.h"
 #include "read/view_file.h"
 #include "tests/unit/check.h"
 #include "tests/unit/files.h"
