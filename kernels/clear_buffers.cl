@@ -2,7 +2,7 @@
 /*
  * clear_buffers.cl - empties the film, one work-item a pixel
  */
-#include "kernels/surface_sums.h"
+#include "kernels/pixel.h"
 
 __kernel void clear_buffers(ulong pixel_count, __global struct sum *sums,
                             __global struct sum *odd_sums,

@@ -2,8 +2,8 @@
 /*
  * compositor.cl - adds the samples of a task to the film, one work-item a point
  */
-#include "kernels/surface_sums.h"
 #include "kernels/cl_task.h"
+#include "kernels/pixel.h"
 
 /* Samples of a pixel are consecutive. After the first that was cancelled none
  * is added. */

@@ -12,11 +12,10 @@
 #ifndef KERNELS_LIGHT_H
 #define KERNELS_LIGHT_H
 
-#include "kernels/directional_light.h"
 #include "kernels/guide.h"
 #include "kernels/hit.h"
+#include "kernels/lamps.h"
 #include "kernels/light_tree.h"
-#include "kernels/point_light.h"
 #include "kernels/sample.h"
 #include "kernels/sky.h"
 #include "kernels/surface_point.h"

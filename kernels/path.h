@@ -22,7 +22,7 @@
 #define KERNELS_PATH_H
 
 #include "kernels/aov.h"
-#include "kernels/camera_sample.h"
+#include "kernels/camera.h"
 #include "kernels/caustic_lobes.h"
 #include "kernels/path_lights.h"
 

@@ -2,7 +2,7 @@
 /*
  * ray_generator.cl - camera rays of a task, one work-item a path
  */
-#include "kernels/camera_sample.h"
+#include "kernels/camera.h"
 #include "kernels/cl_task.h"
 #include "kernels/sample_share.h"
 

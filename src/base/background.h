@@ -4,9 +4,10 @@
  * threads and signal handlers wake an event loop
  *
  * Ownership: background_free() frees, when no work is in progress; a descriptor
- * is the caller's to close() Threads:   descriptors any; all functions of a
- * background from one thread, except background_has_copied(), which the work
- * calls Errors:    the system's reasons for no thread and no descriptor
+ *            is the caller's to close()
+ * Threads:   descriptors any; all functions of a background from one thread,
+ *            except background_has_copied(), which the work calls
+ * Errors:    the system's reasons for no thread and no descriptor
  */
 #ifndef GLIM_BACKGROUND_H
 #define GLIM_BACKGROUND_H

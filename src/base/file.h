@@ -97,7 +97,7 @@ struct file_change {
 bool file_check(const char *path, struct error *err);
 
 /* Replaces the file atomically: a temporary file in its folder is written,
- * synced and given the name at last (temp_file.h). Keeps the permissions of an
+ * synced and given the name at last. Keeps the permissions of an
  * existing file. Writes through symbolic links. If must_be_new, an existing
  * file is left alone and *exists (may be NULL) is set. */
 bool file_write(const char *path, const void *data, size_t size_bytes,

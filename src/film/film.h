@@ -23,7 +23,7 @@
 
 #include "base/error.h"
 #include "image/frame.h"
-#include "kernels/surface_sums.h"
+#include "kernels/pixel.h"
 #include "kernels/tone.h"
 
 #define FILM_LOCKS 64

@@ -3,7 +3,8 @@
  * pass_plan.h - the plan of passes and the limits that end a render
  *
  * Units:     samples per pixel (spp), of adaptive renders in the mean;
- * nanoseconds of tracing Threads:   one at a time
+ *            nanoseconds of tracing
+ * Threads:   one at a time
  */
 #ifndef GLIM_PASS_PLAN_H
 #define GLIM_PASS_PLAN_H

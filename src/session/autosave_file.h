@@ -6,9 +6,11 @@
  * Units:     bytes, nanoseconds; ages in seconds
  * Ownership: autosave_file_free() frees; a zeroed struct is empty;
  *            autosave_writer_free() frees, after waiting for a file that is
- * being written Threads:   files and autosave_prune() any; the rest of the
- * folder main only; the writer from one thread Errors:    one line that begins
- * with the path; those of the writer come from autosave_writer_finish()
+ *            being written
+ * Threads:   files and autosave_prune() any; the rest of the folder main only;
+ *            the writer from one thread
+ * Errors:    one line that begins with the path; those of the writer come from
+ *            autosave_writer_finish()
  */
 #ifndef GLIM_AUTOSAVE_FILE_H
 #define GLIM_AUTOSAVE_FILE_H

@@ -24,11 +24,6 @@
 
 /* ---- pictures ---- */
 
-/*
- * The thread first copies the film, which must not be cleared before the copy
- * is complete. Neither the screen nor the renderer waits for the rest.
- */
-
 /* A picture to be saved as stem.ending or the next free name. */
 struct picture_to_save {
     struct film *film;

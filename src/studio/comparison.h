@@ -9,8 +9,9 @@
  *
  * Units:     linear light; pixels of frames; the wipe as a part of the width
  * Ownership: control is the caller's; comparison_free() and snapshot_free()
- * free Threads:   main only; rows of the film are locked Errors:    become
- * messages
+ *            free
+ * Threads:   main only; rows of the film are locked
+ * Errors:    become messages
  */
 #ifndef GLIM_COMPARISON_H
 #define GLIM_COMPARISON_H

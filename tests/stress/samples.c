@@ -11,7 +11,7 @@
 #include "image/color.h"
 #include "world/light/lights.h"
 #include "world/light/sky_table.h"
-#include "kernels/roulette.h"
+#include "kernels/path_lights.h"
 #include "kernels/traverse.h"
 
 /* Roulette of the paths in this program: glim's, a plain one from the first

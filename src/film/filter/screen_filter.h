@@ -10,7 +10,7 @@
  * A picture whose film is young is filtered in fewer levels, which is faster.
  *
  * A frame of more than SCREEN_FILTER_PIXELS is filtered with about that many
- * pixels; the film's detail is added to the enlarged result (screen_detail.h).
+ * pixels; the film's detail is added to the enlarged result (screen_halves.h).
  *
  * Lamps and the sky are shown without the filter, as the draft's pixels see
  * them. Pixels that the filter hardly changes, with their neighbours, are shown

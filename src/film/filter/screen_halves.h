@@ -4,7 +4,8 @@
  * film and draft, and the detail above the resolution of a filtered picture
  *
  * Ownership: screen_halves_free() and screen_detail_free() free; zeroed structs
- * are empty Threads:   one at a time; the films' rows are locked one by one
+ *            are empty
+ * Threads:   one at a time; the films' rows are locked one by one
  * Errors:    out of memory
  */
 #ifndef GLIM_SCREEN_HALVES_H

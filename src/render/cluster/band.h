@@ -6,8 +6,8 @@
  *
  * Units:     pixels, rows of a film, mean samples per pixel
  * Ownership: band_free() and band_thread_destroy() free; a zeroed struct band
- * is empty; what a band is rendered from is borrowed until it is done; the
- *            caller frees answers
+ *            is empty; what a band is rendered from is borrowed until it is
+ *            done; the caller frees answers
  * Threads:   one at a time
  * Errors:    out of memory, errors of the backend, damaged bytes, no thread
  */

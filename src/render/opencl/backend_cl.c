@@ -21,7 +21,7 @@
 #include "render/opencl/cl_device.h"
 #include "render/opencl/cl_source.h"
 #include "world/bvh/bvh.h"
-#include "kernels/camera_sample.h"
+#include "kernels/camera.h"
 #include "kernels/features.h"
 
 struct cl_kernels {

@@ -8,8 +8,10 @@
  * face, like the halves of a quad. light_tree.h builds the tree.
  *
  * Units:     normalised scene units; texture coordinates; radiance, as the mean
- * of the channels Ownership: lights_free() and texture_power_free() free;
- * zeroed structs have none Threads:   one thread builds; read only after
+ *            of the channels
+ * Ownership: lights_free() and texture_power_free() free; zeroed structs have
+ *            none
+ * Threads:   one thread builds; read only after
  * Errors:    memory
  */
 #ifndef GLIM_LIGHTS_H

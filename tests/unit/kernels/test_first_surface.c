@@ -9,7 +9,7 @@
 #include "tests/unit/mesh.h"
 
 #include "tests/unit/paths.h"
-#include "kernels/surface_sums.h"
+#include "kernels/pixel.h"
 
 enum { FLOOR, MIRROR, PANE };
 

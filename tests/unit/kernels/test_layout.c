@@ -12,7 +12,6 @@
 #include "terminal/xmalloc.h"
 #include "tests/unit/check.h"
 #include "kernels/camera.h"
-#include "kernels/camera_sample.h"
 #include "kernels/cl_task.h"
 #include "kernels/pixel.h"
 

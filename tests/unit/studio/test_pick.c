@@ -13,7 +13,7 @@
 #include "tests/unit/files.h"
 #include "world/bvh/bvh.h"
 #include "world/world.h"
-#include "kernels/camera_sample.h"
+#include "kernels/camera.h"
 #include "kernels/traverse.h"
 
 static struct host_world host; /* the most recently loaded scene */
