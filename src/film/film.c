@@ -9,7 +9,7 @@
 #include "base/machine.h"
 #include "base/memory.h"
 #include "base/simd4.h"
-#include "image/area.h"
+#include "image/frame.h"
 #include "kernels/tone.h"
 #include "kernels/vec.h"
 

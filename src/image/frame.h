@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * frame.h - a picture of 8-bit pixels, and drawing into it
+ * frame.h - a picture of 8-bit pixels, drawing into it, and the overlaps of the
+ * cells of two grids, by which pictures are scaled
  *
  * Units:     pixels; (0, 0) is the top left corner of the first one; colours
- *            are 0xRRGGBB
+ *            are 0xRRGGBB; cells and their lengths
  * Ownership: frame_free() frees
  * Threads:   any; one thread at a time for each frame
  * Errors:    out of memory; drawings are clipped to the frame
@@ -15,6 +16,71 @@
 #include <stdint.h>
 
 #include "base/thread_pool.h"
+
+/* ---- areas of cells ---- */
+
+/*
+ * Along one axis, both grids have the same ends. The walk visits the pieces
+ * into which the borders of both cut the axis. Lengths are integers, so that
+ * none is rounded: the length of a cell of `from` is the number of cells of
+ * `to`, and vice versa.
+ */
+
+/* Returns the cell of a grid of `from` cells that contains the middle of cell i
+ * of a grid of `to` cells. */
+static inline int area_cell(int i, int from, int to)
+{
+    return from == to ? i
+                      : (int)((2 * (int64_t)i + 1) * from / (2 * (int64_t)to));
+}
+
+struct area_walk {
+    int from, to; /* cells of `from` and `to` that contain the next piece */
+    int64_t at, last;
+    int64_t from_end, to_end;
+    int64_t from_step, to_step;
+};
+
+/* Begins a walk over cells [first, first + count) of a grid of `to` cells. */
+static inline struct area_walk area_walk(int from, int to, int first, int count)
+{
+    int64_t at = (int64_t)first * from;
+    struct area_walk w = {.from = (int)(at / to),
+                          .to = first,
+                          .at = at,
+                          .last = at + (int64_t)count * from,
+                          .to_end = at + from,
+                          .from_step = to,
+                          .to_step = from};
+
+    w.from_end = (int64_t)(w.from + 1) * to;
+    return w;
+}
+
+static inline bool area_walks(const struct area_walk *w)
+{
+    return w->at < w->last;
+}
+
+/* Moves to the next piece. Returns the length of the current one. */
+static inline float area_step(struct area_walk *w)
+{
+    int64_t end = w->from_end < w->to_end ? w->from_end : w->to_end;
+    int64_t length = end - w->at;
+
+    w->at = end;
+    if (w->from_end == end) {
+        w->from_end += w->from_step;
+        w->from++;
+    }
+    if (w->to_end == end) {
+        w->to_end += w->to_step;
+        w->to++;
+    }
+    return (float)length;
+}
+
+/* ---- frames ---- */
 
 /* Picture of 8-bit sRGB, 3 bytes per pixel, row 0 at the top. */
 struct frame {

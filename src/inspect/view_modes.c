@@ -8,7 +8,6 @@
 
 #include "base/memory.h"
 #include "film/film_error.h"
-#include "image/area.h"
 #include "image/frame.h"
 #include "inspect/aov_picture.h"
 #include "inspect/false_color.h"

@@ -9,7 +9,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "image/area.h"
+#include "image/frame.h"
 #include "render/error_text.h"
 #include "terminal/dither.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "film/filter/film_filter.h"
-#include "image/area.h"
+#include "image/frame.h"
 
 /* Added to the normal of pixels with seen light: no others are averaged with
  * them. */

@@ -8,7 +8,7 @@
 
 #include "base/memory.h"
 #include "base/simd4.h"
-#include "image/area.h"
+#include "image/frame.h"
 
 /* ---- halves ---- */
 

@@ -9,8 +9,8 @@
 #include "tests/unit/check.h"
 
 #include "base/clock.h"
-#include "image/area.h"
 #include "image/color.h"
+#include "image/frame.h"
 #include "session/session.h"
 #include "terminal/cells.h"
 
