@@ -39,7 +39,7 @@
 #include "session/config.h"
 #include "session/session.h"
 #include "session/state_list.h"
-#include "studio/event_loop.h"
+#include "studio/studio.h"
 #include "terminal/xmalloc.h"
 
 /* Width of the lines of --formats. */
@@ -264,7 +264,7 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
     if (o->batch)
         return batch_run(s, status, err);
     recent_add(o->scene_path);
-    return event_loop_run(s, status, err);
+    return studio_loop(s, status, err);
 }
 
 /* Lets the user choose one of the scenes that were opened last, for free().

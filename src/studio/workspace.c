@@ -568,28 +568,6 @@ static enum screen_result send(struct workspace *workspace, bool has_frame,
     return result;
 }
 
-/* Finds what the person is doing, the innermost state first. */
-static enum keys_state keys_state(const struct workspace *workspace)
-{
-    const struct live_render *control = workspace->control;
-
-    if (workspace->screen.has_cursor)
-        return KEYS_CURSOR;
-    if (workspace->panel.is_open)
-        return control->is_live ? KEYS_PANEL : KEYS_PANEL_NORMAL;
-    if (workspace->comparison.mode != COMPARISON_OFF)
-        return KEYS_COMPARE;
-    if (workspace->inspector.drawing != INSPECTOR_NOTHING)
-        return KEYS_DRAWING;
-    if (workspace->inspector.view_mode.kind != SHOW_LIGHT)
-        return KEYS_VIEW;
-    if (workspace->camera->input.is_orbiting)
-        return KEYS_ORBIT;
-    if (control->is_halted)
-        return KEYS_PAUSED;
-    return control->is_live ? KEYS_LIVE : KEYS_NORMAL;
-}
-
 /* When a new frame or the rest of this one is due. */
 static uint64_t frame_due_ns(const struct workspace *workspace)
 {
@@ -612,7 +590,8 @@ static void plan_frame(struct workspace *workspace, bool was_new,
         workspace->frame_ns += FRAME_SHARE * cpu_ns;
 }
 
-bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
+bool workspace_draw(struct workspace *workspace, enum keys_state keys,
+                    uint64_t now_ns)
 {
     struct screen *screen = &workspace->screen;
     bool is_running = workspace->control->progress.state == RENDER_RUNNING;
@@ -624,8 +603,7 @@ bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
     enum screen_result result;
 
     show_messages(workspace, now_ns);
-    keys_bar_draw(&workspace->keys_bar, workspace->control, screen,
-                  keys_state(workspace));
+    keys_bar_draw(&workspace->keys_bar, workspace->control, screen, keys);
     if (shows_progress(workspace) &&
         now_ns >= progress_panel_next_ns(&workspace->progress_panel,
                                          workspace->control))

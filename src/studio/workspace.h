@@ -101,8 +101,10 @@ void workspace_renew(struct workspace *workspace,
 /* Looks how far the render is, and decides what has to be drawn. */
 void workspace_look(struct workspace *workspace);
 
-/* Draws what is due. Returns false if the terminal is gone. */
-bool workspace_draw(struct workspace *workspace, uint64_t now_ns);
+/* Draws what is due, with the keys of a state in the bar. Returns false if the
+ * terminal is gone. */
+bool workspace_draw(struct workspace *workspace, enum keys_state keys,
+                    uint64_t now_ns);
 
 /* When workspace_look() and workspace_draw() are due if no event comes;
  * UINT64_MAX: never. */

@@ -27,7 +27,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "session/session.h"
-#include "studio/event_loop.h"
+#include "studio/studio.h"
 #include "tests/unit/belief.h"
 #include "tests/unit/check.h"
 
@@ -55,7 +55,7 @@ static inline int run_glim(char **arguments)
     options_init(&options);
     if (!options_parse(&options, count, arguments, &err) ||
         !session_open(&session, &options, clock_ns(), &err) ||
-        !event_loop_run(&session, &status, &err))
+        !studio_loop(&session, &status, &err))
         fprintf(stderr, "glim: %s\n", err.text);
     return status;
 }
