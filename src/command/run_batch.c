@@ -119,15 +119,11 @@ static float *render_aovs(struct view_mode *show, uint32_t kinds,
     const struct session *s = show->session;
     struct rect crop = s->engine.crop;
     size_t size = 3 * (size_t)crop.width * (size_t)crop.height;
-    struct world world;
+    struct bvh8_world world;
     float *numbers, *to;
 
-    if (!view_mode_need_tree(show, err))
+    if (!view_mode_traced(show, &world, err))
         return NULL;
-    if (!view_mode_world(show, &world)) {
-        fail(err, "--aov: found an impossible camera");
-        return NULL;
-    }
     to = numbers =
         alloc_array(size, (size_t)__builtin_popcount(s->options->aovs) *
                               sizeof *numbers);

@@ -2,8 +2,6 @@
 /*
  * aov_picture.h - pictures of the first hit: normals, depth, materials
  *
- * Rays go through the binary tree with the plain query of traverse.h.
- *
  * Units:     as in enum sample_kind
  * Threads:   one at a time; workers of the pool trace the rays
  */
@@ -13,19 +11,19 @@
 #include "base/thread_pool.h"
 #include "scene/scene.h"
 #include "session/command_line.h"
-#include "kernels/types.h"
+#include "world/bvh/bvh8.h"
 
 /* Fills 3 numbers for each pixel: the sample kind in the world's settings,
  * which must not be light, at the first hit of the ray through the pixel's
  * centre. The camera has width x height pixels. Blocks. */
-void aov_of_pixels(struct pool *pool, const struct world *world, int width,
+void aov_of_pixels(struct pool *pool, const struct bvh8_world *world, int width,
                    int height, float *numbers);
 
 /* A picture of the first surfaces that the camera sees. */
 struct aov_picture {
     enum aov_kind kind;
     const struct scene *scene;
-    const struct world *world; /* with a binary tree, for the whole picture */
+    const struct bvh8_world *world; /* for the whole picture */
     struct rect crop;
 };
 

@@ -72,6 +72,18 @@ bool view_mode_world(const struct view_mode *s, struct world *w)
     return find_world(s, w, &ignored);
 }
 
+bool view_mode_traced(struct view_mode *s, struct bvh8_world *w,
+                      struct error *err)
+{
+    struct host_world *host = &s->session->engine.world;
+
+    if (!find_world(s, &w->world, err) ||
+        !world_ensure_tree(host, &w->world, view_mode_pool(s), err))
+        return false;
+    w->tree = world_tree(host);
+    return true;
+}
+
 struct camera view_mode_camera(const struct view_mode *s,
                                const struct camera *camera,
                                const struct frame *frame)
@@ -397,16 +409,16 @@ static bool fail_memory(const struct frame *frame, struct error *err)
 static bool find_numbers(struct view_mode *s, const struct frame *frame,
                          struct error *err)
 {
-    struct world w;
+    struct bvh8_world w;
 
-    if (!view_mode_need_tree(s, err) || !find_world(s, &w, err))
+    if (!view_mode_traced(s, &w, err))
         return false;
-    view_mode_pool(s);
     if (!need_numbers(s, 3 * (size_t)frame->width * (size_t)frame->height))
         return fail_memory(frame, err);
-    w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
-    w.settings.sample = kinds[s->kind].sample;
-    w.settings.features |= FEATURE_AOV;
+    w.world.settings.camera =
+        view_mode_camera(s, &w.world.settings.camera, frame);
+    w.world.settings.sample = kinds[s->kind].sample;
+    w.world.settings.features |= FEATURE_AOV;
     aov_of_pixels(s->pool, &w, frame->width, frame->height, s->numbers);
     return true;
 }

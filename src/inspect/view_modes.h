@@ -75,6 +75,11 @@ bool view_mode_picture(struct view_mode *s, struct film *film,
 bool view_mode_need_tree(struct view_mode *s, struct error *err);
 bool view_mode_world(const struct view_mode *s, struct world *w);
 
+/* Lends the world as rendered with its tree, which is built if the render has
+ * dropped it. */
+bool view_mode_traced(struct view_mode *s, struct bvh8_world *w,
+                      struct error *err);
+
 /* Returns the threads for pictures of the view, which start on first use. */
 struct pool *view_mode_pool(struct view_mode *s);
 

@@ -11,7 +11,6 @@
 #include "tests/unit/files.h"
 #include "tests/unit/folder.h"
 #include "tests/unit/instanced.h"
-#include "world/bvh/bvh.h"
 
 #define SIDE 16
 
@@ -23,7 +22,7 @@ static void render(const char *path, enum aov_kind kind, struct rect crop)
 {
     struct session s;
     struct view_mode show;
-    struct world world;
+    struct bvh8_world world;
     struct error err;
 
     options_init(&options);
@@ -31,8 +30,7 @@ static void render(const char *path, enum aov_kind kind, struct rect crop)
     options.thread_count = 2;
     check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
     view_mode_init(&show, &s);
-    check_or_say(view_mode_need_tree(&show, &err), err.text);
-    assert_true(view_mode_world(&show, &world));
+    check_or_say(view_mode_traced(&show, &world, &err), err.text);
     struct aov_picture a = {kind, &s.engine.scene, &world, crop};
     aov_picture_render(&a, view_mode_pool(&show), numbers);
     view_mode_free(&show);
@@ -241,8 +239,7 @@ static void instances_have_their_object_and_material(void **state)
 {
     struct host_world host = {0};
     struct warnings report = {0};
-    struct bvh bvh = {0};
-    struct world world;
+    struct bvh8_world world;
     struct scene scene;
     struct view view;
     struct error err;
@@ -255,11 +252,10 @@ static void instances_have_their_object_and_material(void **state)
     view.pose.fovy_deg = 40;
     view_set_size(&view, SIDE, SIDE);
     check_or_say(world_init(&host, &scene, 1, &report, &err) &&
-                     world_lend(&host, &scene, &view, 0, &world, &err) &&
-                     bvh_build(&bvh, &world, NULL, &err),
+                     world_lend(&host, &scene, &view, 0, &world.world, &err) &&
+                     world_ensure_tree(&host, &world.world, NULL, &err),
                  err.text);
-    world.nodes = bvh.nodes;
-    world.leaf_tris = bvh.leaf_tris;
+    world.tree = world_tree(&host);
     aov_picture_render(&a, NULL, numbers);
     for (int i = 0; i < SIDE * SIDE; i++)
         assert_int_equal(numbers[3 * i], i % SIDE < SIDE / 2 ? 1 : 2);
@@ -271,7 +267,6 @@ static void instances_have_their_object_and_material(void **state)
     aov_picture_render(&a, NULL, numbers);
     for (int i = 0; i < SIDE * SIDE; i++)
         check_pixel(numbers + 3 * i, 0.25, 0.5, 0.75, 1e-6);
-    bvh_free(&bvh);
     world_free(&host);
     view_free(&view);
     scene_free(&scene);
