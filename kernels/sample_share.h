@@ -10,8 +10,8 @@
 
 #include "kernels/dialect.h"
 
-#define SHARE_ONE  4096u
-#define SHARE_MOST (4u * SHARE_ONE)
+#define SHARE_ONE 4096u
+#define SHARE_MAX (4u * SHARE_ONE)
 
 /* Samples of each pixel before shares count. */
 #define ADAPTIVE_FIRST 16u

@@ -37,11 +37,11 @@ struct adaptive_measure {
     bool (*squares)(struct film_squares *s, struct pool *pool,
                     const struct cancel *cancel, struct error *err);
     int reach;   /* pixels around a pixel, in each direction, whose deviations
-                    it takes; ADAPTIVE_REACH_MOST at most */
-    double most; /* greatest share over SHARE_ONE, up to SHARE_MOST */
+                    it takes; ADAPTIVE_REACH_MAX at most */
+    double most; /* greatest share over SHARE_ONE, up to SHARE_MAX */
 };
 
-#define ADAPTIVE_REACH_MOST 6
+#define ADAPTIVE_REACH_MAX 6
 
 /* The error of the film. Fewer pixels around are too noisy for scenes with rare
  * bright light, more blur edges. */

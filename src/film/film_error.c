@@ -32,7 +32,7 @@
 
 /* Largest logarithm of the squared upper end over the estimate: finite, but
  * beyond any picture. */
-#define LOG_MOST 100
+#define LOG_MAX 100
 
 /* Pixels with the largest errors, as a share of all, and the share of the
  * error above which they make it unresolved. */
@@ -369,7 +369,7 @@ static struct film_error conclude(const struct total *t, double pixels)
         .is_resolved = top_weight(t, pixels) <= TOP_WEIGHT,
         .error = sqrt(mean),
         .low = sqrt(fmax(0, mean - reach)),
-        .high = mean > 0 ? sqrt(mean * exp(fmin(reach / mean, LOG_MOST))) : 0,
+        .high = mean > 0 ? sqrt(mean * exp(fmin(reach / mean, LOG_MAX))) : 0,
     };
 }
 

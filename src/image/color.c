@@ -222,7 +222,7 @@ bool color_parse(const char *text, double rgb[3], double *kelvin)
     if (*text == '#')
         return parse_hex(text + 1, rgb);
     if (decimal_parse(&p, end, kelvin) && end - p == 1 && (*p | 32) == 'k' &&
-        *kelvin >= BLACKBODY_LEAST && *kelvin <= BLACKBODY_GREATEST) {
+        *kelvin >= BLACKBODY_MIN && *kelvin <= BLACKBODY_MAX) {
         blackbody_rgb(*kelvin, rgb);
         largest = color_largest(rgb);
         for (int i = 0; i < 3; i++)

@@ -40,8 +40,8 @@ void observer_rgb(const double xyz[3], double rgb[3]);
 
 /* Range of temperatures. Below it nothing glows visibly; above it the colour
  * hardly changes. */
-#define BLACKBODY_LEAST    1.0
-#define BLACKBODY_GREATEST 1e9
+#define BLACKBODY_MIN 1.0
+#define BLACKBODY_MAX 1e9
 
 /* Sets XYZ with Y = 1. kelvin is in the range above. */
 void blackbody_xyz(double kelvin, double xyz[3]);

@@ -611,13 +611,13 @@ static bool read_blackbody(struct parser *p, struct word key)
     if (lexer_at_line_end(&p->lex) || !lexer_number(&p->lex, &kelvin) ||
         (!lexer_at_line_end(&p->lex) && !lexer_number(&p->lex, &scale)))
         return expected(p, key, "a temperature and perhaps a luminance");
-    if (!(kelvin >= 0 && kelvin <= BLACKBODY_GREATEST)) {
+    if (!(kelvin >= 0 && kelvin <= BLACKBODY_MAX)) {
         warnings_add(p->report, "temperatures out of range",
                      "%s:%" PRIu64
                      ": found %.*s %g, expected kelvins from 0 to "
                      "%g: taken as 0",
                      p->path, p->lex.line, (int)key.length, key.start, kelvin,
-                     BLACKBODY_GREATEST);
+                     BLACKBODY_MAX);
         kelvin = 0;
     }
     s->kelvin = (struct mtl_number){kelvin, p->lex.line};

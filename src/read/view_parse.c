@@ -19,8 +19,8 @@
 /* ---- keys ---- */
 
 /* Limits of fovy, which must be above 0 and below 180 degrees. */
-#define FOVY_LEAST    1e-6
-#define FOVY_GREATEST 179.999999
+#define FOVY_MIN 1e-6
+#define FOVY_MAX 179.999999
 
 const struct view_key view_keys[VIEW_KEYS] = {
     {"eye", KEY_EYE, 3, false, -VIEW_NUMBER_MAX, VIEW_NUMBER_MAX,
@@ -29,7 +29,7 @@ const struct view_key view_keys[VIEW_KEYS] = {
      "3 numbers from -1e30 to 1e30"},
     {"up", KEY_UP, 3, false, -VIEW_NUMBER_MAX, VIEW_NUMBER_MAX,
      "3 numbers from -1e30 to 1e30"},
-    {"fovy", KEY_FOVY, 1, false, FOVY_LEAST, FOVY_GREATEST,
+    {"fovy", KEY_FOVY, 1, false, FOVY_MIN, FOVY_MAX,
      "an angle above 0 and below 180 degrees"},
     {"res", KEY_RES, 2, true, 1, VIEW_SIDE_MAX,
      "2 whole numbers from 1 to 65536"},
@@ -44,7 +44,7 @@ const struct view_key view_keys[VIEW_KEYS] = {
      "an angle from -1e6 to 1e6 degrees"},
     {"sun", KEY_SUN, 2, false, -SUN_AZIMUTH_MAX, SUN_AZIMUTH_MAX,
      "an azimuth from -360 to 360 and an elevation from -90 to 90 degrees"},
-    {"turbidity", KEY_TURBIDITY, 1, false, TURBIDITY_LEAST, TURBIDITY_GREATEST,
+    {"turbidity", KEY_TURBIDITY, 1, false, TURBIDITY_MIN, TURBIDITY_MAX,
      "a number from 1.7 to 10"},
     {"aperture", KEY_APERTURE, 1, false, 0, VIEW_NUMBER_MAX,
      "a number from 0 to 1e30"},

@@ -22,7 +22,7 @@ enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 #define PASS_SAMPLES_MAX 256
 
 /* Most samples in the mean, with which pixels of any share have that many. */
-#define PASS_MEAN_MAX (PASS_SAMPLES_MAX * SHARE_ONE / SHARE_MOST)
+#define PASS_MEAN_MAX (PASS_SAMPLES_MAX * SHARE_ONE / SHARE_MAX)
 
 /* One pass over the pixels of a grid (0, stride, 2 stride, ... in both
  * directions). Pixels with fewer samples than their target get up to that
@@ -59,7 +59,7 @@ static inline struct pass pass_with(struct pass pass, uint64_t target,
 {
     pass.target = target;
     if (pass.shares != NULL)
-        mean = (mean * SHARE_MOST + SHARE_ONE - 1) / SHARE_ONE;
+        mean = (mean * SHARE_MAX + SHARE_ONE - 1) / SHARE_ONE;
     pass.samples = (uint32_t)mean;
     return pass;
 }
@@ -68,7 +68,7 @@ static inline struct pass pass_with(struct pass pass, uint64_t target,
 static inline uint64_t pass_mean(const struct pass *pass)
 {
     return pass->shares != NULL
-               ? (uint64_t)pass->samples * SHARE_ONE / SHARE_MOST
+               ? (uint64_t)pass->samples * SHARE_ONE / SHARE_MAX
                : pass->samples;
 }
 

@@ -31,7 +31,7 @@
 
 /* Condition number up to which a matrix has an inverse that is good enough for
  * boxes in floats: with it a box grows by 2^-8 of the mesh at most. */
-#define CONDITION_MOST 65536
+#define CONDITION_MAX 65536
 
 /* ---- transformed meshes ---- */
 
@@ -360,8 +360,7 @@ static bool is_regular(const struct affine *a)
     determinant = fabs(vec3d_dot(linear[0], rows[0]));
     /* the transposed inverse is rows / determinant; a factor of 3 bounds the
      * difference between its norm and that of the inverse */
-    return 3 * row_norm(linear) * row_norm(rows) <=
-           CONDITION_MOST * determinant;
+    return 3 * row_norm(linear) * row_norm(rows) <= CONDITION_MAX * determinant;
 }
 
 /* Returns true if the triangles of a mesh share a material. */
@@ -622,8 +621,8 @@ bool scene_flatten(struct scene *scene, struct pool *pool, struct error *err)
 /* Least and largest number of a matrix from a normalised mesh to the normalised
  * world. Larger ones are of meshes that are flat along an axis; smaller ones
  * cannot be seen. */
-#define NUMBER_LEAST 0x1p-60
-#define NUMBER_MOST  0x1p40
+#define NUMBER_MIN 0x1p-60
+#define NUMBER_MAX 0x1p40
 
 /* ---- bounds ---- */
 
@@ -731,7 +730,7 @@ static bool set_matrix(const struct scene *scene, const struct scene_mesh *mesh,
         }
     }
     at->origin = scene_point(scene, origin);
-    return most >= NUMBER_LEAST && most <= NUMBER_MOST;
+    return most >= NUMBER_MIN && most <= NUMBER_MAX;
 }
 
 /* Sets the inverse, and the largest sum of magnitudes in a row of the

@@ -19,7 +19,7 @@
 
 /* Roughness below which a surface cannot be distinguished from a Lambertian
  * one. */
-#define ROUGH_LEAST 1e-3
+#define ROUGH_MIN 1e-3
 
 #define IOR_DEFAULT 1.5
 #define IOR_MAX     1e6
@@ -261,7 +261,7 @@ static void make_diffuse(struct material *m, const struct material_values *s,
 {
     double r = statement_unit(&s->diffuse_roughness, "Kd_roughness", at);
 
-    if (r < ROUGH_LEAST)
+    if (r < ROUGH_MIN)
         return;
     m->kind = MATERIAL_ROUGH_DIFFUSE;
     m->alpha = (float)r;

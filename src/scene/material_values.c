@@ -139,7 +139,7 @@ struct mtl_color material_values_light(const struct material_values *s)
 
     if (s->kelvin.line == 0)
         return s->emission;
-    if (!(kelvin >= BLACKBODY_LEAST && kelvin <= BLACKBODY_GREATEST))
+    if (!(kelvin >= BLACKBODY_MIN && kelvin <= BLACKBODY_MAX))
         return light;
     blackbody_rgb(kelvin, light.rgb);
     for (int i = 0; i < 3; i++)

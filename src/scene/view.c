@@ -225,9 +225,9 @@ bool view_set_sun(struct view *view, double azimuth_deg, double elevation_deg,
 
 bool view_set_turbidity(struct view *view, double turbidity, struct error *err)
 {
-    if (!(turbidity >= TURBIDITY_LEAST && turbidity <= TURBIDITY_GREATEST))
+    if (!(turbidity >= TURBIDITY_MIN && turbidity <= TURBIDITY_MAX))
         return fail(err, "turbidity: found %g, expected %g to %g", turbidity,
-                    TURBIDITY_LEAST, TURBIDITY_GREATEST);
+                    TURBIDITY_MIN, TURBIDITY_MAX);
     if (!view->lighting.sun.is_on)
         return fail(err, "turbidity: found no sun, expected one in the options "
                          "or the view file");

@@ -662,7 +662,7 @@ static const struct option_rule rules[] = {
     {"turbidity", "T", "a number",
      "haze of the sun's sky, 1.7 to 10 (default: from the view file, or "
      "3)",
-     SCENES, NUMBER(turbidity, TURBIDITY_LEAST, TURBIDITY_GREATEST)},
+     SCENES, NUMBER(turbidity, TURBIDITY_MIN, TURBIDITY_MAX)},
     {"t", "THREADS", "a number of threads",
      "1 to 1024 threads (default: one for each processor)", SCENES,
      WHOLE(thread_count, 1, THREADS_MAX), CONFIGURABLE},

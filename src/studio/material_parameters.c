@@ -39,7 +39,7 @@ static void put_grey(struct mtl_color *c, double value)
 }
 
 /* Black beside a map would be white (material_values_with_factors()). */
-#define FACTOR_LEAST 1e-6
+#define FACTOR_MIN 1e-6
 
 /* Sets a colour that multiplies a map. */
 static void put_factor(struct owner *o, struct mtl_color *c, enum mtl_map map,
@@ -48,7 +48,7 @@ static void put_factor(struct owner *o, struct mtl_color *c, enum mtl_map map,
     put_color(c, rgb);
     if (material_values_map(&o->source, map) != NO_INDEX &&
         mtl_color_is_black(c))
-        put_grey(c, FACTOR_LEAST);
+        put_grey(c, FACTOR_MIN);
 }
 
 /* Reads a number that a statement sets: as the material has it if the row says
@@ -399,7 +399,7 @@ static void set_emission(struct owner *o, const struct value *v)
 
     if (s->kelvin.line != 0) {
         put_number(&s->luminance,
-                   has_map ? fmax(v->number, FACTOR_LEAST) : v->number);
+                   has_map ? fmax(v->number, FACTOR_MIN) : v->number);
         return;
     }
     for (int i = 0; i < 3; i++)

@@ -31,7 +31,7 @@ const struct value_scale scale_film_thickness =
 const struct value_scale scale_emission =
     SCALE(0, RADIANCE_MAX, 0.01, 1e4, 0, 4, .zero = "off");
 const struct value_scale scale_kelvin =
-    SCALE(BLACKBODY_LEAST, BLACKBODY_GREATEST, 1000, 20000, 100, 6,
+    SCALE(BLACKBODY_MIN, BLACKBODY_MAX, 1000, 20000, 100, 6,
           .suffix = "K");
 static const struct value_scale scale_radiance =
     SCALE(0, RADIANCE_MAX, 0, 1, 0.01, 3,);
@@ -44,8 +44,8 @@ static const struct value_scale scale_azimuth =
 static const struct value_scale scale_elevation =
     SCALE(-SUN_ELEVATION_MAX, SUN_ELEVATION_MAX, 0, 90, 1, 4,);
 static const struct value_scale scale_turbidity =
-    SCALE(TURBIDITY_LEAST, TURBIDITY_GREATEST, TURBIDITY_LEAST,
-          TURBIDITY_GREATEST, 0.1, 3,);
+    SCALE(TURBIDITY_MIN, TURBIDITY_MAX, TURBIDITY_MIN,
+          TURBIDITY_MAX, 0.1, 3,);
 static const struct value_scale scale_lamp_elevation =
     SCALE(-90, 90, -90, 90, 1, 4,);
 static const struct value_scale scale_cone = SCALE(0, 90, 0, 90, 1, 4,);

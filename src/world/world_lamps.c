@@ -15,12 +15,12 @@
 
 /* Least radius of a sphere, and greatest distance of any lamp, in normalised
  * units. Squares of both are normal floats; smaller spheres are points. */
-#define RADIUS_LEAST 1e-6
-#define REACH_MAX    1e9
+#define RADIUS_MIN 1e-6
+#define REACH_MAX  1e9
 
 /* Least difference between the cosines of a spot's angles, that of glTF's
  * formula. */
-#define CONE_LEAST 0.001
+#define CONE_MIN 0.001
 
 /* Counts and arrays that a view needs. */
 struct made {
@@ -65,8 +65,7 @@ static void aim_spot(struct point_light *l, const struct lamp *lamp)
 {
     double axis[3], length = 0;
     double outer = cos(angle_rad(lamp->outer_deg));
-    double scale =
-        1 / fmax(CONE_LEAST, cos(angle_rad(lamp->inner_deg)) - outer);
+    double scale = 1 / fmax(CONE_MIN, cos(angle_rad(lamp->inner_deg)) - outer);
 
     for (int k = 0; k < 3; k++) {
         axis[k] = lamp->at[k] - lamp->position[k];
@@ -156,7 +155,7 @@ static struct point_light make_point(const struct scene *scene,
         p[k] = (lamp->position[k] - scene->center[k]) * scene->scale;
     l.p = (struct vec3){clamped(p[0], REACH_MAX), clamped(p[1], REACH_MAX),
                         clamped(p[2], REACH_MAX)};
-    if (radius > RADIUS_LEAST) {
+    if (radius > RADIUS_MIN) {
         l.radius = clamped(radius, REACH_MAX);
         intensity /= M_PI * (double)l.radius * (double)l.radius;
     }

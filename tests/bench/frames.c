@@ -22,7 +22,7 @@
 
 #define FRAME_NS  (1000000000u / 60)
 #define ROUNDS    9
-#define SPP_MOST  256
+#define SPP_MAX   256
 #define UNLIMITED 999
 
 /* The picture whose error is measured, and the samples of its reference. */
@@ -40,8 +40,8 @@ static const int depths[] = {0, 1, 2, 4, 8, UNLIMITED};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-/* Counts 1, 2, 4 ... SPP_MOST. */
-#define COUNTS_MOST 9
+/* Counts 1, 2, 4 ... SPP_MAX. */
+#define COUNTS_MAX 9
 
 static void open_scene(struct session *s, const char *path, int width,
                        int height, int bounces, uint32_t seed)
@@ -97,7 +97,7 @@ static uint64_t spp_that_fits(const char *path, int width, int height,
 
     open_scene(&s, path, width, height, bounces, 0);
     picture_ns(&s, 1); /* builds the tree */
-    while (spp <= SPP_MOST && fits(&s, spp))
+    while (spp <= SPP_MAX && fits(&s, spp))
         spp *= 2;
     session_close(&s);
     return spp / 2;
@@ -120,7 +120,7 @@ static double error_percent(const char *path, size_t depth, uint64_t spp)
 {
     static float reference[3 * SMALL_WIDTH * SMALL_HEIGHT];
     static float rgb[3 * SMALL_WIDTH * SMALL_HEIGHT];
-    static double known[COUNT(depths)][COUNTS_MOST];
+    static double known[COUNT(depths)][COUNTS_MAX];
     struct picture_pair pair = {SMALL_WIDTH, SMALL_HEIGHT, rgb, reference};
     double *error;
 

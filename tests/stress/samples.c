@@ -524,8 +524,8 @@ static void check_roulettes(void)
 /* M15: luminance is 1 by the weights of Rec.709, and no channel is negative. */
 static void check_black_bodies(void)
 {
-    static const double kelvins[] = {BLACKBODY_LEAST, 100, 500, 1e6,
-                                     BLACKBODY_GREATEST};
+    static const double kelvins[] = {BLACKBODY_MIN, 100, 500, 1e6,
+                                     BLACKBODY_MAX};
 
     for (size_t i = 0; i < sizeof kelvins / sizeof kelvins[0]; i++) {
         double rgb[3], y;

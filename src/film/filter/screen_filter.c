@@ -14,8 +14,8 @@
 
 /* Change of a pixel, in steps of 255, up to which it is shown unfiltered, and
  * from which on it is shown filtered. */
-#define CHANGE_LEAST 0.25f
-#define CHANGE_MOST  1.0f
+#define CHANGE_MIN 0.25f
+#define CHANGE_MAX 1.0f
 
 /* Stride of the pixels among which the greatest depth is searched. */
 #define FAR_STRIDE 4
@@ -269,8 +269,7 @@ VECTORISED static void find_shares(const float *restrict largest,
 {
     for (int x = 0; x < width; x++) {
         float change = f_max(f_max(largest[x - 1], largest[x + 1]), largest[x]);
-        float part =
-            (change - CHANGE_LEAST) * (1.0f / (CHANGE_MOST - CHANGE_LEAST));
+        float part = (change - CHANGE_MIN) * (1.0f / (CHANGE_MAX - CHANGE_MIN));
 
         share[x] = f_max(f_min(part, 1.0f), 0.0f) * (1.0f - seen[x]);
     }

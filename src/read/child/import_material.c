@@ -14,7 +14,7 @@
 
 /* Angle across a picture below which libassimp has lost it, as it does for
  * Collada cameras without a name, and the one that is taken. */
-#define ACROSS_LEAST   0.02
+#define ACROSS_MIN     0.02
 #define ACROSS_DEFAULT 1.0
 
 /* Part of a Collada spot's cone that has its full light: libassimp's number for
@@ -115,7 +115,7 @@ void import_camera_fill(const struct aiCamera *camera,
     turn(matrix, camera->mUp, to->up);
     if (!(aspect > 0))
         aspect = ASPECT_DEFAULT;
-    if (!(across > ACROSS_LEAST))
+    if (!(across > ACROSS_MIN))
         across = ACROSS_DEFAULT;
     to->yfov = 2 * atan(tan(across / 2) / aspect);
 }

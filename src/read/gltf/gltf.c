@@ -64,9 +64,9 @@ static void position_of(const struct affine *a, double to[3])
 /* Digits of round powers. A number is round by chance with a probability of
  * about its error times 10 to the power of the digits, for each unit: one in a
  * hundred is certain enough, and more than one in ten tells nothing. */
-#define DIGITS_MOST 6
+#define DIGITS_MAX  6
 #define CHANCE_SURE 0.011
-#define CHANCE_MOST 0.11
+#define CHANCE_MAX  0.11
 
 /* Units in the order in which they are guessed: Blender's default first. */
 static const enum light_unit units[] = {LIGHT_UNIT_LUMEN, LIGHT_UNIT_NONE,
@@ -135,7 +135,7 @@ static enum light_unit unit_of_powers(const json_t *lights,
                                       bool *is_guessed)
 {
     *is_guessed = true;
-    for (int digits = 1; digits <= DIGITS_MOST; digits++) {
+    for (int digits = 1; digits <= DIGITS_MAX; digits++) {
         enum light_unit found = LIGHT_UNIT_OF_FILE;
         double chance = 1;
         int count = 0;
@@ -144,7 +144,7 @@ static enum light_unit unit_of_powers(const json_t *lights,
             bool has_lamp = false;
             double c = chance_of_powers(lights, units[i], digits, &has_lamp);
 
-            if (c > CHANCE_MOST)
+            if (c > CHANCE_MAX)
                 continue;
             /* watts and no unit are the same for directional lights */
             count += units[i] != LIGHT_UNIT_WATT || has_lamp;

@@ -21,7 +21,7 @@
 #define LAST_PART 4
 
 /* Bands of BAND_ROWS for each rank, at least. */
-#define BANDS_LEAST 8
+#define BANDS_MIN 8
 
 static int divide_up(int a, int b)
 {
@@ -33,7 +33,7 @@ struct band_plan band_plan_begin(const struct film *film,
                                  int most_rows)
 {
     int slices =
-        divide_up(BANDS_LEAST * ranks, divide_up(film->height, BAND_ROWS));
+        divide_up(BANDS_MIN * ranks, divide_up(film->height, BAND_ROWS));
     int most = (int)(pass_mean(pass) / SAMPLE_BLOCK);
 
     if (slices > most)

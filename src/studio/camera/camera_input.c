@@ -215,22 +215,22 @@ void held_keys_stop(struct held_keys *m)
  * towards a wall approaches it ever more slowly. */
 #define PACE 1.0
 
-/* Bounds of the reach, in units of the scene's size. REACH_LEAST lets the eye
- * leave a surface, and pass it if walls do not stop it; REACH_MOST crosses the
+/* Bounds of the reach, in units of the scene's size. REACH_MIN lets the eye
+ * leave a surface, and pass it if walls do not stop it; REACH_MAX crosses the
  * scene in a few seconds; REACH_FIRST is used until the clearance is known. */
-#define REACH_LEAST 0.002
-#define REACH_MOST  0.25
+#define REACH_MIN   0.002
+#define REACH_MAX   0.25
 #define REACH_FIRST 0.05
 
-/* Outside of the scene the reach grows with the distance, up to AWAY_MOST scene
+/* Outside of the scene the reach grows with the distance, up to AWAY_MAX scene
  * sizes: a key that is held for a minute must not move the eye to infinity. */
-#define AWAY      0.1
-#define AWAY_MOST 10.0
+#define AWAY     0.1
+#define AWAY_MAX 10.0
 
 /* Increase of the speed factor per second that a key is held, and its
  * maximum. */
-#define RAMP      0.75
-#define RAMP_MOST 8.0
+#define RAMP     0.75
+#define RAMP_MAX 8.0
 
 #define SPEED_STEP 1.25
 #define SPEED_MIN  1e-3
@@ -252,8 +252,8 @@ void held_keys_stop(struct held_keys *m)
 /* Bounds of the aperture, in units of the focus distance. A smaller lens is
  * like a pinhole: the blur of distant points, as many radians, is less than a
  * pixel. */
-#define APERTURE_LEAST    1e-3
-#define APERTURE_GREATEST 1.0
+#define APERTURE_MIN 1e-3
+#define APERTURE_MAX 1.0
 
 void camera_input_init(struct camera_input *s, const double lo[3],
                        const double hi[3])
@@ -276,10 +276,10 @@ void camera_input_resize(struct camera_input *s, const double lo[3],
 
 void camera_input_adapt(struct camera_input *s, double near, double away)
 {
-    double far = fmin(away, AWAY_MOST * s->scene_size);
-    double least = fmax(REACH_LEAST * s->scene_size, AWAY * far);
+    double far = fmin(away, AWAY_MAX * s->scene_size);
+    double least = fmax(REACH_MIN * s->scene_size, AWAY * far);
 
-    s->reach = fmax(least, fmin(near, REACH_MOST * s->scene_size));
+    s->reach = fmax(least, fmin(near, REACH_MAX * s->scene_size));
 }
 
 double camera_input_speed(const struct camera_input *s)
@@ -295,7 +295,7 @@ void camera_input_begin(struct camera_input *s, uint64_t now_ns)
 /* Returns the speed factor of a key that was held for some seconds. */
 static double ramp(double seconds)
 {
-    return fmin(1 + RAMP * fmax(seconds, 0), RAMP_MOST);
+    return fmin(1 + RAMP * fmax(seconds, 0), RAMP_MAX);
 }
 
 void camera_input_set_pivot(struct camera_input *s, const double pivot[3])
@@ -379,15 +379,15 @@ static void turn(struct camera_input *s, struct pose *pose,
         camera_turn(pose, LOOK_SPEED * right, LOOK_SPEED * up);
 }
 
-/* Changes the aperture. Below APERTURE_LEAST it becomes 0, a pinhole. */
+/* Changes the aperture. Below APERTURE_MIN it becomes 0, a pinhole. */
 static void open_lens(struct pose *pose, double seconds)
 {
     double sharp = pose->focus > 0 ? pose->focus : camera_depth(pose, pose->at);
-    double least = APERTURE_LEAST * sharp;
+    double least = APERTURE_MIN * sharp;
     double aperture = fmax(pose->aperture, least) * exp(OPEN_SPEED * seconds);
 
     pose->aperture =
-        aperture > least ? fmin(aperture, APERTURE_GREATEST * sharp) : 0;
+        aperture > least ? fmin(aperture, APERTURE_MAX * sharp) : 0;
 }
 
 bool camera_input_step(struct camera_input *s, struct pose *pose,

@@ -24,7 +24,7 @@ static const double distances[] = {1, 0.75, 0.55, 0.4, 0.3, 0.2, 0.12};
 
 /* Least distance of the eye to surfaces, relative to its distance to the centre
  * of the object: something nearer would fill the picture. */
-#define NEAR_LEAST 0.04
+#define NEAR_MIN 0.04
 
 /* End of a ray to a point, before the surface that the point is on. */
 #define BEFORE_POINT 1e-3
@@ -189,7 +189,7 @@ static double weight_of_place(const struct framing *f, const struct pose *pose,
 {
     struct clearance c = surfaces_clearance(f->surfaces, pose->eye);
 
-    if (c.nearest < NEAR_LEAST * pose_reach(pose))
+    if (c.nearest < NEAR_MIN * pose_reach(pose))
         return 0;
     return is_enclosed && c.hit_share < CLEARANCE_ENCLOSED ? LEAVES_WEIGHT : 1;
 }

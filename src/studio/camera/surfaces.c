@@ -25,7 +25,7 @@
 #define TURN 0.61803398874989485
 
 /* Most holes and panes that a ray passes. */
-#define LAYERS_MOST 256
+#define LAYERS_MAX 256
 
 static bool is_glass(const struct material *m)
 {
@@ -71,7 +71,7 @@ static bool first_surface(struct bvh8_world *w, struct ray ray,
     w->world.settings.features &= ~(uint32_t)FEATURE_COVERAGE;
     if (w->tree == NULL || !isfinite(ray.o.x + ray.o.y + ray.o.z))
         return false;
-    for (int i = 0; i < LAYERS_MOST; i++) {
+    for (int i = 0; i < LAYERS_MAX; i++) {
         float t;
 
         if (!hit_closest(&w->world, ray, hit))

@@ -27,7 +27,7 @@ _Static_assert(SAH_DEPTH + 32 < TRAVERSE_STACK, "trees are as deep");
  * eighth does. */
 #define SAMPLED_HALF    512
 #define SAMPLED_QUARTER 4096
-#define SAMPLE_MOST     16384
+#define SAMPLE_MAX      16384
 
 /* Boxes of a large range that a thread takes at once. */
 #define CHUNK 4096
@@ -134,7 +134,7 @@ static uint32_t stride_for(uint32_t count)
 {
     uint32_t least = count < SAMPLED_HALF ? 1 : count < SAMPLED_QUARTER ? 2 : 4;
 
-    return count / least > SAMPLE_MOST ? count / SAMPLE_MOST : least;
+    return count / least > SAMPLE_MAX ? count / SAMPLE_MAX : least;
 }
 
 /* Finds the plane from a subset of the boxes, or from all if those of the

@@ -12,10 +12,10 @@
 #include "kernels/vec.h"
 
 /* Most photons of a fit. */
-#define CAUSTIC_FIT_MOST 48u
+#define CAUSTIC_FIT_MAX 48u
 
 /* Most lobes of one place. */
-#define CAUSTIC_LOBES_MOST 32u
+#define CAUSTIC_LOBES_MAX 32u
 
 /* A photon near a place. */
 struct near_photon {
@@ -32,7 +32,7 @@ struct caustic_part {
 };
 
 struct caustic_parts {
-    struct caustic_part list[CAUSTIC_LOBES_MOST];
+    struct caustic_part list[CAUSTIC_LOBES_MAX];
     uint32_t count;
 };
 
@@ -68,7 +68,7 @@ struct caustic_parts {
 
 /* Most of a leaf's share. More than a half leaves less error where nothing but
  * the caustic is seen, and more in a pool. */
-#define SHARE_MOST 0.5
+#define SHARE_MAX 0.5
 
 /* Light of other kinds, as a part of the mean irradiance by all lamps on the
  * box around the scene. */
@@ -76,10 +76,10 @@ struct caustic_parts {
 
 /* Least variance by a caustic without lobes for which a leaf gets some, as a
  * part of the square of the other light. */
-#define VARIANCE_LEAST 0.1
+#define VARIANCE_MIN 0.1
 
 /* Least side of a node's box. */
-#define SIDE_LEAST 1e-5f
+#define SIDE_MIN 1e-5f
 
 /* Room for nodes: so many for each photon, and more. A leaf has twelve photons
  * or more, and up to twelve nodes that cut it off; a root has as many. */
@@ -118,7 +118,7 @@ struct build {
 /* ---- fitting lobes ---- */
 
 /* Least number of photons of which two lobes are made in place of one. */
-#define PART_LEAST 6u
+#define PART_MIN 6u
 
 /* Logarithm of the likelihood that two lobes have to gain: for each photon, and
  * for the numbers that they are more. */
@@ -127,8 +127,8 @@ struct build {
 
 /* Photons that a lobe needs to move with the place, and the numbers that are
  * fitted to them. */
-#define MOVING_LEAST 5u
-#define MOVING       3.0
+#define MOVING_MIN 5u
+#define MOVING     3.0
 
 /* Damping of these numbers, relative to the squared extent of the landings. */
 #define DAMPING 1e-3
@@ -140,7 +140,7 @@ struct build {
 #define PRIOR_SIZE  0.05
 
 /* Least size of residuals relative to the distance, so that floats suffice. */
-#define SIZE_LEAST 1e-5
+#define SIZE_MIN 1e-5
 
 /* Factor from the residuals' covariance to the lobe. A disc of light is sampled
  * best with 2.3. */
@@ -148,19 +148,19 @@ struct build {
 
 /* Least height of the caster over a photon's landing, and cosine of its way, in
  * the direction of the lobe and relative to the lobe's height. */
-#define SLANT_LEAST 0.05f
+#define SLANT_MIN 0.05f
 
 /* A fit of one lobe. Coordinates on its plane are those along x and y. */
 struct fit {
     struct vec3 p, q; /* means of landings and of where they came from */
     struct vec3 axis, x, y;
-    double distance;                      /* from p to q */
-    struct vec2 places[CAUSTIC_FIT_MOST]; /* where photons meet the plane */
-    double weights[CAUSTIC_FIT_MOST];     /* have a sum of 1 */
-    double middle[2];                     /* mean place */
-    struct vec3 dx, dy;                   /* change of the places with p */
-    double extent;                        /* mean squared distance from p */
-    double xx, xy, yy;                    /* covariance of the residuals */
+    double distance;                     /* from p to q */
+    struct vec2 places[CAUSTIC_FIT_MAX]; /* where photons meet the plane */
+    double weights[CAUSTIC_FIT_MAX];     /* have a sum of 1 */
+    double middle[2];                    /* mean place */
+    struct vec3 dx, dy;                  /* change of the places with p */
+    double extent;                       /* mean squared distance from p */
+    double xx, xy, yy;                   /* covariance of the residuals */
 };
 
 /* Sets the plane and the photons' places on it. Returns false if they come from
@@ -190,8 +190,7 @@ static bool fit_plane(const struct near_photon *near, uint32_t n, struct fit *f)
         struct vec3 to = v3_sub(f->q, l->p), at;
         float height = v3_dot(to, f->axis), cosine = v3_dot(l->wi, f->axis);
 
-        if (!(height > SLANT_LEAST * (float)f->distance &&
-              cosine > SLANT_LEAST))
+        if (!(height > SLANT_MIN * (float)f->distance && cosine > SLANT_MIN))
             return false;
         at = v3_sub(v3_scale(l->wi, height / cosine), to);
         f->places[i] = v2(v3_dot(at, f->x), v3_dot(at, f->y));
@@ -241,7 +240,7 @@ static void fit_moves(const struct near_photon *near, uint32_t n, struct fit *f)
         }
     }
     f->extent = m[0][0] + m[1][1] + m[2][2];
-    if (n < MOVING_LEAST || !(f->extent > 0))
+    if (n < MOVING_MIN || !(f->extent > 0))
         return;
     for (int j = 0; j < 3; j++)
         m[j][j] += DAMPING * f->extent;
@@ -263,9 +262,9 @@ static struct vec2 residual(const struct fit *f, const struct near_photon *near,
 static void fit_widths(const struct near_photon *near, uint32_t n,
                        struct fit *f)
 {
-    double free = n - (n < MOVING_LEAST ? 1 : MOVING);
+    double free = n - (n < MOVING_MIN ? 1 : MOVING);
     double own = n / (free + PRIOR_COUNT);
-    double least = SIZE_LEAST * SIZE_LEAST * f->distance * f->distance;
+    double least = SIZE_MIN * SIZE_MIN * f->distance * f->distance;
     double prior = PRIOR_SIZE * PRIOR_SIZE * f->extent + least;
 
     for (uint32_t i = 0; i < n; i++) {
@@ -336,7 +335,7 @@ static void add_part(const struct near_photon *near, uint32_t n,
 {
     struct caustic_part *part = &parts->list[parts->count];
 
-    if (parts->count == CAUSTIC_LOBES_MOST)
+    if (parts->count == CAUSTIC_LOBES_MAX)
         return;
     *part = (struct caustic_part){
         .lobe = lobe_of(f),
@@ -357,7 +356,7 @@ static uint32_t divide(struct near_photon *near, uint32_t n,
 {
     double angle = .5 * atan2(2 * f->xy, f->xx - f->yy);
     struct vec2 axis = v2((float)cos(angle), (float)sin(angle));
-    struct near_photon behind[CAUSTIC_FIT_MOST];
+    struct near_photon behind[CAUSTIC_FIT_MAX];
     uint32_t before_count = 0, behind_count = 0;
 
     for (uint32_t i = 0; i < n; i++) {
@@ -386,11 +385,11 @@ static bool is_divided(struct near_photon *near, uint32_t n,
     struct fit a, b;
     uint32_t rest;
 
-    if (n < 2 * PART_LEAST)
+    if (n < 2 * PART_MIN)
         return false;
     *first = divide(near, n, whole);
     rest = n - *first;
-    return *first >= PART_LEAST && rest >= PART_LEAST &&
+    return *first >= PART_MIN && rest >= PART_MIN &&
            fit_one(near, *first, &a) && fit_one(near + *first, rest, &b) &&
            likelihood(&a, *first, n) + likelihood(&b, rest, n) >
                likelihood(whole, n, n) + GAIN_EACH * n + GAIN;
@@ -497,12 +496,12 @@ static void find_candidates(struct build *b, uint32_t count, float leaf_square,
         while (end < count && b->near[end].landing->chain == chain)
             end++;
         n = end - i;
-        if (n >= CAUSTIC_FIT_MOST) {
-            n = CAUSTIC_FIT_MOST;
+        if (n >= CAUSTIC_FIT_MAX) {
+            n = CAUSTIC_FIT_MAX;
             square = f_max(b->near[i + n - 1].square, leaf_square);
         }
-        add_chain(b, &b->near[i], n,
-                  (double)f_max(square, SIDE_LEAST * SIDE_LEAST), to);
+        add_chain(b, &b->near[i], n, (double)f_max(square, SIDE_MIN * SIDE_MIN),
+                  to);
     }
     qsort(to->list, to->count, sizeof *to->list, compare_candidates);
 }
@@ -519,12 +518,12 @@ static bool add_lobes(struct build *b, const struct candidates *from,
         total += from->list[i].weight;
         variance += from->list[i].variance;
     }
-    if (!(variance > VARIANCE_LEAST * b->rest * b->rest))
+    if (!(variance > VARIANCE_MIN * b->rest * b->rest))
         return true;
     if (!grow_array((void **)&to->lobes, &b->lobe_capacity,
                     to->lobe_count + count, sizeof *to->lobes))
         return false;
-    node->split = (float)fmin(total / (total + b->rest), SHARE_MOST);
+    node->split = (float)fmin(total / (total + b->rest), SHARE_MAX);
     node->next = to->lobe_count << 2 | 3u;
     for (uint32_t i = 0; i < count; i++) {
         struct caustic_lobe *lobe = &to->lobes[to->lobe_count++];
@@ -664,7 +663,7 @@ static bool make_node(struct build *b, uint32_t node, struct range r,
 
     if (r.count >= AROUND)
         around = r;
-    if (r.count <= LEAF || !(v3_max_component(size) > SIDE_LEAST))
+    if (r.count <= LEAF || !(v3_max_component(size) > SIDE_MIN))
         return make_leaf(b, node, r, around, space);
     for (uint32_t i = 1; i < 3; i++)
         if (v3_axis(size, i) > v3_axis(size, axis))

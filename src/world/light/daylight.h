@@ -31,9 +31,9 @@
 
 /* Range of the turbidity, the haze of the air, in which the model has positive
  * values: 2 is a clear day, 6 a hazy one. */
-#define TURBIDITY_LEAST    1.7
-#define TURBIDITY_GREATEST 10.0
-#define TURBIDITY_DEFAULT  3.0
+#define TURBIDITY_MIN     1.7
+#define TURBIDITY_MAX     10.0
+#define TURBIDITY_DEFAULT 3.0
 
 /* Sky of one elevation of the sun. */
 struct daylight {

@@ -18,7 +18,7 @@
 /* Least radius of a node. A quarter of its square, squared, is a normal float;
  * it is below any distance of points that float coordinates near 1 can
  * represent. */
-#define RADIUS_LEAST 1e-9f
+#define RADIUS_MIN 1e-9f
 
 struct builder {
     struct emitter *emitters;
@@ -245,7 +245,7 @@ static void fill_child(struct light_node *node, uint32_t i,
     node->x[i] = 0.5f * (c.lo.x + c.hi.x);
     node->y[i] = 0.5f * (c.lo.y + c.hi.y);
     node->z[i] = 0.5f * (c.lo.z + c.hi.z);
-    node->radius[i] = f_max(0.5f * v3_length(v3_sub(c.hi, c.lo)), RADIUS_LEAST);
+    node->radius[i] = f_max(0.5f * v3_length(v3_sub(c.hi, c.lo)), RADIUS_MIN);
     node->axis_x[i] = axis.x;
     node->axis_y[i] = axis.y;
     node->axis_z[i] = axis.z;
@@ -265,7 +265,7 @@ static bool add_node(struct builder *b, uint32_t *index, struct error *err)
     l->nodes = nodes;
     l->nodes[l->node_count] = (struct light_node){.power = {0}};
     for (uint32_t i = 0; i < LIGHT_WIDTH; i++)
-        l->nodes[l->node_count].radius[i] = RADIUS_LEAST;
+        l->nodes[l->node_count].radius[i] = RADIUS_MIN;
     *index = l->node_count++;
     return true;
 }

@@ -148,20 +148,20 @@ void texture_power_free(struct texture_power_sums *f)
 /* ---- lights ---- */
 
 /* Least share of a light in the power of all. No light has none. */
-#define POWER_LEAST 1e-30
+#define POWER_MIN 1e-30
 
 /* Twice the area of the smallest light. The density of a smaller one would
  * overflow in float; only BSDF samples find it. */
-#define AREA_LEAST 1e-30
+#define AREA_MIN 1e-30
 
 /* Variance that lights would cause without light samples, relative to the
  * square of the irradiance of a constant sky on a plane: from VARIANCE_FULL on
  * they are sampled each time, below in proportion, but never less often than
- * SHARE_LEAST. Measured: without sampling, the lamps of five scenes (6 and
+ * SHARE_MIN. Measured: without sampling, the lamps of five scenes (6 and
  * more) leave 3 to 80 times the error. A large paper lamp in a room with a
  * window (.01) leaves 1.2 times, and its shadow rays would double the time. */
 #define VARIANCE_FULL 0.1
-#define SHARE_LEAST   0.1
+#define SHARE_MIN     0.1
 
 /* Limits for two triangles to become one light: the cosine between their
  * normals, of which the tree knows one, and the ratio of their powers, as each
@@ -176,7 +176,7 @@ void texture_power_free(struct texture_power_sums *f)
 
 /* Instances with more triangles that shine together are found by BSDF samples
  * only: their lights would take more than 1 GB. */
-#define INSTANCE_LIGHTS_MOST (1u << 22)
+#define INSTANCE_LIGHTS_MAX (1u << 22)
 
 bool lights_differ(const struct material *a, const struct material *b)
 {
@@ -238,7 +238,7 @@ static bool make_emitter(const struct world *w, uint32_t tri,
     double twice_area = (double)v3_length(long_normal(w, tri));
     double radiance;
 
-    if (!(twice_area > AREA_LEAST))
+    if (!(twice_area > AREA_MIN))
         return false;
     radiance = mean_radiance(w, &t, footprints);
     *e = (struct emitter){.lo = corner(w, tri, 0),
@@ -431,7 +431,7 @@ static uint32_t shining_instances(const struct world *w)
     for (uint32_t i = 0; i < w->settings.instance_count; i++)
         if (material_shines(&w->materials[w->instances[i].material]))
             tris += w->instances[i].tri_count;
-    return tris <= INSTANCE_LIGHTS_MOST ? w->settings.instance_count : 0;
+    return tris <= INSTANCE_LIGHTS_MAX ? w->settings.instance_count : 0;
 }
 
 /* Adds the light of a triangle if it shines, and its power. Returns its index,
@@ -484,7 +484,7 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
     total +=
         add_points(l, *emitters, w, true) + add_points(l, *emitters, w, false);
     for (uint32_t i = 0; i < l->light_count + l->point_light_count; i++)
-        (*emitters)[i].power = fmax((*emitters)[i].power / total, POWER_LEAST);
+        (*emitters)[i].power = fmax((*emitters)[i].power / total, POWER_MIN);
     return true;
 }
 
@@ -586,7 +586,7 @@ static float light_share(const struct lights *lights, const struct sky *sky)
         return 0;
     if (sky->width != 0 || !(ratio < VARIANCE_FULL))
         return 1;
-    return (float)fmax(ratio / VARIANCE_FULL, SHARE_LEAST);
+    return (float)fmax(ratio / VARIANCE_FULL, SHARE_MIN);
 }
 
 void lights_lend(const struct lights *lights, struct world *world)

@@ -33,7 +33,7 @@
 /* Least share of a cell's light for which the cell gets a table. For caustics
  * on two balls this leaves out half of the cells, for 3 % more error and 7 %
  * less time. */
-#define PART_LEAST 0.1
+#define PART_MIN 0.1
 
 /* The tables while they are made. */
 struct table {
@@ -195,7 +195,7 @@ static uint32_t add_scatter_table(struct table *t, const struct path_guide *g,
 
             totals[i] = guide_flux_total(fluxes[i], cell);
             part = guide_flux_share(fluxes[i], cell, totals[i], other);
-            shares[i] = part < PART_LEAST ? 0 : most[i] * part;
+            shares[i] = part < PART_MIN ? 0 : most[i] * part;
         }
     if (shares[0] + shares[1] == 0)
         return NO_INDEX;
@@ -214,8 +214,7 @@ static uint32_t add_sky_table(struct table *t, const struct path_guide *g,
     const struct guide_flux *open = &g->portals.open;
     double total = guide_flux_total(open, cell);
 
-    if (guide_flux_share(open, cell, total, other_light(g, cell, o)) <
-        PART_LEAST)
+    if (guide_flux_share(open, cell, total, other_light(g, cell, o)) < PART_MIN)
         return NO_INDEX;
     guide_flux_add_cdf(open, cell, total, SHARE_SKY, next_sums(t));
     return take_sums(t);
@@ -238,7 +237,7 @@ static bool is_sky_worth_it(const struct path_guide *g, const struct other *o)
             all += total + (double)open->rest[i] + other_light(g, i, o);
         }
     }
-    return all > 0 && direct >= PART_LEAST * all;
+    return all > 0 && direct >= PART_MIN * all;
 }
 
 static bool make_table(const struct path_guide *g, const struct other *o,

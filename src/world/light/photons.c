@@ -20,7 +20,7 @@
 
 /* Least probability of either way at smooth glass, so that there are enough
  * photons of faint caustics, which make specks too. */
-#define CHANCE_LEAST 0.25f
+#define CHANCE_MIN 0.25f
 
 /* Largest number of vertices of a photon. It ends there even within glass. */
 #define PHOTON_VERTICES 12u
@@ -35,7 +35,7 @@
 
 /* Least squared distance of a point on a light and one on a caster. The flux,
  * which is inversely proportional to it, stays finite. */
-#define DISTANCE2_LEAST 1e-30f
+#define DISTANCE2_MIN 1e-30f
 
 struct search {
     const struct bvh8_world *w;
@@ -283,7 +283,7 @@ static float leave_triangle(const struct world *w, uint32_t light,
     from = hit_point_inset(triangle_point(u), a[0], a[1], a[2], &error);
     d = v3_sub(to, from);
     square = v3_dot(d, d);
-    if (!(square > DISTANCE2_LEAST))
+    if (!(square > DISTANCE2_MIN))
         return 0.0f;
     p->ray.d = v3_unit(d);
     p->flux = v3_dot(n, p->ray.d);
@@ -380,11 +380,11 @@ static float reflectance_at(const struct bsdf *b, struct vec3 wo)
 }
 
 /* Chooses between reflection and refraction with a probability of at least
- * CHANCE_LEAST, and weights the flux so that its mean stays the same. Returns
+ * CHANCE_MIN, and weights the flux so that its mean stays the same. Returns
  * the number in [0, 1) by which the glass makes the same choice. */
 static float photon_choose(struct photon *p, float reflectance, float u)
 {
-    float chance = f_min(f_max(reflectance, CHANCE_LEAST), 1.0f - CHANCE_LEAST);
+    float chance = f_min(f_max(reflectance, CHANCE_MIN), 1.0f - CHANCE_MIN);
 
     if (!(reflectance > 0.0f && reflectance < 1.0f))
         return u;

@@ -41,7 +41,7 @@
 
 /* Limit on the light of all bounces as a multiple of the first, in a white room
  * without portals. */
-#define BOUNCES_MOST 1000.0
+#define BOUNCES_MAX 1000.0
 
 /* Weight, in rays, of the mean over all cells in a cell's estimate. */
 #define MEAN_BOUNCES 16.0
@@ -451,7 +451,7 @@ double sky_portals_bounces(const struct sky_portals *o, const struct world *w)
 
     for (uint32_t i = 0; i < o->wall_count; i++)
         color += color_at(w, o->walls[i]) / o->wall_count;
-    return color / fmax(1 - color * (1 - o->escape), 1 / BOUNCES_MOST);
+    return color / fmax(1 - color * (1 - o->escape), 1 / BOUNCES_MAX);
 }
 
 void sky_portals_free(struct sky_portals *o)

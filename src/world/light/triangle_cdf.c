@@ -10,7 +10,7 @@
 #define BLOCK_TRIS 16384u
 
 /* A list of so many takes 50 MB and half a second. */
-#define LISTED_MOST (1u << 22)
+#define LISTED_MAX (1u << 22)
 
 bool triangle_cdf_init(struct triangle_cdf *l, uint32_t capacity)
 {
@@ -60,7 +60,7 @@ uint32_t listed_tri_count(const struct world *w)
 {
     uint32_t all = all_tri_count(w);
 
-    return has_instances(w) && all > LISTED_MOST ? LISTED_MOST : all;
+    return has_instances(w) && all > LISTED_MAX ? LISTED_MAX : all;
 }
 
 void tri_corners(const struct world *w, uint32_t tri, struct vec3 p[3])

@@ -28,7 +28,7 @@ static struct pass pass_from(uint64_t done, uint64_t target,
     uint64_t most = target - done;
 
     if (shares != NULL)
-        most = (most * SHARE_MOST + SHARE_ONE - 1) / SHARE_ONE;
+        most = (most * SHARE_MAX + SHARE_ONE - 1) / SHARE_ONE;
     return (struct pass){.stride = 1,
                          .target = target,
                          .shares = shares,

@@ -68,7 +68,7 @@ static void colours_outside_the_gamut_move_towards_white(void **state)
 static void all_temperatures_have_luminance_one(void **state)
 {
     (void)state;
-    for (double t = BLACKBODY_LEAST; t <= BLACKBODY_GREATEST; t *= 1.1) {
+    for (double t = BLACKBODY_MIN; t <= BLACKBODY_MAX; t *= 1.1) {
         double rgb[3];
 
         blackbody_rgb(t, rgb);

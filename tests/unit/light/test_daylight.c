@@ -145,8 +145,8 @@ static void everything_is_finite_at_the_ends(void **state)
     static const double elevations[] = {1e-9, 1e-3, 1, 45, 89.999, 90};
 
     (void)state;
-    for (double turbidity = TURBIDITY_LEAST;
-         turbidity <= TURBIDITY_GREATEST + 1e-9; turbidity += 0.83) {
+    for (double turbidity = TURBIDITY_MIN; turbidity <= TURBIDITY_MAX + 1e-9;
+         turbidity += 0.83) {
         for (size_t i = 0; i < sizeof elevations / sizeof *elevations; i++) {
             struct daylight d;
             double rgb[3];

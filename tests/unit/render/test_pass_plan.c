@@ -125,13 +125,13 @@ static void samples_follow_shares(void **state)
     uint64_t seed = 3;
 
     (void)state;
-    assert_int_equal(share_samples(SHARE_MOST, ADAPTIVE_FIRST), ADAPTIVE_FIRST);
+    assert_int_equal(share_samples(SHARE_MAX, ADAPTIVE_FIRST), ADAPTIVE_FIRST);
     assert_int_equal(share_samples(SHARE_ONE, 1000), 1000);
     assert_int_equal(share_samples(2 * SHARE_ONE, 116), 216);
-    assert_int_equal(share_samples(SHARE_MOST, UINT64_C(1) << 40),
+    assert_int_equal(share_samples(SHARE_MAX, UINT64_C(1) << 40),
                      (UINT64_C(1) << 42) - 48);
     for (int i = 0; i < 100000; i++) {
-        uint32_t share = (uint32_t)(check_random(&seed) * SHARE_MOST);
+        uint32_t share = (uint32_t)(check_random(&seed) * SHARE_MAX);
         uint64_t done = 16 + (uint64_t)(check_random(&seed) * 1000);
         uint64_t more = 1 + (uint64_t)(check_random(&seed) * 8);
         uint64_t first = share_samples(share, done);
