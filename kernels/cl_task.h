@@ -24,8 +24,9 @@ struct task {
     uint32_t width;        /* width of the film */
     uint32_t x0;           /* the film's corner in the picture */
     uint32_t y0;
-    uint32_t has_shares; /* 1: pixels have shares: sample_share.h */
-    uint32_t pad;
+    uint32_t has_shares;   /* 1: pixels have shares: sample_share.h */
+    uint32_t light_pixels; /* of the film, that get light of light paths; 0:
+                              none */
 };
 
 /* Coordinates and index in the film of the task's point i. */

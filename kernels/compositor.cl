@@ -12,7 +12,7 @@ add_samples(struct task task, __global const struct path_sample *samples,
             __global const struct first_surface *surfaces,
             __global struct sum *sums, __global struct sum *odd_sums,
             __global struct surface_sums *surface_sums, __global ulong *counts,
-            volatile __global struct tally *tally)
+            volatile __global struct tally *tally, __global const float *light)
 {
     uint point = (uint)get_global_id(0);
     struct tally t = {0, 0, 0, 0, 0};
@@ -23,13 +23,23 @@ add_samples(struct task task, __global const struct path_sample *samples,
     pixel = task_pixel(task, point);
     samples += (ulong)point * task.samples;
     for (uint s = 0; s < task.samples && samples[s].rays != 0; s++) {
+        struct path_sample sample = samples[s];
+
+        if (task.light_pixels != 0) {
+            ulong is_odd = (task.first_sample + counts[pixel] + s) & 1;
+            ulong from = 3 * (pixel + is_odd * task.light_pixels);
+
+            sample.radiance =
+                v3_add(sample.radiance,
+                       v3(light[from], light[from + 1], light[from + 2]));
+        }
         if (HAS(FEATURE_FILTER) && surfaces != 0)
             surface_add(&surface_sums[pixel],
                         task.first_sample + counts[pixel] + s,
                         surfaces[(ulong)point * task.samples + s],
-                        samples[s].radiance);
+                        sample.radiance);
         pixel_add(&sums[3 * pixel], &odd_sums[3 * pixel], counts[pixel] + s,
-                  samples[s], &t);
+                  sample, &t);
     }
     counts[pixel] += t.samples;
     atomic_add(&tally->samples, t.samples);

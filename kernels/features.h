@@ -37,11 +37,12 @@ enum feature {
     /* texture_flag beyond TEXTURE_CLAMP, channels, maps of rare parameters */
     FEATURE_TEXTURE_OPTIONS = 16777216,
     FEATURE_VERTEX_ALPHAS = 33554432,
-    FEATURE_TANGENTS = 67108864,     /* tangents of vertices */
-    FEATURE_COAT_NORMALS = 134217728 /* coats over bumps, or with a map */
+    FEATURE_TANGENTS = 67108864,      /* tangents of vertices */
+    FEATURE_COAT_NORMALS = 134217728, /* coats over bumps, or with a map */
+    FEATURE_LIGHT_PATHS = 268435456   /* settings.light_paths */
 };
 
-#define FEATURES_ALL 268435455u
+#define FEATURES_ALL 536870911u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

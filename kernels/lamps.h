@@ -95,6 +95,7 @@ struct light_sample {
     uint32_t tri;         /* NO_INDEX: not an area light */
     struct vec3 p;        /* the point on the area light or point light */
     bool is_near;         /* of a light of the tree; false: from infinity */
+    bool is_sky;
     bool is_delta; /* BSDF samples cannot find the light: radiance and pdf
                       are an irradiance and a probability */
 };

@@ -139,6 +139,7 @@ static inline bool sample_near_light(const struct world *w,
     struct hit h;
 
     s->is_near = true;
+    s->is_sky = false;
     s->is_delta = false;
     if (!(probability > 0.0f))
         return false;
@@ -287,6 +288,7 @@ static inline bool sample_infinite_light(const struct world *w,
     s->tri = NO_INDEX;
     s->p = r->p;
     s->is_near = false;
+    s->is_sky = false;
     s->is_delta = false;
     if (has_directional_lights(w)) {
         uint32_t i = infinite_choose(w, r, u);
@@ -296,6 +298,7 @@ static inline bool sample_infinite_light(const struct world *w,
         if (!(w->settings.sky_power > 0.0f))
             return false;
     }
+    s->is_sky = true;
     s->wi = sky_direction(w, r, first, point);
     s->radiance = sky_light_terms(w, r, first, s->wi, &s->pdf);
     return s->pdf > 0.0f;

@@ -37,7 +37,7 @@ static inline bool path_scatter(const struct world *w, struct path *p,
     struct vec3 wi;
     uint32_t caustics = NO_INDEX;
 
-    if (HAS(FEATURE_CAUSTICS) && guide_helps(b))
+    if (HAS(FEATURE_CAUSTICS) && guide_helps(b) && !path_begins_matte(p))
         caustics = caustic_leaf_at(w, v->p, v->ng);
     if (HAS(FEATURE_CAUSTICS) && caustics != NO_INDEX) {
         if (!caustic_scatter(w, caustics, p->cell.scatter, v, b, wo, direction,
@@ -109,6 +109,7 @@ static inline void path_open(struct path *p, struct ray r,
     p->from.n = r.d;
     p->from.transmits = true;
     p->medium = v3(0.0f, 0.0f, 0.0f);
+    p->drops = p->is_cast = false;
     p->out.radiance = v3(0.0f, 0.0f, 0.0f);
     p->out.rays = 1; /* the camera ray */
     p->out.cut = 0;
@@ -155,6 +156,12 @@ static inline bool path_extend(const struct world *w, struct path *p,
     /* Add emission of the surface */
     path_add_emission(w, p, &m, h->tri, &v);
     first_surface_light(&p->surface, vertex, p->out.radiance);
+    if (HAS(FEATURE_LIGHT_PATHS)) {
+        if (vertex == 1)
+            p->drops = w->settings.light_paths != LIGHT_PATHS_NONE &&
+                       m.role == ROLE_MATTE;
+        p->is_cast = m.role == ROLE_CASTS;
+    }
     /* End at the limit of bounces */
     if (vertex >= w->settings.max_vertices) {
         p->out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;
@@ -172,7 +179,9 @@ static inline bool path_extend(const struct world *w, struct path *p,
     p->from.n = v.n;
     p->from.transmits = bsdf_transmits(&b);
     p->cell = guide_cell_none();
-    if (HAS(FEATURE_GUIDE) && guide_helps(&b))
+    if (HAS(FEATURE_GUIDE) && guide_helps(&b) &&
+        !(path_begins_matte(p) &&
+          w->settings.light_paths == LIGHT_PATHS_UNGUIDED))
         p->cell = guide_at(w, v.p, v.ng);
     /* Sample a light. Its shadow ray is traced after the next direction was
      * sampled, on which it does not depend: 3 to 6 % less time. */

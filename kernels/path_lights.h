@@ -90,6 +90,19 @@ static inline float light_mis_weight(const struct world *w, float light_pdf,
                                                : power_weight(light_pdf, pdf);
 }
 
+/* True if light paths bring light of lamps that comes by way of surfaces that
+ * cast, so that the path leaves it out. */
+static inline bool path_begins_matte(const struct path *p)
+{
+    return HAS(FEATURE_LIGHT_PATHS) && p->drops;
+}
+
+/* True if light paths bring the light of a lamp that the ray meets. */
+static inline bool path_drops(const struct path *p)
+{
+    return path_begins_matte(p) && p->is_cast;
+}
+
 static inline void path_add_sky(const struct world *w, struct path *p)
 {
     float pdf = 0.0f;
@@ -107,7 +120,7 @@ static inline void path_add_discs(const struct world *w, struct path *p)
     for (uint32_t i = 0; i < w->settings.directional_light_count; i++) {
         float pdf = 0.0f;
 
-        if (!disc_meets(w, i, p->ray.d))
+        if (path_drops(p) || !disc_meets(w, i, p->ray.d))
             continue;
         if (p->pdf > 0.0f)
             pdf = directional_pdf(w, i, &p->from);
@@ -143,7 +156,7 @@ static inline void path_add_spheres(const struct world *w, struct path *p,
     uint32_t light;
 
     r.t_max = t_max;
-    if (w->settings.sphere_count == 0)
+    if (w->settings.sphere_count == 0 || path_drops(p))
         return;
     if (light_tree_count(w) == 1) {
         path_add_sphere(w, p, 0, r);
@@ -164,7 +177,8 @@ static inline void path_add_emission(const struct world *w, struct path *p,
 {
     float light_pdf = 0.0f;
 
-    if (!HAS(FEATURE_EMITTERS) || v3_is_zero(m->emission))
+    if (!HAS(FEATURE_EMITTERS) || v3_is_zero(m->emission) ||
+        (path_drops(p) && light_of(w, tri) != NO_INDEX))
         return;
     if (p->pdf > 0.0f)
         light_pdf = light_pdf_at(w, &p->from, tri, v->p);
@@ -242,6 +256,8 @@ path_choose_light(const struct world *w, const struct path *p,
         !light_sample(w, &p->from, p->cell.sky,
                       path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
                       path_2d(p, vertex, DIMENSION_LIGHT_CHOICE), &l->at))
+        return false;
+    if (path_begins_matte(p) && m->role == ROLE_CASTS && !l->at.is_sky)
         return false;
     wi = surface_to_local(v, l->at.wi);
     l->cosine = wi.z;

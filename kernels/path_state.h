@@ -36,6 +36,8 @@ struct path {
     struct vec3 medium;     /* absorption along the ray; FEATURE_ATTENUATION */
     struct path_sample out;
     struct first_surface surface;
+    bool drops;   /* FEATURE_LIGHT_PATHS: light paths bring light of lamps */
+    bool is_cast; /* to surfaces that cast, of which the last vertex is one */
 };
 
 /* Caps a factor at the largest float, because an infinite factor times a black

@@ -53,12 +53,20 @@ enum material_kind {
     MATERIAL_PRINCIPLED /* mixture of metal, plastic and glass: principled.h */
 };
 
+/* Its part in paths from lamps: world/light/light_paths.h. */
+enum material_role {
+    ROLE_NONE,
+    ROLE_CASTS, /* sends light into few directions */
+    ROLE_MATTE  /* scatters light into all directions, and maybe a delta */
+};
+
 struct material {
     struct vec3 color;
     float alpha;          /* GGX roughness; below ALPHA_SMOOTH: a delta lobe */
     struct vec3 emission; /* radiance to both sides; 0: no light */
     float ior;
     uint32_t kind;            /* enum material_kind */
+    uint32_t role;            /* enum material_role */
     float opacity;            /* probability that a ray is stopped */
     struct vec3 specular;     /* reflectance of the face at normal incidence */
     uint32_t color_is_opaque; /* 1: the alpha of color_texture does not
@@ -357,15 +365,25 @@ enum order {
 #define PATH_HARD_STOP 1000u
 
 /* The part of struct world that is not arrays. */
+/* Whether light paths bring the light whose last surface before the lamp casts,
+ * and whose first one from the eye is matte. Paths from the eye then leave it
+ * out. */
+enum light_path_use {
+    LIGHT_PATHS_NONE,
+    LIGHT_PATHS_GUIDED,  /* the path guide knows other light as well */
+    LIGHT_PATHS_UNGUIDED /* paths that leave it out need no path guide */
+};
+
 struct settings {
     struct camera camera;
     struct sky sky;
     uint32_t max_vertices; /* surface vertices of a path, emitter included */
     uint32_t seed;
-    uint32_t features; /* enum feature, or-ed */
-    uint32_t direct;   /* enum direct */
-    uint32_t order;    /* enum order */
-    uint32_t sample;   /* enum sample_kind */
+    uint32_t features;    /* enum feature, or-ed */
+    uint32_t direct;      /* enum direct */
+    uint32_t order;       /* enum order */
+    uint32_t sample;      /* enum sample_kind */
+    uint32_t light_paths; /* enum light_path_use; FEATURE_LIGHT_PATHS */
     /* probability that a light sample is of light from infinity: of the sky or
      * of a directional light */
     float sky_share;

@@ -248,12 +248,26 @@ uint64_t pool_cpu_ns(const struct pool *pool, int worker)
            (uint64_t)used.tv_nsec;
 }
 
+/* Runs all items in the caller's thread. */
+static bool run_here(uint32_t count, pool_job *job, void *context,
+                     const struct cancel *cancel)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (cancel != NULL && cancel_requested(cancel))
+            return false;
+        job(context, i, 0);
+    }
+    return true;
+}
+
 bool pool_run(struct pool *p, uint32_t count, pool_job *job, void *context,
               const struct cancel *cancel)
 {
-    uint64_t threads = (uint64_t)p->thread_count;
+    uint64_t threads = p != NULL ? (uint64_t)p->thread_count : 0;
     bool is_done = true;
 
+    if (p == NULL)
+        return run_here(count, job, context, cancel);
     p->job = job;
     p->context = context;
     p->cancel = cancel;

@@ -82,7 +82,8 @@ uint64_t pool_cpu_ns(const struct pool *pool, int worker);
 
 /* Runs job(context, i, worker) for all i below count, and returns when every
  * worker is parked. After a request to cancel no further item is started.
- * Returns true if all items were run. */
+ * Returns true if all items were run. Without a pool it runs in the caller's
+ * thread as worker 0. */
 bool pool_run(struct pool *pool, uint32_t count, pool_job *job, void *context,
               const struct cancel *cancel);
 

@@ -217,7 +217,9 @@ void engine_end(struct engine *e)
 uint32_t engine_features(const struct engine *e)
 {
     return world_features(&e->world) |
-           (e->options.wants_filter ? (uint32_t)FEATURE_FILTER : 0);
+           (e->options.wants_filter ? (uint32_t)FEATURE_FILTER : 0) |
+           (e->world.light_paths.sources != NULL ? (uint32_t)FEATURE_LIGHT_PATHS
+                                                 : 0);
 }
 
 struct cl_request engine_request(const struct engine *e, uint32_t features)
@@ -273,7 +275,7 @@ bool engine_prepare(struct engine *e, const struct view *view,
     job->world.settings.features = engine_features(e);
     if (!engine_uses_device(e))
         return true;
-    if (!e->options.drops_tree)
+    if (!e->options.drops_tree || e->world.light_paths.sources != NULL)
         return world_ensure_tree(&e->world, &job->world, NULL, err);
     world_drop_tree(&e->world);
     return true;

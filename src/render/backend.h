@@ -36,6 +36,11 @@ struct pass {
      * backend wants longer passes */
     uint32_t samples;
     uint32_t order; /* seed for the random order of blocks */
+    /* light that all samples of the pass get from light paths: 3 numbers for
+     * each pixel of the film for samples with even indices, then for those with
+     * odd ones; NULL: none. Equal versions have the same numbers. */
+    const float *light;
+    uint64_t light_version;
 };
 
 /* Returns the samples of pixel `at` of the film after a pass. */
@@ -91,6 +96,7 @@ struct backend {
     /* samples that a pass should have at least, since its end takes time; 0:
      * those of the plan */
     uint32_t pass_least;
+    bool takes_light;    /* passes may have light */
     uint64_t tree_bytes; /* size of the tree that load() built or found */
     /* version of the loaded WORLD_SHAPE; 0 if none is loaded */
     uint64_t shape;

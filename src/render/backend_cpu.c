@@ -111,6 +111,23 @@ static int row_pixels(const struct row *r, uint32_t done, int pixel_count)
     return whole;
 }
 
+/* Adds the light of light paths to the first `count` samples. */
+static void add_light(const struct job *j, struct row *r, uint32_t count)
+{
+    const struct backend_cpu *b = j->backend;
+    size_t pixels = (size_t)b->film->width * (size_t)b->film->height;
+
+    for (uint32_t i = 0; i < count; i++) {
+        const struct sample_id *id = &r->ids[i];
+        size_t at = (size_t)((int)id->y - b->y0) * (size_t)b->film->width +
+                    (size_t)((int)id->x - b->x0);
+        const float *from = j->pass.light + 3 * (at + (id->index & 1) * pixels);
+
+        r->samples[i].radiance =
+            v3_add(r->samples[i].radiance, v3(from[0], from[1], from[2]));
+    }
+}
+
 /* Renders the samples of a row. Returns false if cancelled; pixels that were
  * complete by then are in the film. */
 static bool render_samples(const struct job *j, int x, int y, int pixel_count,
@@ -124,6 +141,8 @@ static bool render_samples(const struct job *j, int x, int y, int pixel_count,
         b->kernel->samples(&b->world.world, r->ids + done, n, r->samples + done,
                            r->surfaces + done);
     }
+    if (j->pass.light != NULL)
+        add_light(j, r, done);
     film_add_row(b->film,
                  (struct film_pixels){x, y, j->pass.stride,
                                       row_pixels(r, done, pixel_count)},
@@ -245,6 +264,7 @@ struct backend *backend_cpu_create(int thread_count,
     b->base.load = cpu_load;
     b->base.unload = cpu_unload;
     b->base.begin = cpu_begin;
+    b->base.takes_light = true;
     b->base.pass = cpu_pass;
     b->base.cpu_ns = cpu_cpu_ns;
     b->base.destroy = cpu_destroy;

@@ -21,14 +21,14 @@
 #define FEATURES_shiny                                                       \
     (FEATURES_lamps | FEATURE_TEXTURES | FEATURE_SKY_IMAGE | FEATURE_METAL | \
      FEATURE_GLASS | FEATURE_PLASTIC | FEATURE_ROUGH |                       \
-     FEATURE_DIRECTIONAL_LIGHTS | FEATURE_GUIDE)
+     FEATURE_DIRECTIONAL_LIGHTS | FEATURE_GUIDE | FEATURE_LIGHT_PATHS)
 
 /* Materials and lights of typical glTF files. */
 #define FEATURES_gltf                                                    \
     (FEATURES_images | FEATURE_TEXTURE_OPTIONS | FEATURE_SKY_IMAGE |     \
      FEATURE_DIRECTIONAL_LIGHTS | FEATURE_POINT_LIGHTS | FEATURE_METAL | \
      FEATURE_PLASTIC | FEATURE_ROUGH | FEATURE_ROUGH_DIFFUSE |           \
-     FEATURE_PRINCIPLED | FEATURE_BUMPS)
+     FEATURE_PRINCIPLED | FEATURE_BUMPS | FEATURE_LIGHT_PATHS)
 
 /* All of light, with simple geometry and textures. */
 #define FEATURES_light                                             \

@@ -14,6 +14,7 @@
 #include "film/adaptive.h"
 #include "film/film.h"
 #include "film/filter/film_filter.h"
+#include "render/light_block.h"
 #include "render/pass_plan.h"
 #include "render/projection.h"
 #include "kernels/rng.h"
@@ -36,6 +37,7 @@ struct render_films {
     struct film film;
     struct film draft;        /* width 0: there is no draft */
     struct adaptive adaptive; /* empty: the render is not adaptive */
+    struct light_block light; /* of light paths, for the film */
 };
 
 struct render {
@@ -156,6 +158,7 @@ static bool render_films_reset(struct render_films *f,
         !reset_adaptive(&f->adaptive, job, err))
         return false;
     f->film.first_sample = job->first_sample;
+    light_block_reset(&f->light);
     if (job->from != NULL)
         take_file(f, job->from);
     return true;
@@ -215,6 +218,7 @@ static void render_films_free(struct render_films *f)
     film_free(&f->film);
     film_free(&f->draft);
     adaptive_free(&f->adaptive);
+    light_block_free(&f->light);
 }
 
 /* ---- passes ---- */
@@ -244,6 +248,10 @@ static enum pass_result run_to(struct render *r, uint64_t target,
         struct pass pass =
             pass_plan_pass(*spp_done, target, stride, &r->films.adaptive);
 
+        if (r->begun_film == &r->films.film && r->films.light.end > 0) {
+            pass.light = r->films.light.means;
+            pass.light_version = r->films.light.end;
+        }
         result = r->backend->pass(r->backend, &pass, &r->cancel, &r->error);
         if (result == PASS_DONE)
             note_first_picture(r);
@@ -470,12 +478,38 @@ static uint64_t next_target(const struct render *r)
     return target;
 }
 
+/* Returns the film as the backend has it. */
+static struct backend_picture film_picture(struct render *r,
+                                           const struct world *world)
+{
+    return (struct backend_picture){r->job.host, world, &r->films.film,
+                                    r->job.crop.x, r->job.crop.y};
+}
+
+/* Finds the light of light paths for the next pass, which ends with its block.
+ */
+static enum pass_result find_light(struct render *r, uint64_t *target)
+{
+    struct light_block *light = &r->films.light;
+    uint64_t first = r->films.film.first_sample;
+    uint64_t end = light_block_end(first + r->spp_done) - first;
+    struct backend_picture picture = film_picture(r, &r->job.world);
+
+    if (!(light->paths > 0))
+        return PASS_DONE;
+    *target = *target < end ? *target : end;
+    return light_block_find(light, &picture, first + r->spp_done,
+                            r->backend->pool, &r->cancel, &r->error);
+}
+
 static enum pass_result run_film_pass(struct render *r)
 {
     uint64_t *spp_done = &r->spp_done;
     uint64_t target = is_stepping(r) ? *spp_done + 1 : next_target(r);
     enum pass_result result = decide_shares(r);
 
+    if (result == PASS_DONE)
+        result = find_light(r, &target);
     if (result == PASS_DONE)
         result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
     if (result != PASS_DONE)
@@ -487,9 +521,16 @@ static enum pass_result run_film_pass(struct render *r)
 /* Renders the film until a limit, the last step, a cancel or an error. */
 static enum pass_result run_film(struct render *r)
 {
-    enum pass_result result =
-        begin(r, &r->job.world, &r->films.film, r->job.crop.x, r->job.crop.y);
+    struct backend_picture picture = film_picture(r, &r->job.world);
+    enum pass_result result = PASS_DONE;
+    struct world world;
 
+    if (r->backend->takes_light)
+        result = light_block_decide(&r->films.light, &picture, r->backend->pool,
+                                    &r->cancel, &r->error);
+    world = light_block_world(&r->films.light, r->job.host, &r->job.world);
+    if (result == PASS_DONE)
+        result = begin(r, &world, &r->films.film, r->job.crop.x, r->job.crop.y);
     if (result == PASS_DONE) /* a halt may have come between pass and error */
         result = estimate_pass(r);
     while (result == PASS_DONE && render_run_limit(r) == RENDER_LIMIT_NONE) {

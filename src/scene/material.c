@@ -34,6 +34,7 @@ struct material material_default(void)
         .color = {MATERIAL_GREY, MATERIAL_GREY, MATERIAL_GREY},
         .ior = (float)IOR_DEFAULT,
         .kind = MATERIAL_DIFFUSE,
+        .role = ROLE_MATTE,
         MATERIAL_MAP_LIST(NO_TEXTURE, NOTHING).bump_scale = 1,
         .coat_normal_strength = 1,
         .normal_strength = 1,
@@ -456,6 +457,35 @@ static void check_map(const struct material_values *s, enum mtl_map which,
                      at->path, mtl_maps[which].keys[0]);
 }
 
+/* Greatest roughness of materials that cast, and least one of highlights on
+ * matte ones: a narrow highlight that a light path meets by chance is a speck.
+ */
+#define CASTS_ALPHA_MAX 0.1f
+#define MATTE_ALPHA_MIN 0.3f
+
+/* True if a highlight is wide, or a delta, which light paths do not see. */
+static bool is_wide(float alpha, uint32_t texture)
+{
+    return alpha < ALPHA_SMOOTH ||
+           (alpha >= MATTE_ALPHA_MIN && texture == NO_INDEX);
+}
+
+static enum material_role role_of(const struct material *m)
+{
+    bool is_clear = m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS;
+
+    if (m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_ROUGH_DIFFUSE)
+        return ROLE_MATTE;
+    if (is_clear || m->kind == MATERIAL_METAL ||
+        (m->kind == MATERIAL_PRINCIPLED &&
+         m->metalness + m->transmission >= 0.5f))
+        return m->alpha < CASTS_ALPHA_MAX ? ROLE_CASTS : ROLE_NONE;
+    return is_wide(m->alpha, m->alpha_texture) &&
+                   is_wide(m->coat_alpha, m->coat_alpha_texture)
+               ? ROLE_MATTE
+               : ROLE_NONE;
+}
+
 struct material material_from_source(const struct material_values *source,
                                      const char *path, struct warnings *report)
 {
@@ -493,6 +523,7 @@ struct material material_from_source(const struct material_values *source,
                      "uses: ignored",
                      path, s->attenuation_distance.line);
     m.emission = statement_radiance(&light, &at);
+    m.role = role_of(&m);
     return m;
 }
 

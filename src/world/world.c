@@ -400,6 +400,25 @@ static struct sky make_sky(const struct host_world *host,
     return sky;
 }
 
+/* Builds the tables of light paths unless they are current. Versions grow, so
+ * that equal sums have equal parts. */
+static bool find_light_paths(struct host_world *host, const struct world *w,
+                             struct error *err)
+{
+    uint64_t version =
+        host->versions[WORLD_SHAPE] + host->versions[WORLD_TRIS] +
+        host->versions[WORLD_MATERIALS] + host->versions[WORLD_LIGHTS] +
+        host->versions[WORLD_DIRECTIONAL_LIGHTS];
+
+    if (host->light_paths_version == version)
+        return true;
+    light_paths_free(&host->light_paths);
+    if (!light_paths_build(&host->light_paths, w, &host->lights))
+        return fail(err, "out of memory for light paths");
+    host->light_paths_version = version;
+    return true;
+}
+
 bool world_guide(struct host_world *host, const struct scene *scene,
                  const struct view *view, struct error *err)
 {
@@ -414,6 +433,8 @@ bool world_guide(struct host_world *host, const struct scene *scene,
     lights_lend(&host->lights, &w.world);
     if (host->sky_texels != NULL)
         sky *= host->sky_table.mean;
+    if (!find_light_paths(host, &w.world, err))
+        return false;
     if (path_guide_is_current(guide, sky))
         return true;
     if (path_guide_needs_rays(guide, &w.world, sky)) {
@@ -468,6 +489,7 @@ void world_free(struct host_world *host)
     free(host->directional_lights);
     lights_free(&host->lights);
     path_guide_free(&host->guide);
+    light_paths_free(&host->light_paths);
     bvh8_free(&host->tree);
     *host = (struct host_world){.tris = NULL};
 }

@@ -24,6 +24,7 @@
 #include "scene/scene.h"
 #include "scene/view.h"
 #include "world/bvh/bvh8.h"
+#include "world/light/light_paths.h"
 #include "world/light/lights.h"
 #include "world/light/path_guide.h"
 #include "world/light/sky_table.h"
@@ -98,6 +99,8 @@ struct host_world {
 
     struct lights lights;
     struct path_guide guide;
+    struct light_paths light_paths;
+    uint64_t light_paths_version; /* sum of those of the parts it is made of */
 
     struct bvh8 tree; /* tree of the triangles, valid if has_tree */
     atomic_bool has_tree;
@@ -119,8 +122,9 @@ bool world_load_sky(struct host_world *host, const struct view *view,
 /* Returns true if loading was last tried for the view's sky image or sun. */
 bool world_has_sky(const struct host_world *host, const struct view *view);
 
-/* Builds the path guide, a table that guides paths to light that is hard to
- * find, unless it is current for the world and the view's sky. Builds the tree
+/* Builds the tables of light paths, and the path guide, which guides paths to
+ * light that is hard to find, unless they are current for the world and the
+ * view's sky. Builds the tree
  * first if the guide needs rays. Without the guide pictures have the same mean,
  * and more noise. */
 bool world_guide(struct host_world *host, const struct scene *scene,

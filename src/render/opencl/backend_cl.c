@@ -69,6 +69,8 @@ struct backend_cl {
     struct cl_world world;
     cl_mem cancel;
     cl_mem shares; /* of adaptive sampling; NULL: none yet in this picture */
+    cl_mem light;  /* of light paths; NULL: none yet */
+    uint64_t light_version;
     const struct cancel *cancel_source;
 
     struct cl_film film;
@@ -295,6 +297,7 @@ static bool cl_begin(struct backend *base, const struct backend_picture *p,
 
     choose_kernels(b, p->world->settings.features);
     cl_machine_drop(&b->machine, &b->shares);
+    cl_machine_drop(&b->machine, &b->light);
     b->x0 = (uint32_t)p->x0;
     b->y0 = (uint32_t)p->y0;
     b->complete_points = 0;
@@ -375,8 +378,8 @@ static bool enqueue_task(struct backend_cl *b, struct slot *s,
            cl_machine_set(&b->machine, k->add, 1,
                           (cl_mem[]){s->samples, s->surfaces, b->film.sums,
                                      b->film.odd_sums, b->film.surfaces,
-                                     b->film.counts, s->tally},
-                          7, err) &&
+                                     b->film.counts, s->tally, b->light},
+                          8, err) &&
            cl_machine_enqueue(&b->machine, k->generate, paths, err) &&
            cl_machine_enqueue(&b->machine, k->trace, paths, err) &&
            cl_machine_enqueue(&b->machine, k->add, s->task.count, err);
@@ -424,6 +427,8 @@ static bool start_task(struct backend_cl *b, struct progress *p, struct slot *s,
                             .x0 = b->x0,
                             .y0 = b->y0,
                             .has_shares = p->pass->shares != NULL};
+    if (p->pass->light != NULL)
+        s->task.light_pixels = s->task.width * (uint32_t)b->film.film->height;
     s->begin_ns = clock_ns();
     s->reading.count = 0;
     p->next += s->task.count;
@@ -532,6 +537,23 @@ static bool bind_shares(struct backend_cl *b, const struct pass *pass,
     return b->shares != NULL;
 }
 
+/* Uploads the light of light paths, unless the device has it. */
+static bool bind_light(struct backend_cl *b, const struct pass *pass,
+                       struct error *err)
+{
+    const struct film *film = b->film.film;
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+
+    if (pass->light == NULL ||
+        (b->light != NULL && b->light_version == pass->light_version))
+        return true;
+    cl_machine_drop(&b->machine, &b->light);
+    b->light = cl_machine_buffer(&b->machine, pass->light,
+                                 6 * pixels * sizeof *pass->light, false, err);
+    b->light_version = pass->light_version;
+    return b->light != NULL;
+}
+
 /* Waits until a failed pass can no longer write to the host's memory. */
 static void drain(struct backend_cl *b)
 {
@@ -579,7 +601,7 @@ static enum pass_result cl_pass(struct backend *base, const struct pass *pass,
     p.next = p.read = b->complete_points;
     b->done_ns = 0;
     if (!bind_cancel(b, cancel, err) || !bind_shares(b, pass, err) ||
-        !run_tasks(b, &p, cancel, err)) {
+        !bind_light(b, pass, err) || !run_tasks(b, &p, cancel, err)) {
         drain(b);
         return PASS_FAILED;
     }
@@ -598,6 +620,7 @@ static void cl_destroy(struct backend *base)
     cl_unload(base);
     cl_machine_drop(&b->machine, &b->cancel);
     cl_machine_drop(&b->machine, &b->shares);
+    cl_machine_drop(&b->machine, &b->light);
     cl_kernels_free(&b->next, &b->machine);
     cl_kernels_free(&b->special, &b->machine);
     cl_kernels_free(&b->full, &b->machine);
@@ -658,6 +681,7 @@ struct backend *backend_cl_create(const struct cl_request *r, char **log,
     b->base.load = cl_load;
     b->base.unload = cl_unload;
     b->base.begin = cl_begin;
+    b->base.takes_light = true;
     b->base.pass = cl_pass;
     b->base.destroy = cl_destroy;
     b->text = cl_source_text(r->kernels_path, err);

@@ -63,6 +63,11 @@ uint32_t listed_tri_count(const struct world *w)
     return has_instances(w) && all > LISTED_MAX ? LISTED_MAX : all;
 }
 
+bool all_are_listed(const struct world *w)
+{
+    return listed_tri_count(w) == all_tri_count(w);
+}
+
 void tri_corners(const struct world *w, uint32_t tri, struct vec3 p[3])
 {
     uint32_t instance = instance_of(w, tri);

@@ -38,6 +38,7 @@ void triangle_cdf_free(struct triangle_cdf *list);
 /* The number of triangles that lists have: all, or the first of a scene with
  * instances where all would take too much memory. */
 uint32_t listed_tri_count(const struct world *world);
+bool all_are_listed(const struct world *world);
 
 void tri_corners(const struct world *world, uint32_t tri, struct vec3 p[3]);
 

@@ -45,7 +45,7 @@
       M(material, transmission_texture) M(material, coat_texture)             \
       M(material, coat_alpha_texture) M(material, sheen_texture)              \
       M(material, film) M(material, film_ior) M(material, film_thickness)     \
-      M(material, cutoff)                                                     \
+      M(material, cutoff) M(material, role)                                   \
     S(texture) M(texture, first) M(texture, width) M(texture, height)         \
       M(texture, has_alpha) M(texture, scale) M(texture, offset)              \
       M(texture, flags) M(texture, is_data) M(texture, rotation)              \
@@ -85,6 +85,7 @@
     S(settings) M(settings, camera) M(settings, sky)                          \
       M(settings, max_vertices) M(settings, seed) M(settings, features)       \
       M(settings, direct) M(settings, order) M(settings, sample)              \
+      M(settings, light_paths)                                                \
       M(settings, sky_share) M(settings, light_share)                         \
       M(settings, sky_power) M(settings, point_light_count)                   \
       M(settings, sphere_count) M(settings, directional_light_count)          \
@@ -113,7 +114,7 @@
     S(task) M(task, target) M(task, first_sample) M(task, samples)            \
       M(task, first) M(task, count)                                           \
       M(task, columns) M(task, stride) M(task, width) M(task, x0)             \
-      M(task, y0) M(task, has_shares) M(task, pad)                            \
+      M(task, y0) M(task, has_shares) M(task, light_pixels)                            \
     S(camera_sample) M(camera_sample, ray) M(camera_sample, sampler)
 /* clang-format on */
 

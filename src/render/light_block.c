@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+#include "render/light_block.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "image/color.h"
+#include "render/cpu_dispatch.h"
+#include "render/projection.h"
+
+/* Size of the pilot, its samples, a multiple of SAMPLE_BLOCK, and its light
+ * paths of each half. */
+#define PILOT_WIDTH  24
+#define PILOT_HEIGHT 14
+#define PILOT_PIXELS (PILOT_WIDTH * PILOT_HEIGHT)
+#define PILOT_SPP    16
+#define PILOT_PATHS  2048
+
+/* Time of a light path in samples; measured 2 to 3. */
+#define PATH_COST 2.5
+
+/* Least and greatest number of light paths for each sample: powers of two, so
+ * that chance in the pilot seldom changes it. */
+#define PATHS_MIN (1.0 / 64)
+#define PATHS_MAX 1.0
+
+/* Share of the light that light paths find, below which paths from the eye have
+ * missed some of it, and do not know their own noise. */
+#define FOUND_MIN 0.7
+
+/* Share of all light that is worth light paths. */
+#define SHARE_MIN 0.002
+
+/* Number of light paths for each sample where the pilot has seen none of their
+ * light, and no other path finds it. */
+#define PATHS_UNSEEN 0.25
+
+/* ---- the pilot ---- */
+
+/* Sums over the samples of a pixel: light that paths from the eye find, alone
+ * and beside light paths, and the squares. */
+struct pilot_pixel {
+    double whole, whole_square, rest, rest_square;
+};
+
+struct pilot {
+    const struct cpu_kernel *kernel;
+    struct bvh8_world worlds[2]; /* alone, beside light paths */
+    struct pilot_pixel pixels[PILOT_PIXELS];
+};
+
+static void pilot_pixel(void *context, uint32_t pixel, int worker)
+{
+    struct pilot *p = context;
+    struct pilot_pixel *to = &p->pixels[pixel];
+    struct sample_id ids[PILOT_SPP];
+    struct path_sample samples[2][PILOT_SPP];
+    struct first_surface surfaces[SAMPLE_BLOCK];
+
+    (void)worker;
+    for (uint32_t i = 0; i < PILOT_SPP; i++)
+        ids[i] =
+            (struct sample_id){pixel % PILOT_WIDTH, pixel / PILOT_WIDTH, i};
+    for (int i = 0; i < 2 * PILOT_SPP; i += SAMPLE_BLOCK)
+        p->kernel->samples(&p->worlds[i / PILOT_SPP].world, ids + i % PILOT_SPP,
+                           SAMPLE_BLOCK, samples[i / PILOT_SPP] + i % PILOT_SPP,
+                           surfaces);
+    for (uint32_t i = 0; i < PILOT_SPP; i++) {
+        double whole = color_mean(samples[0][i].radiance);
+        double rest = color_mean(samples[1][i].radiance);
+
+        to->whole += whole;
+        to->whole_square += whole * whole;
+        to->rest += rest;
+        to->rest_square += rest * rest;
+    }
+}
+
+/* Returns the variance of a sample. */
+static double variance_of(double sum, double square)
+{
+    return fmax(square - sum * sum / PILOT_SPP, 0) / (PILOT_SPP - 1);
+}
+
+/* Chooses the number of light paths for each sample by the noise of both, each
+ * relative to the light of its pixel. */
+static double choose(const struct pilot *p, const float *means, bool has_points)
+{
+    double light[PILOT_PIXELS], all = 0, brought = 0, found = 0, dark;
+    double alone = 0, rest = 0, paths = 0, number;
+
+    for (int i = 0; i < PILOT_PIXELS; i++) {
+        const float *a = means + 3 * i, *b = a + 3 * PILOT_PIXELS;
+
+        light[i] = (color_mean(v3(a[0], a[1], a[2])) +
+                    color_mean(v3(b[0], b[1], b[2]))) /
+                   2;
+        brought += light[i];
+        found += (p->pixels[i].whole - p->pixels[i].rest) / PILOT_SPP;
+        light[i] += p->pixels[i].rest / PILOT_SPP;
+        all += light[i];
+    }
+    dark = 0.01 * (all / PILOT_PIXELS) * (all / PILOT_PIXELS);
+    for (int i = 0; i < PILOT_PIXELS; i++) {
+        const struct pilot_pixel *x = &p->pixels[i];
+        const float *a = means + 3 * i, *b = a + 3 * PILOT_PIXELS;
+        double difference = (color_mean(v3(a[0], a[1], a[2])) -
+                             color_mean(v3(b[0], b[1], b[2]))) /
+                            2;
+        double weight = 1 / (light[i] * light[i] + dark);
+
+        if (!(all > 0))
+            continue;
+        alone += weight * variance_of(x->whole, x->whole_square);
+        rest += weight * variance_of(x->rest, x->rest_square);
+        paths += weight * difference * difference *
+                 (2.0 * PILOT_PATHS / PILOT_PIXELS);
+    }
+    if (!(brought > 0) && has_points)
+        return PATHS_UNSEEN;
+    if (!(brought > SHARE_MIN * all))
+        return 0;
+    number = sqrt(paths / (PATH_COST * fmax(rest, 1e-30)));
+    if (found > FOUND_MIN * brought &&
+        !(pow(sqrt(rest) + sqrt(PATH_COST * paths), 2) < alone))
+        return 0;
+    return fmin(fmax(exp2(rint(log2(number))), PATHS_MIN), PATHS_MAX);
+}
+
+/* True if lamps have no size: only light paths bring their light by way of
+ * smooth surfaces. */
+static bool has_points(const struct world *w)
+{
+    bool has = w->settings.sphere_count < w->settings.point_light_count;
+
+    for (uint32_t i = 0; i < w->settings.directional_light_count && !has; i++)
+        has = !(w->directional_lights[i].size > 0.0f);
+    return has;
+}
+
+enum pass_result light_block_decide(struct light_block *b,
+                                    const struct backend_picture *picture,
+                                    struct pool *pool,
+                                    const struct cancel *cancel,
+                                    struct error *err)
+{
+    struct light_image image = {.width = 0};
+    float means[6 * PILOT_PIXELS];
+    struct projection_part part = {.shown_width = PILOT_WIDTH,
+                                   .shown_height = PILOT_HEIGHT};
+    struct bvh8_world w = {*picture->world, world_tree(picture->host)};
+    struct camera *c = &w.world.settings.camera;
+    struct pilot *p;
+    bool ok;
+
+    if (b->is_decided)
+        return PASS_DONE;
+    b->paths = 0;
+    if (picture->host->light_paths.sources == NULL || w.tree == NULL) {
+        b->is_decided = true;
+        return PASS_DONE;
+    }
+    p = alloc_array(1, sizeof *p);
+    if (p == NULL || !light_image_init(&image, PILOT_WIDTH, PILOT_HEIGHT)) {
+        free(p);
+        light_image_free(&image);
+        return fail(err, "out of memory for a pilot"), PASS_FAILED;
+    }
+    part.width = (int)c->width;
+    part.height = (int)c->height;
+    *c = projection_camera(c, &part);
+    b->paths = 1; /* for light_block_world() */
+    p->worlds[0] = p->worlds[1] = w;
+    p->worlds[1].world =
+        light_block_world(b, picture->host, &p->worlds[1].world);
+    b->paths = 0;
+    p->kernel =
+        cpu_kernel_fit(cpu_kernel_best(), p->worlds[1].world.settings.features);
+    ok = light_paths_trace(&picture->host->light_paths, &w, 0, PILOT_PATHS,
+                           pool, cancel, &image) &&
+         pool_run(pool, PILOT_PIXELS, pilot_pixel, p, cancel);
+    if (ok) {
+        light_image_means(&image, PILOT_PATHS, means);
+        b->paths = choose(p, means, has_points(&w.world));
+        b->is_decided = true;
+    }
+    light_image_free(&image);
+    free(p);
+    return ok ? PASS_DONE : PASS_CANCELLED;
+}
+
+struct world light_block_world(const struct light_block *b,
+                               const struct host_world *host,
+                               const struct world *world)
+{
+    struct world w = *world;
+
+    if (!(b->paths > 0))
+        return w;
+    w.settings.light_paths = host->guide.portals.glazed.flux != NULL
+                                 ? LIGHT_PATHS_GUIDED
+                                 : LIGHT_PATHS_UNGUIDED;
+    w.settings.features |= FEATURE_LIGHT_PATHS;
+    return w;
+}
+
+/* ---- blocks ---- */
+
+uint64_t light_block_end(uint64_t sample)
+{
+    uint64_t end = 1;
+
+    if (sample >= LIGHT_BLOCK_MAX)
+        return (sample / LIGHT_BLOCK_MAX + 1) * LIGHT_BLOCK_MAX;
+    while (end <= sample)
+        end *= 2;
+    return end;
+}
+
+static uint64_t block_begin(uint64_t sample)
+{
+    uint64_t begin = 0;
+
+    while (light_block_end(begin) <= sample && begin < LIGHT_BLOCK_MAX)
+        begin = light_block_end(begin);
+    return begin < LIGHT_BLOCK_MAX ? begin
+                                   : sample / LIGHT_BLOCK_MAX * LIGHT_BLOCK_MAX;
+}
+
+/* Returns the light paths of a half before those of a sample. */
+static uint64_t paths_before(const struct light_block *b,
+                             const struct camera *c, uint64_t sample)
+{
+    return (uint64_t)(0.5 * b->paths * (double)c->width * (double)c->height) *
+               sample +
+           sample;
+}
+
+static bool resize(struct light_block *b, const struct film *f,
+                   struct error *err)
+{
+    size_t pixels = (size_t)f->width * (size_t)f->height;
+
+    if (b->means != NULL && b->image.width == f->width &&
+        b->image.height == f->height)
+        return true;
+    light_image_free(&b->image);
+    free(b->means);
+    b->means = alloc_array(pixels, 6 * sizeof *b->means);
+    return (light_image_init(&b->image, f->width, f->height) &&
+            b->means != NULL) ||
+           fail(err, "out of memory for light paths to %dx%d pixels", f->width,
+                f->height);
+}
+
+enum pass_result light_block_find(struct light_block *b,
+                                  const struct backend_picture *p,
+                                  uint64_t sample, struct pool *pool,
+                                  const struct cancel *cancel,
+                                  struct error *err)
+{
+    struct bvh8_world w = {*p->world, world_tree(p->host)};
+    const struct camera *c = &w.world.settings.camera;
+    uint64_t begin = block_begin(sample), end = light_block_end(sample), count;
+
+    if (b->end == end)
+        return PASS_DONE;
+    b->end = 0;
+    if (!resize(b, p->film, err))
+        return PASS_FAILED;
+    count = paths_before(b, c, end) - paths_before(b, c, begin);
+    light_image_clear(&b->image);
+    b->image.x0 = p->x0;
+    b->image.y0 = p->y0;
+    if (!light_paths_trace(&p->host->light_paths, &w, paths_before(b, c, begin),
+                           (uint32_t)count, pool, cancel, &b->image))
+        return PASS_CANCELLED;
+    light_image_means(&b->image, count, b->means);
+    b->begin = begin;
+    b->end = end;
+    return PASS_DONE;
+}
+
+void light_block_reset(struct light_block *b)
+{
+    b->is_decided = false;
+    b->end = 0;
+}
+
+void light_block_free(struct light_block *b)
+{
+    light_image_free(&b->image);
+    free(b->means);
+    *b = (struct light_block){.means = NULL};
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+/*
+ * light_block.h - the light that light paths bring to the samples of a block
+ *
+ * Samples of all pixels with indices in the same block get the same light from
+ * light paths (world/light/light_paths.h), those with even indices that of one
+ * half of the paths, those with odd ones that of the other, so that the two
+ * halves of a pixel stay independent. Blocks double up to LIGHT_BLOCK_MAX
+ * samples. The light of a block depends on nothing but the world, the picture
+ * and the block. A small pilot of the whole picture, which is the same for
+ * everybody who renders a part of it, tells whether light paths help at equal
+ * time, and how many there should be.
+ *
+ * Units:     samples of each pixel
+ * Ownership: light_block_free() frees; a zeroed struct has no block
+ * Threads:   one; light paths are traced by those of the pool
+ * Errors:    out of memory
+ */
+#ifndef GLIM_LIGHT_BLOCK_H
+#define GLIM_LIGHT_BLOCK_H
+
+#include "render/backend.h"
+#include "world/light/light_paths.h"
+
+#define LIGHT_BLOCK_MAX 64
+
+struct light_block {
+    bool is_decided; /* of this picture: */
+    double paths;    /* light paths for each sample; 0: none */
+    struct light_image image;
+    float *means;        /* of light_image_means() */
+    uint64_t begin, end; /* end 0: there is no block */
+};
+
+/* Decides whether and how many light paths help to render a picture, unless it
+ * is decided. The host has its tree. Returns PASS_CANCELLED after a cancel. */
+enum pass_result light_block_decide(struct light_block *b,
+                                    const struct backend_picture *picture,
+                                    struct pool *pool,
+                                    const struct cancel *cancel,
+                                    struct error *err);
+
+/* Returns the world whose paths from the eye leave out what light paths bring.
+ */
+struct world light_block_world(const struct light_block *b,
+                               const struct host_world *host,
+                               const struct world *world);
+
+/* Returns the end of the block of a sample. */
+uint64_t light_block_end(uint64_t sample);
+
+/* Finds the light of the block of a sample, unless it is known. The host has
+ * its tree. Returns PASS_CANCELLED after a cancel. */
+enum pass_result light_block_find(struct light_block *b,
+                                  const struct backend_picture *picture,
+                                  uint64_t sample, struct pool *pool,
+                                  const struct cancel *cancel,
+                                  struct error *err);
+
+/* Forgets the block: the next one is of another picture. */
+void light_block_reset(struct light_block *b);
+void light_block_free(struct light_block *b);
+
+#endif

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+/* test_light_paths.c - light that comes by way of glass and mirrors: closed
+ * forms of lamps that no path from the eye finds, and paths from the eye that
+ * find the same light with more noise */
+#include "tests/unit/check.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "session/session.h"
+#include "terminal/xmalloc.h"
+#include "tests/unit/files.h"
+#include "tests/unit/folder.h"
+
+#define SIDE 16
+
+/* Seeds, samples beside light paths, and without them. */
+#define SEEDS    6
+#define SPP      512
+#define SPP_MANY 1024
+
+/* Mean of the picture, of each channel. */
+struct means {
+    double all[3];
+};
+
+/* Renders s.obj. `is_alone`: by paths from the eye. */
+static struct means render(bool is_alone, uint32_t spp, uint32_t seed)
+{
+    static struct session s;
+    static float rgb[3 * SIDE * SIDE];
+    struct options o;
+    struct means m = {{0, 0, 0}};
+    struct error err = {""};
+
+    options_init(&o);
+    o.scene_path = "s.obj";
+    o.width_px = o.height_px = SIDE;
+    o.thread_count = 2;
+    o.seed = seed;
+    o.batch = true;
+    check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
+    if (is_alone)
+        light_paths_free(&s.engine.world.light_paths);
+    check_or_say(session_restart(&s, (struct render_limits){.spp = spp}, &err),
+                 err.text);
+    render_wait(s.engine.render, -1);
+    film_linear(render_film(s.engine.render), rgb);
+    session_close(&s);
+    for (int i = 0; i < SIDE * SIDE; i++)
+        for (int c = 0; c < 3; c++)
+            m.all[c] += (double)rgb[3 * i + c] / (SIDE * SIDE);
+    return m;
+}
+
+/* A grey floor that the eye sees from above, and a quad of this material around
+ * (x, y, 0). */
+static void write_floor(const char *material, double x, double y,
+                        const char *lamp)
+{
+    char *mtl =
+        xformat("newmtl grey\nKd .5 .5 .5\nnewmtl pane\n%s\n", material);
+    char *obj = xformat("mtllib s.mtl\n"
+                        "v -9 0 -9\nv -9 0 9\nv 9 0 9\nv 9 0 -9\n"
+                        "v %g %g -.1\nv %g %g .1\nv %g %g .1\nv %g %g -.1\n"
+                        "usemtl grey\nf 1 2 3 4\nusemtl pane\nf 5 6 7 8\n",
+                        x - .1, y, x - .1, y, x + .1, y, x + .1, y);
+    char *view = xformat("eye 0 .4 0\nat 0 0 0\nup 0 0 -1\nfovy 20\n"
+                         "max_bounces 2\nbackground 0 0 0\n%s\n",
+                         lamp);
+
+    put("s.mtl", mtl);
+    put("s.obj", obj);
+    put("s.view", view);
+    free(mtl);
+    free(obj);
+    free(view);
+}
+
+/* Reflectance of a thin sheet of index 1.5, with all reflections inside, by
+ * Fresnel's equations. */
+static double sheet_reflectance(double cosine)
+{
+    double inside = sqrt(1 - (1 - cosine * cosine) / (1.5 * 1.5));
+    double s = (cosine - 1.5 * inside) / (cosine + 1.5 * inside);
+    double p = (1.5 * cosine - inside) / (1.5 * cosine + inside);
+    double f = (s * s + p * p) / 2;
+
+    return 2 * f / (1 + f);
+}
+
+#define SHEET "illum 4\nNi 1.5\nTf 1 1 1"
+
+/* A sheet hangs between a point and the floor: the floor has Kd / pi times the
+ * irradiance that the sheet lets through. */
+static void points_shine_through_sheets(void **state)
+{
+    (void)state;
+    for (int x = 0; x < 3; x++) {
+        double square = 4 + x * x, cosine = 2 / sqrt(square);
+        char *lamp = xformat("light point %d 2 0 intensity 1 1 1", x);
+
+        write_floor(SHEET, x / 2., 1, lamp);
+        check_close(render(false, 2 * SPP_MANY, 3).all[0],
+                    .5 / M_PI * cosine / square *
+                        (1 - sheet_reflectance(cosine)),
+                    8e-4);
+        free(lamp);
+    }
+}
+
+/* A mirror hangs over a spot that shines up: the floor has the light of its
+ * image, which is at height 1.5. */
+static void points_shine_by_mirrors(void **state)
+{
+    (void)state;
+    write_floor("Kd .9 .9 .9\nPm 1\nPr 0", 2 / 3., 1,
+                "light spot 1 .5 0 at 1 1 0 intensity 1 1 1 inner 60 outer 80");
+    check_close(render(false, 2 * SPP_MANY, 3).all[0],
+                .5 / M_PI * .9 * (1.5 / sqrt(3.25)) / 3.25, 8e-4);
+}
+
+/* A sun without a size shines through the sheet from above. */
+static void suns_shine_through_sheets(void **state)
+{
+    (void)state;
+    write_floor(SHEET, 0, .5,
+                "light directional 0 90 irradiance 3 3 3 angle 0");
+    check_close(render(false, 2 * SPP_MANY, 3).all[0],
+                .5 / M_PI * 3 * (1 - sheet_reflectance(1)), 9e-3);
+}
+
+/* A lamp in a globe of glass that lights a box: light paths, and paths from the
+ * eye with many more samples. */
+static void write_globe(const char *globe)
+{
+    char *mtl = xformat("newmtl grey\nKd .6 .5 .4\nnewmtl globe\n%s\n"
+                        "newmtl lamp\nKd 0 0 0\nKe 30 30 30\n",
+                        globe);
+    char text[16384];
+    size_t at = 0;
+
+    at += (size_t)snprintf(text, sizeof text,
+                           "mtllib s.mtl\nusemtl grey\n"
+                           "v -1 -1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 -1 -1\n"
+                           "v -1 1 -1\nv -1 1 1\nv 1 1 1\nv 1 1 -1\n"
+                           "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 4 3 7 8\n"
+                           "f 1 4 8 5\nusemtl lamp\n"
+                           "v -.1 .2 -.1\nv .1 .2 -.1\nv 0 .2 .12\nf -3 -2 -1\n"
+                           "usemtl globe\n");
+    /* an octahedron, whose faces are wound outwards */
+    at += (size_t)snprintf(text + at, sizeof text - at,
+                           "v .4 .2 0\nv -.4 .2 0\nv 0 .6 0\nv 0 -.2 0\n"
+                           "v 0 .2 .4\nv 0 .2 -.4\n"
+                           "f -6 -4 -2\nf -2 -4 -5\nf -5 -4 -1\nf -1 -4 -6\n"
+                           "f -2 -3 -6\nf -5 -3 -2\nf -1 -3 -5\nf -6 -3 -1\n");
+    put("s.mtl", mtl);
+    put("s.obj", text);
+    put("s.view", "eye 0 -.2 3\nat 0 -.6 -1\nfovy 20\nmax_bounces 12\n"
+                  "background 0 0 0\n");
+    free(mtl);
+}
+
+/* Checks that both have the same mean, within four standard errors of what the
+ * seeds show. */
+static void check_same_means(const char *globe)
+{
+    double sums[2] = {0, 0}, squares[2] = {0, 0}, mean[2], error = 0;
+
+    write_globe(globe);
+    for (uint32_t seed = 1; seed <= SEEDS; seed++)
+        for (int alone = 0; alone < 2; alone++) {
+            double m = render(alone == 1, alone ? SPP_MANY : SPP, seed).all[1];
+
+            sums[alone] += m;
+            squares[alone] += m * m;
+        }
+    for (int i = 0; i < 2; i++) {
+        mean[i] = sums[i] / SEEDS;
+        error += (squares[i] / SEEDS - mean[i] * mean[i]) / (SEEDS - 1);
+    }
+    print_message("%g by light paths, %g alone, error %g\n", mean[0], mean[1],
+                  sqrt(error));
+    assert_true(mean[0] > 0);
+    check_close(mean[0], mean[1], 4 * sqrt(error));
+}
+
+static void paths_from_the_eye_agree(void **state)
+{
+    (void)state;
+    check_same_means("illum 7\nNi 1.5\nTf 1 1 1");
+    check_same_means("illum 7\nNi 1.5\nTf .9 .8 .9\nTf_distance .5");
+    check_same_means("illum 7\nNi 1.5\nTf 1 1 1\nPr .25");
+    check_same_means("illum 4\nNi 1.5\nTf 1 1 1");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_shine_through_sheets),
+        cmocka_unit_test(points_shine_by_mirrors),
+        cmocka_unit_test(suns_shine_through_sheets),
+        cmocka_unit_test(paths_from_the_eye_agree),
+    };
+
+    return cmocka_run_group_tests_name("light_paths", tests, enter_folder,
+                                       remove_folder);
+}
