@@ -207,25 +207,41 @@ struct world light_block_world(const struct light_block *b,
 
 /* ---- blocks ---- */
 
-uint64_t light_block_end(uint64_t sample)
-{
-    uint64_t end = 1;
+/* Samples of a pixel in the largest blocks, and of all pixels, unless a block
+ * has one sample of each. */
+#define BLOCK_SPP_MAX     64
+#define BLOCK_SAMPLES_MAX 0x1p20
 
-    if (sample >= LIGHT_BLOCK_MAX)
-        return (sample / LIGHT_BLOCK_MAX + 1) * LIGHT_BLOCK_MAX;
+static uint64_t block_size_max(const struct camera *c)
+{
+    double pixels = (double)c->width * (double)c->height;
+    uint64_t size = BLOCK_SPP_MAX;
+
+    while (size > 1 && pixels * (double)size > BLOCK_SAMPLES_MAX)
+        size /= 2;
+    return size;
+}
+
+uint64_t light_block_end(const struct camera *c, uint64_t sample)
+{
+    uint64_t size = block_size_max(c), end = 1;
+
+    if (sample >= size)
+        return (sample / size + 1) * size;
     while (end <= sample)
         end *= 2;
     return end;
 }
 
-static uint64_t block_begin(uint64_t sample)
+static uint64_t block_begin(const struct camera *c, uint64_t sample)
 {
-    uint64_t begin = 0;
+    uint64_t size = block_size_max(c), begin = 0;
 
-    while (light_block_end(begin) <= sample && begin < LIGHT_BLOCK_MAX)
-        begin = light_block_end(begin);
-    return begin < LIGHT_BLOCK_MAX ? begin
-                                   : sample / LIGHT_BLOCK_MAX * LIGHT_BLOCK_MAX;
+    if (sample >= size)
+        return sample / size * size;
+    while (light_block_end(c, begin) <= sample)
+        begin = light_block_end(c, begin);
+    return begin;
 }
 
 /* Returns the light paths of a half before those of a sample. */
@@ -262,7 +278,8 @@ enum pass_result light_block_find(struct light_block *b,
 {
     struct bvh8_world w = {*p->world, world_tree(p->host)};
     const struct camera *c = &w.world.settings.camera;
-    uint64_t begin = block_begin(sample), end = light_block_end(sample), count;
+    uint64_t begin = block_begin(c, sample), end = light_block_end(c, sample);
+    uint64_t count;
 
     if (b->end == end)
         return PASS_DONE;

@@ -5,11 +5,12 @@
  * Samples of all pixels with indices in the same block get the same light from
  * light paths (world/light/light_paths.h), those with even indices that of one
  * half of the paths, those with odd ones that of the other, so that the two
- * halves of a pixel stay independent. Blocks double up to LIGHT_BLOCK_MAX
- * samples. The light of a block depends on nothing but the world, the picture
- * and the block. A small pilot of the whole picture, which is the same for
- * everybody who renders a part of it, tells whether light paths help at equal
- * time, and how many there should be.
+ * halves of a pixel stay independent. Blocks double up to a number that depends
+ * on the size of the picture, so that none keeps the screen waiting. The light
+ * of a block depends on nothing but the world, the picture and the block. A
+ * small pilot of the whole picture, which is the same for everybody who renders
+ * a part of it, tells whether light paths help at equal time, and how many
+ * there should be.
  *
  * Units:     samples of each pixel
  * Ownership: light_block_free() frees; a zeroed struct has no block
@@ -21,8 +22,6 @@
 
 #include "render/backend.h"
 #include "world/light/light_paths.h"
-
-#define LIGHT_BLOCK_MAX 64
 
 struct light_block {
     bool is_decided; /* of this picture: */
@@ -46,8 +45,8 @@ struct world light_block_world(const struct light_block *b,
                                const struct host_world *host,
                                const struct world *world);
 
-/* Returns the end of the block of a sample. */
-uint64_t light_block_end(uint64_t sample);
+/* Returns the end of the block of a sample of the camera's picture. */
+uint64_t light_block_end(const struct camera *camera, uint64_t sample);
 
 /* Finds the light of the block of a sample, unless it is known. The host has
  * its tree. Returns PASS_CANCELLED after a cancel. */

@@ -492,7 +492,9 @@ static enum pass_result find_light(struct render *r, uint64_t *target)
 {
     struct light_block *light = &r->films.light;
     uint64_t first = r->films.film.first_sample;
-    uint64_t end = light_block_end(first + r->spp_done) - first;
+    uint64_t end =
+        light_block_end(&r->job.world.settings.camera, first + r->spp_done) -
+        first;
     struct backend_picture picture = film_picture(r, &r->job.world);
 
     if (!(light->paths > 0))

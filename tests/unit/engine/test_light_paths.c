@@ -131,12 +131,13 @@ static void suns_shine_through_sheets(void **state)
                 .5 / M_PI * 3 * (1 - sheet_reflectance(1)), 9e-3);
 }
 
-/* A lamp in a globe of glass that lights a box: light paths, and paths from the
- * eye with many more samples. */
+/* Two lamps in a globe of glass that light a box: light paths, and paths from
+ * the eye with many more samples. */
 static void write_globe(const char *globe)
 {
     char *mtl = xformat("newmtl grey\nKd .6 .5 .4\nnewmtl globe\n%s\n"
-                        "newmtl lamp\nKd 0 0 0\nKe 30 30 30\n",
+                        "newmtl lamp\nKd 0 0 0\nKe 30 30 30\n"
+                        "newmtl dim\nKd 0 0 0\nKe 2 4 2\n",
                         globe);
     char text[16384];
     size_t at = 0;
@@ -148,6 +149,8 @@ static void write_globe(const char *globe)
                            "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 4 3 7 8\n"
                            "f 1 4 8 5\nusemtl lamp\n"
                            "v -.1 .2 -.1\nv .1 .2 -.1\nv 0 .2 .12\nf -3 -2 -1\n"
+                           "usemtl dim\nv .1 .3 .1\nv .1 .1 .1\n"
+                           "v -.1 .2 .2\nf -3 -2 -1\n"
                            "usemtl globe\n");
     /* an octahedron, whose faces are wound outwards */
     at += (size_t)snprintf(text + at, sizeof text - at,
