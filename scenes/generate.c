@@ -10,6 +10,7 @@
 #include "models.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -502,6 +503,92 @@ static void make_principled(void)
 
 /* --- glTF ----------------------------------------------------------------- */
 
+/* --- globe ---------------------------------------------------------------- */
+
+#define GLOBE_ARC 24
+
+/* A globe of glass with an opening at the top, around the middle. */
+static void glass_globe(struct mesh *m, struct point middle, double radius,
+                        double thickness)
+{
+    double profile[2 * GLOBE_ARC][2];
+
+    for (int i = 0; i < GLOBE_ARC; i++) {
+        double turn = 165 * M_PI / 180 * i / (GLOBE_ARC - 1);
+        double inner = radius - thickness;
+        int back = 2 * GLOBE_ARC - 1 - i;
+
+        profile[i][0] = radius * sin(turn);
+        profile[i][1] = -radius * cos(turn);
+        profile[back][0] = inner * sin(turn);
+        profile[back][1] = -inner * cos(turn);
+    }
+    mesh_lathe(m, middle, (const double(*)[2])profile, 2 * GLOBE_ARC, 64);
+}
+
+static void globe_room(struct mesh *m)
+{
+    mesh_object(m, "floor", "planks");
+    mesh_quad(m, at(-2.5, 0, 3), at(2.5, 0, 3), at(2.5, 0, -1.6),
+              at(-2.5, 0, -1.6), 2.5, 2.3);
+    mesh_object(m, "walls", "plaster");
+    mesh_quad(m, at(-2.5, 0, -1.6), at(2.5, 0, -1.6), at(2.5, 2.6, -1.6),
+              at(-2.5, 2.6, -1.6), 1, 1);
+    mesh_quad(m, at(-2.5, 2.6, -1.6), at(2.5, 2.6, -1.6), at(2.5, 2.6, 3),
+              at(-2.5, 2.6, 3), 1, 1);
+    mesh_quad(m, at(-2.5, 0, 3), at(-2.5, 0, -1.6), at(-2.5, 2.6, -1.6),
+              at(-2.5, 2.6, 3), 1, 1);
+    mesh_quad(m, at(2.5, 0, -1.6), at(2.5, 0, 3), at(2.5, 2.6, 3),
+              at(2.5, 2.6, -1.6), 1, 1);
+    mesh_object(m, "table", "wood");
+    mesh_box(m, at(0, .72, 0), at(2, .04, 1.1), 0);
+    for (int i = 0; i < 4; i++)
+        mesh_box(m, at(i % 2 ? .9 : -.9, 0, i / 2 ? .45 : -.45),
+                 at(.06, .72, .06), 0);
+}
+
+static void make_globe(void)
+{
+    static const double tumbler[][2] = {{0, 0},      {.045, 0},  {.05, .01},
+                                        {.055, .15}, {.05, .15}, {.046, .02},
+                                        {0, .018}};
+    struct mesh m = mesh_open(folder, "globe",
+                              "A lamp in a globe of glass, the only light: a "
+                              "path from the eye hardly finds it.");
+
+    globe_room(&m);
+    mesh_object(&m, "globe", "glass");
+    glass_globe(&m, at(-.1, 1.0002, -.05), .22, .012);
+    mesh_object(&m, "lamp", "lamp");
+    mesh_sphere(&m, at(-.1, 1, -.05), .03, 8);
+    mesh_object(&m, "rod", "brass");
+    mesh_box(&m, at(-.1, 1.03, -.05), at(.012, 1.57, .012), 0);
+    mesh_object(&m, "stand", "brass");
+    mesh_box(&m, at(-.1, .7601, -.05), at(.16, .02, .16), 0);
+    mesh_object(&m, "tumbler", "glass");
+    mesh_lathe(&m, at(.45, .7605, .2), tumbler, COUNT(tumbler), 48);
+    mesh_object(&m, "books", "red");
+    mesh_box(&m, at(-.6, .7601, .1), at(.3, .05, .22), 20);
+    mesh_object(&m, "book", "blue");
+    mesh_box(&m, at(-.59, .8102, .1), at(.27, .04, .2), 5);
+    mesh_object(&m, "egg", "plaster");
+    mesh_sphere(&m, at(.2, .8202, .32), .06, SEGMENTS);
+    mesh_close(&m);
+    write_text("globe", "mtl",
+               "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
+               "newmtl plaster\nKd .74 .7 .64\nillum 1\n"
+               "newmtl wood\nKd .36 .22 .12\nillum 1\n"
+               "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
+               "newmtl lamp\nKd 0 0 0\nKe 260 190 110\nillum 1\n"
+               "newmtl brass\nKd .85 .62 .3\nPm 1\nPr .5\n"
+               "newmtl red\nKd .5 .1 .08\nillum 1\n"
+               "newmtl blue\nKd .1 .18 .4\nillum 1\n");
+    write_text("globe", "view",
+               "eye .55 1.42 2.1\nat -.05 .93 0\nup 0 1 0\nfovy 36\n"
+               "background 0 0 0\n"
+               "res 1024 640\nexposure .7\ntone aces\n");
+}
+
 /* The models have cameras; the view files have the rest. */
 static void make_models(void)
 {
@@ -540,6 +627,7 @@ int main(int argc, char **argv)
     make_skylit();
     make_lights200();
     make_principled();
+    make_globe();
     make_models();
     images_write(folder);
     return 0;

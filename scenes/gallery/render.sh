@@ -22,6 +22,8 @@ render interior 320 700
 render skylit 320 300
 render lights200 320 500
 render principled 480 400
+"$glim" -b -w 640 -s 512 --denoise -o scenes/gallery/globe.png scenes/globe.obj
+echo scenes/gallery/globe.png
 
 model() # model, samples, option...
 {
