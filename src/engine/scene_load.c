@@ -52,8 +52,39 @@ struct probe_job {
     int width;
     double exposure;
     bool counts_seen;
+    const float *light;                  /* of light paths, or NULL */
     struct light_probe rows[PROBE_SIDE]; /* sums */
 };
+
+/* Light paths of each half. */
+#define PROBE_PATHS 4096
+
+/* Returns the light that light paths bring to the picture, for free(), or NULL
+ * if there are none. Paths from the eye then leave it out. */
+static float *light_of_paths(struct probe_job *j, const struct host_world *host,
+                             int height, struct pool *pool)
+{
+    size_t pixels = (size_t)j->width * (size_t)height;
+    struct light_paths paths = {.sources = NULL};
+    struct light_image image = {.width = 0};
+    const struct cancel never = {0};
+    float *means = NULL;
+
+    if (light_paths_build(&paths, &j->w.world, &host->lights) &&
+        paths.sources != NULL && light_image_init(&image, j->width, height) &&
+        light_paths_trace(&paths, &j->w, 0, PROBE_PATHS, pool, &never, &image))
+        means = alloc_array(pixels, 6 * sizeof *means);
+    if (means != NULL) {
+        light_image_means(&image, PROBE_PATHS, means);
+        for (size_t i = 0; i < 3 * pixels; i++)
+            means[i] = 0.5f * (means[i] + means[3 * pixels + i]);
+        j->w.world.settings.light_paths = LIGHT_PATHS_GUIDED;
+        j->w.world.settings.features |= FEATURE_LIGHT_PATHS;
+    }
+    light_image_free(&image);
+    light_paths_free(&paths);
+    return means;
+}
 
 static void add_pixel(const struct probe_job *j, uint32_t x, uint32_t y,
                       struct light_probe *sum)
@@ -61,6 +92,9 @@ static void add_pixel(const struct probe_job *j, uint32_t x, uint32_t y,
     struct sample_id places[PROBE_SAMPLES];
     struct path_sample samples[PROBE_SAMPLES];
     struct first_surface surfaces[PROBE_SAMPLES];
+    const float *light = j->light != NULL
+                             ? j->light + 3 * ((size_t)y * (size_t)j->width + x)
+                             : NULL;
     double luminance = 0;
 
     for (uint32_t i = 0; i < PROBE_SAMPLES; i++)
@@ -70,7 +104,11 @@ static void add_pixel(const struct probe_job *j, uint32_t x, uint32_t y,
         struct vec3 c = j->counts_seen
                             ? samples[i].radiance
                             : v3_sub(samples[i].radiance, surfaces[i].seen);
-        double y_of =
+        double y_of;
+
+        if (light != NULL)
+            c = v3_add(c, v3(light[0], light[1], light[2]));
+        y_of =
             0.2126 * (double)c.x + 0.7152 * (double)c.y + 0.0722 * (double)c.z;
 
         luminance += fmax(0, fmin(y_of * j->exposure, 1)) / PROBE_SAMPLES;
@@ -114,6 +152,7 @@ bool light_probe_take(struct light_probe *probe, struct host_world *host,
                           .exposure = exp2(view->lighting.exposure),
                           .counts_seen = counts_seen};
     struct pool *pool;
+    float *light = NULL;
     bool ok;
 
     if (!world_lend(host, scene, &small, 0, &j.w.world, err))
@@ -123,9 +162,11 @@ bool light_probe_take(struct light_probe *probe, struct host_world *host,
     if (ok) {
         j.w.tree = world_tree(host);
         j.w.world.settings.features |= FEATURE_FILTER;
+        j.light = light = light_of_paths(&j, host, small.height_px, pool);
         pool_each(pool, (uint32_t)small.height_px, probe_row, &j);
     }
     pool_destroy(pool);
+    free(light);
     *probe = (struct light_probe){0, 0};
     for (int y = 0; y < small.height_px; y++) {
         probe->mean += j.rows[y].mean;

@@ -75,6 +75,30 @@ static void check_plane(const char *material, const char *view, double mean,
     free(mtl);
 }
 
+/* A lamp in a globe of glass lights the floor. */
+static void lamps_in_glass_count(void **state)
+{
+    struct light_probe p;
+    struct opened o;
+    struct error err;
+
+    (void)state;
+    put("p.mtl", "newmtl m\nKd .5 .5 .5\nnewmtl glass\nillum 7\nNi 1.5\n"
+                 "newmtl lamp\nKd 0 0 0\nKe 50 50 50\n");
+    put("p.obj", "mtllib p.mtl\nusemtl m\nv -9 0 -9\nv -9 0 9\nv 9 0 9\n"
+                 "v 9 0 -9\nf 1 2 3 4\nusemtl lamp\n"
+                 "v -.1 1 -.1\nv .1 1 -.1\nv 0 1 .1\nf -3 -2 -1\n"
+                 "usemtl glass\nv .3 1 0\nv -.3 1 0\nv 0 1.3 0\nv 0 .7 0\n"
+                 "v 0 1 .3\nv 0 1 -.3\n"
+                 "f -6 -4 -2\nf -2 -4 -5\nf -5 -4 -1\nf -1 -4 -6\n"
+                 "f -2 -3 -6\nf -5 -3 -2\nf -1 -3 -5\nf -6 -3 -1\n");
+    open_files(&o, "p.obj", "eye 0 .6 2\nat 0 0 0\nbackground 0 0 0\n");
+    check_or_say(light_probe_take(&p, &o.world, &o.scene, &o.view, false, &err),
+                 err.text);
+    check_at_most(0.3, p.shown);
+    close_files(&o);
+}
+
 /* Under a sky of radiance 1 a plane of albedo a has radiance a, which counts as
  * 1 at most and after the exposure; emission is seen, not reflected. */
 static void reflected_light_is_measured(void **state)
@@ -182,6 +206,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reflected_light_is_measured),
+        cmocka_unit_test(lamps_in_glass_count),
         cmocka_unit_test(light_that_shows_little_is_helped),
     };
 
