@@ -25,9 +25,11 @@ struct means {
     double all[3];
 };
 
-/* Renders s.obj. `is_alone`: by paths from the eye. */
-static struct means render(bool is_alone, uint32_t spp, uint32_t seed)
+/* Renders a part of the picture of s.obj. `is_alone`: by paths from the eye. */
+static struct means render_part(struct rect crop, bool is_alone, uint32_t spp,
+                                uint32_t seed)
 {
+    int pixels = crop.width * crop.height;
     static struct session s;
     static float rgb[3 * SIDE * SIDE];
     struct options o;
@@ -40,6 +42,8 @@ static struct means render(bool is_alone, uint32_t spp, uint32_t seed)
     o.thread_count = 2;
     o.seed = seed;
     o.batch = true;
+    o.has_crop = true;
+    o.crop = crop;
     check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
     if (is_alone)
         light_paths_free(&s.engine.world.light_paths);
@@ -48,10 +52,15 @@ static struct means render(bool is_alone, uint32_t spp, uint32_t seed)
     render_wait(s.engine.render, -1);
     film_linear(render_film(s.engine.render), rgb);
     session_close(&s);
-    for (int i = 0; i < SIDE * SIDE; i++)
+    for (int i = 0; i < pixels; i++)
         for (int c = 0; c < 3; c++)
-            m.all[c] += (double)rgb[3 * i + c] / (SIDE * SIDE);
+            m.all[c] += (double)rgb[3 * i + c] / pixels;
     return m;
+}
+
+static struct means render(bool is_alone, uint32_t spp, uint32_t seed)
+{
+    return render_part((struct rect){0, 0, SIDE, SIDE}, is_alone, spp, seed);
 }
 
 /* A grey floor that the eye sees from above, and a quad of this material around
@@ -108,6 +117,19 @@ static void points_shine_through_sheets(void **state)
                     8e-4);
         free(lamp);
     }
+}
+
+/* The floor under the eye is 40 degrees off the axis of a wide lens, in the
+ * middle of two pixels. */
+static void splats_are_right_off_the_axis(void **state)
+{
+    (void)state;
+    write_floor(SHEET, 0, 1,
+                "at .33564 0 0\nfovy 100\n"
+                "light point 0 2 0 intensity 1 1 1");
+    check_close(
+        render_part((struct rect){2, 7, 1, 2}, false, 2 * SPP_MANY, 3).all[0],
+        .5 / M_PI / 4 * (1 - sheet_reflectance(1)), 3e-3);
 }
 
 /* A mirror hangs over a spot that shines up: the floor has the light of its
@@ -202,6 +224,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_shine_through_sheets),
+        cmocka_unit_test(splats_are_right_off_the_axis),
         cmocka_unit_test(points_shine_by_mirrors),
         cmocka_unit_test(suns_shine_through_sheets),
         cmocka_unit_test(paths_from_the_eye_agree),
