@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/machine.h"
 #include "base/memory.h"
 #include "image/color.h"
 #include "render/cpu_dispatch.h"
@@ -139,6 +140,19 @@ static bool has_points(const struct world *w)
     return has;
 }
 
+/* Bytes of a pixel: sums and means of two halves. */
+#define LIGHT_PIXEL_BYTES (6 * (sizeof(struct sum) + sizeof(float)))
+
+/* True if half of the memory holds the film and the light of light paths. A
+ * picture too large for that is rendered without. */
+static bool fits_memory(const struct film *f)
+{
+    uint64_t pixels = (uint64_t)f->width * (uint64_t)f->height;
+
+    return pixels * (FILM_PIXEL_BYTES + LIGHT_PIXEL_BYTES) <
+           cgroup_quota_memory("").size_bytes / 2;
+}
+
 enum pass_result light_block_decide(struct light_block *b,
                                     const struct backend_picture *picture,
                                     struct pool *pool,
@@ -157,7 +171,8 @@ enum pass_result light_block_decide(struct light_block *b,
     if (b->is_decided)
         return PASS_DONE;
     b->paths = 0;
-    if (picture->host->light_paths.sources == NULL || w.tree == NULL) {
+    if (picture->host->light_paths.sources == NULL || w.tree == NULL ||
+        !fits_memory(picture->film)) {
         b->is_decided = true;
         return PASS_DONE;
     }
