@@ -309,7 +309,6 @@ enum pass_result light_block_find(struct light_block *b,
                            (uint32_t)count, pool, cancel, &b->image))
         return PASS_CANCELLED;
     light_image_means(&b->image, count, b->means);
-    b->begin = begin;
     b->end = end;
     return PASS_DONE;
 }

@@ -27,8 +27,8 @@ struct light_block {
     bool is_decided; /* of this picture: */
     double paths;    /* light paths for each sample; 0: none */
     struct light_image image;
-    float *means;        /* of light_image_means() */
-    uint64_t begin, end; /* end 0: there is no block */
+    float *means; /* of light_image_means() */
+    uint64_t end; /* 0: there is no block */
 };
 
 /* Decides whether and how many light paths help to render a picture, unless it

@@ -23,12 +23,11 @@ enum {
     NUMBER_CASTER,
     NUMBER_VERTEX, /* those of the first vertex; STRIDE for each */
     NUMBER_STRIDE = 3,
-    NUMBER_DIRECTION = 0,
     NUMBER_LOBE = 1, /* and roulette */
     NUMBER_LENS = 2
 };
 
-/* Largest number of vertices, like that of photons. */
+/* Largest number of vertices of a light path. */
 #define VERTICES_MAX 64u
 
 /* Places on casters where the light of lamps is compared. */
@@ -40,11 +39,6 @@ enum {
 enum source_kind { SOURCE_TRIANGLE, SOURCE_POINT, SOURCE_DIRECTIONAL };
 
 /* ---- tables ---- */
-
-static uint32_t material_of(const struct world *w, uint32_t tri)
-{
-    return tri_material(w, tri, instance_of(w, tri));
-}
 
 static struct vec2 number_2d(struct sampler s, uint32_t number)
 {
@@ -71,15 +65,6 @@ bool light_paths_help(const struct world *w)
     return found;
 }
 
-/* A uniform point of a triangle. */
-static struct vec3 point_of(const struct world *w, uint32_t tri, struct vec2 u)
-{
-    struct vec3 p[3], error;
-
-    tri_corners(w, tri, p);
-    return hit_point(triangle_point(u), p[0], p[1], p[2], &error);
-}
-
 /* Irradiance of a place that faces the source, about. */
 static double irradiance_at(const struct world *w, const struct light_source *s,
                             double power, struct vec3 place)
@@ -93,7 +78,7 @@ static double irradiance_at(const struct world *w, const struct light_source *s,
         return point_light_sample(w, s->number, place, v2(0.5f, 0.5f), &l)
                    ? color_mean(l.radiance) / (double)l.pdf
                    : 0;
-    d = v3_sub(point_of(w, s->number, v2(0.5f, 0.5f)), place);
+    d = v3_sub(tri_point(w, s->number, v2(0.5f, 0.5f)), place);
     return power *
            fabs((double)v3_dot(tri_placed(w, s->number).t.ng, v3_unit(d))) /
            fmax((double)v3_dot(d, d), 1e-12);
@@ -145,8 +130,9 @@ static bool choose_by(struct light_paths *p, struct building *b)
     for (uint32_t k = 0; k < PLACES; k++) {
         struct sampler at = {s.key, reverse_bits(k)};
         struct vec3 place =
-            point_of(b->w, triangle_cdf_choose(&p->casters, number_2d(at, 0).x),
-                     number_2d(at, 1));
+            tri_point(b->w,
+                      triangle_cdf_choose(&p->casters, number_2d(at, 0).x),
+                      number_2d(at, 1));
 
         for (uint32_t i = 0; i < b->count; i++)
             irradiances[i] +=
@@ -168,17 +154,6 @@ static bool choose_by(struct light_paths *p, struct building *b)
     return true;
 }
 
-/* Returns twice the diagonal of the box around the triangles, or more. */
-static float far_away(const struct world *w)
-{
-    float most = has_instances(w) ? 1.7320508f : 0.0f;
-
-    for (uint32_t i = 0; !has_instances(w) && i < w->settings.position_count;
-         i++)
-        most = f_max(most, v3_length(w->positions[i]));
-    return 4.0f * most;
-}
-
 bool light_paths_build(struct light_paths *p, const struct world *w,
                        const struct lights *lights)
 {
@@ -186,7 +161,7 @@ bool light_paths_build(struct light_paths *p, const struct world *w,
     struct building b = {.w = w};
     bool ok;
 
-    *p = (struct light_paths){.reach = far_away(w)};
+    *p = (struct light_paths){.reach = beyond_scene(w)};
     if (!light_paths_help(w))
         return true;
     b.sources = p->sources = alloc_array(count, sizeof *p->sources);
@@ -195,7 +170,7 @@ bool light_paths_build(struct light_paths *p, const struct world *w,
          triangle_cdf_init(&p->choice, count) &&
          triangle_cdf_init(&p->casters, listed_tri_count(w));
     for (uint32_t i = 0; ok && i < listed_tri_count(w); i++)
-        if (w->materials[material_of(w, i)].role == ROLE_CASTS)
+        if (w->materials[tri_material_number(w, i)].role == ROLE_CASTS)
             triangle_cdf_add(&p->casters, i, tri_area(w, i));
     if (ok && triangle_cdf_total(&p->casters) > 0) {
         add_sources(&b, lights);
@@ -293,7 +268,7 @@ static bool leave_triangle(const struct world *w, uint32_t tri, struct vec3 to,
 {
     struct hit h = triangle_point(u);
     struct placed_tri t = tri_placed(w, tri);
-    struct material m = w->materials[material_of(w, tri)];
+    struct material m = w->materials[tri_material_number(w, tri)];
     struct vec3 error, from, d;
     struct surface_point v;
     struct ray r = {.t_max = FLOAT_MAX};
@@ -363,14 +338,14 @@ static bool path_leave(const struct light_paths *paths, const struct world *w,
     bool ok;
 
     p->aim = triangle_cdf_choose(&paths->casters, choice.y);
-    to = point_of(w, p->aim, number_2d(p->sampler, NUMBER_CASTER));
+    to = tri_point(w, p->aim, number_2d(p->sampler, NUMBER_CASTER));
     if (s->kind == SOURCE_TRIANGLE)
         ok = leave_triangle(w, s->number, to, u, p);
     else if (s->kind == SOURCE_POINT)
         ok = leave_point(w, s->number, to, u, p);
     else
         ok = leave_directional(paths, w, s->number, to, u, p);
-    if (!ok || s->number == p->aim + (s->kind != SOURCE_TRIANGLE))
+    if (!ok || (s->kind == SOURCE_TRIANGLE && s->number == p->aim))
         return false;
     cosine = fabsf(v3_dot(tri_placed(w, p->aim).t.ng, p->ray.d));
     p->flux = v3_scale(p->flux, cosine * area / s->probability);
@@ -554,7 +529,7 @@ static void follow(const struct tracing *t, struct light_path *p, int half)
             p->ray.key = ray_key(p->sampler, vertex);
         if (!hit_closest(w, p->ray, &h) || (vertex == 1 && h.tri != p->aim))
             return;
-        m = w->materials[material_of(w, h.tri)];
+        m = w->materials[tri_material_number(w, h.tri)];
         if (!surface_at(w, &m, p->ray, h, &v))
             return;
         if (vertex == 1 && !v.is_outside)

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "image/color.h"
 #include "world/light/light_tree.h"
+#include "world/light/triangle_cdf.h"
 #include "kernels/light.h"
 #include "kernels/texture.h"
 
@@ -215,11 +216,6 @@ static struct vec3 corner(const struct world *w, uint32_t tri, uint32_t k)
     return position_at(w, tri_at(w, tri, instance).v[k % 3], instance);
 }
 
-static uint32_t material_of(const struct world *w, uint32_t tri)
-{
-    return tri_material(w, tri, instance_of(w, tri));
-}
-
 /* A normal of twice the triangle's area. */
 static struct vec3 long_normal(const struct world *w, uint32_t tri)
 {
@@ -299,8 +295,8 @@ static bool join_light(const struct world *w, struct light *l,
 
     if (l->tris[0] + 1 != tri || l->tris[1] != NO_INDEX ||
         l->texture != other->texture ||
-        lights_differ(&w->materials[material_of(w, l->tris[0])],
-                      &w->materials[material_of(w, tri)]) ||
+        lights_differ(&w->materials[tri_material_number(w, l->tris[0])],
+                      &w->materials[tri_material_number(w, tri)]) ||
         !(v3_dot(e->normal, last->normal) > FLAT_COSINE) ||
         fmax(e->power, last->power) >
             PAIR_RATIO * fmin(e->power, last->power) ||
@@ -443,7 +439,7 @@ static uint32_t find_light(struct lights *l, struct emitter *emitters,
 {
     struct emitter e;
 
-    if (!material_shines(&w->materials[material_of(w, tri)]) ||
+    if (!material_shines(&w->materials[tri_material_number(w, tri)]) ||
         !make_emitter(w, tri, footprints, &e, &l->unsampled_variance))
         return NO_INDEX;
     *total += e.power;

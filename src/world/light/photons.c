@@ -102,11 +102,6 @@ static bool casts(const struct material *m, float alpha)
     return photons_cast(m) && m->alpha >= alpha;
 }
 
-static uint32_t material_of(const struct world *w, uint32_t tri)
-{
-    return tri_material(w, tri, instance_of(w, tri));
-}
-
 bool photons_need_rough(const struct world *w, enum photon_source source)
 {
     return least_alpha(w, source) >= ALPHA_SMOOTH;
@@ -140,15 +135,6 @@ static struct vec2 photon_2d(uint32_t photon, uint32_t vertex, uint32_t kind)
     struct sampler s = {PHOTON_KEY, reverse_bits(photon)};
 
     return random_2d(s, PHOTON_DIMENSION + PHOTON_STRIDE * vertex + kind);
-}
-
-/* A uniform point of a triangle. */
-static struct vec3 point_of(const struct world *w, uint32_t tri, struct vec2 u)
-{
-    struct vec3 p[3], error;
-
-    tri_corners(w, tri, p);
-    return hit_point(triangle_point(u), p[0], p[1], p[2], &error);
 }
 
 static void add_triangles(struct search *s, const struct lights *lights)
@@ -224,10 +210,10 @@ static bool add_lamps(struct search *s, bool are_rough)
     ok = irradiances != NULL && s->lamp_powers != NULL;
     for (uint32_t i = 0; i < PLACES; i++)
         places[i] =
-            point_of(w,
-                     triangle_cdf_choose(
-                         &s->casters, photon_2d(i, PHOTON_VERTICES + 1, 0).x),
-                     photon_2d(i, PHOTON_VERTICES + 1, 1));
+            tri_point(w,
+                      triangle_cdf_choose(
+                          &s->casters, photon_2d(i, PHOTON_VERTICES + 1, 0).x),
+                      photon_2d(i, PHOTON_VERTICES + 1, 1));
     for (uint32_t i = 0; ok && i < count; i++)
         if (are_rough || !is_delta_lamp(w, i)) {
             irradiances[i] = lamp_irradiance(s, i, places);
@@ -255,7 +241,7 @@ static bool find_lists(struct search *s, const struct lights *lights)
         !triangle_cdf_init(&s->casters, listed_tri_count(w)))
         return false;
     for (uint32_t i = 0; i < listed_tri_count(w); i++) {
-        const struct material *m = &w->materials[material_of(w, i)];
+        const struct material *m = &w->materials[tri_material_number(w, i)];
 
         if (!casts(m, alpha))
             continue;
@@ -357,14 +343,15 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
     p->aim = triangle_cdf_choose(&s->casters, choice.y);
     p->ray.key = hash_u32(i);
     p->chain = light;
-    to = point_of(w, p->aim, photon_2d(i, 1, 0));
+    to = tri_point(w, p->aim, photon_2d(i, 1, 0));
     density = leave_light(s, light, to, photon_2d(i, 1, 1), p);
     if (!(density > 0.0f))
         return false;
     cosine = v3_dot(tri_placed(w, p->aim).t.ng, p->ray.d);
     p->flux = fabsf(p->flux * cosine) / density;
     return !(cosine > 0.0f &&
-             w->materials[material_of(w, p->aim)].kind == MATERIAL_GLASS);
+             w->materials[tri_material_number(w, p->aim)].kind ==
+                 MATERIAL_GLASS);
 }
 
 /* Reflectance of smooth glass, or 0 for other surfaces. */
@@ -443,7 +430,7 @@ static void photon_follow(const struct search *s, struct photon p)
         p.ray.t_max = FLOAT_MAX;
         if (!hit_closest(w, p.ray, &h) || (vertex == 1 && h.tri != p.aim))
             return;
-        material = material_of(w, h.tri);
+        material = tri_material_number(w, h.tri);
         m = photons_material(w->materials[material]);
         if (!surface_at(w, &m, p.ray, h, &v))
             return;
@@ -470,17 +457,6 @@ static void photon_send(void *context, uint32_t i, int worker)
         photon_follow(s, p);
 }
 
-/* Returns twice the diagonal of the box around the triangles, or more. */
-static float far_away(const struct world *w)
-{
-    float most = has_instances(w) ? 1.7320508f : 0.0f;
-
-    for (uint32_t i = 0; !has_instances(w) && i < w->settings.position_count;
-         i++)
-        most = f_max(most, v3_length(w->positions[i]));
-    return 4.0f * most;
-}
-
 bool photons_trace(const struct bvh8_world *w, const struct lights *lights,
                    const struct photon_plan *plan, struct pool *pool,
                    struct photons *photons)
@@ -488,7 +464,7 @@ bool photons_trace(const struct bvh8_world *w, const struct lights *lights,
     struct search s = {.w = w,
                        .source = plan->source,
                        .box = plan->box,
-                       .reach = far_away(&w->world),
+                       .reach = beyond_scene(&w->world),
                        .landings_each = plan->landings_each};
     bool ok = find_lists(&s, lights);
 

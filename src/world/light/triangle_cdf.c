@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "kernels/instance.h"
+#include "kernels/light.h"
 
 /* Triangles that are measured as one. */
 #define BLOCK_TRIS 16384u
@@ -84,6 +85,29 @@ double tri_area(const struct world *w, uint32_t tri)
     tri_corners(w, tri, p);
     return 0.5 *
            (double)v3_length(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])));
+}
+
+struct vec3 tri_point(const struct world *w, uint32_t tri, struct vec2 u)
+{
+    struct vec3 p[3], error;
+
+    tri_corners(w, tri, p);
+    return hit_point(triangle_point(u), p[0], p[1], p[2], &error);
+}
+
+uint32_t tri_material_number(const struct world *w, uint32_t tri)
+{
+    return tri_material(w, tri, instance_of(w, tri));
+}
+
+float beyond_scene(const struct world *w)
+{
+    float most = has_instances(w) ? 1.7320508f : 0.0f;
+
+    for (uint32_t i = 0; !has_instances(w) && i < w->settings.position_count;
+         i++)
+        most = f_max(most, v3_length(w->positions[i]));
+    return 4.0f * most;
 }
 
 /* ---- the areas ---- */

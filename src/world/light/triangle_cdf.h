@@ -44,4 +44,12 @@ void tri_corners(const struct world *world, uint32_t tri, struct vec3 p[3]);
 
 double tri_area(const struct world *world, uint32_t tri);
 
+/* A uniform point of a triangle. */
+struct vec3 tri_point(const struct world *world, uint32_t tri, struct vec2 u);
+
+uint32_t tri_material_number(const struct world *world, uint32_t tri);
+
+/* Returns twice the diagonal of the box around the triangles, or more. */
+float beyond_scene(const struct world *world);
+
 #endif

@@ -119,6 +119,21 @@ static void points_shine_through_sheets(void **state)
     }
 }
 
+/* Lamps are numbered apart from triangles: five points at a place, past the
+ * number of triangles, are as bright as one. */
+static void many_points_shine_through_sheets(void **state)
+{
+    const char *fifth = "light point 0 2 0 intensity .2 .2 .2";
+    char *lamps =
+        xformat("%s\n%s\n%s\n%s\n%s", fifth, fifth, fifth, fifth, fifth);
+
+    (void)state;
+    write_floor(SHEET, 0, 1, lamps);
+    check_close(render(false, 2 * SPP_MANY, 3).all[0],
+                .5 / M_PI / 4 * (1 - sheet_reflectance(1)), 8e-4);
+    free(lamps);
+}
+
 /* The floor under the eye is 40 degrees off the axis of a wide lens, in the
  * middle of two pixels. */
 static void splats_are_right_off_the_axis(void **state)
@@ -224,6 +239,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_shine_through_sheets),
+        cmocka_unit_test(many_points_shine_through_sheets),
         cmocka_unit_test(splats_are_right_off_the_axis),
         cmocka_unit_test(points_shine_by_mirrors),
         cmocka_unit_test(suns_shine_through_sheets),
