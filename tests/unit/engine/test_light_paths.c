@@ -177,24 +177,24 @@ static void write_globe(const char *globe)
                         "newmtl dim\nKd 0 0 0\nKe 2 4 2\n",
                         globe);
     char text[16384];
-    size_t at = 0;
+    size_t at;
 
-    at += (size_t)snprintf(text, sizeof text,
-                           "mtllib s.mtl\nusemtl grey\n"
-                           "v -1 -1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 -1 -1\n"
-                           "v -1 1 -1\nv -1 1 1\nv 1 1 1\nv 1 1 -1\n"
-                           "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 4 3 7 8\n"
-                           "f 1 4 8 5\nusemtl lamp\n"
-                           "v -.1 .2 -.1\nv .1 .2 -.1\nv 0 .2 .12\nf -3 -2 -1\n"
-                           "usemtl dim\nv .1 .3 .1\nv .1 .1 .1\n"
-                           "v -.1 .2 .2\nf -3 -2 -1\n"
-                           "usemtl globe\n");
+    at = (size_t)snprintf(text, sizeof text,
+                          "mtllib s.mtl\nusemtl grey\n"
+                          "v -1 -1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 -1 -1\n"
+                          "v -1 1 -1\nv -1 1 1\nv 1 1 1\nv 1 1 -1\n"
+                          "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 4 3 7 8\n"
+                          "f 1 4 8 5\nusemtl lamp\n"
+                          "v -.1 .2 -.1\nv .1 .2 -.1\nv 0 .2 .12\nf -3 -2 -1\n"
+                          "usemtl dim\nv .1 .3 .1\nv .1 .1 .1\n"
+                          "v -.1 .2 .2\nf -3 -2 -1\n"
+                          "usemtl globe\n");
     /* an octahedron, whose faces are wound outwards */
-    at += (size_t)snprintf(text + at, sizeof text - at,
-                           "v .4 .2 0\nv -.4 .2 0\nv 0 .6 0\nv 0 -.2 0\n"
-                           "v 0 .2 .4\nv 0 .2 -.4\n"
-                           "f -6 -4 -2\nf -2 -4 -5\nf -5 -4 -1\nf -1 -4 -6\n"
-                           "f -2 -3 -6\nf -5 -3 -2\nf -1 -3 -5\nf -6 -3 -1\n");
+    snprintf(text + at, sizeof text - at,
+             "v .4 .2 0\nv -.4 .2 0\nv 0 .6 0\nv 0 -.2 0\n"
+             "v 0 .2 .4\nv 0 .2 -.4\n"
+             "f -6 -4 -2\nf -2 -4 -5\nf -5 -4 -1\nf -1 -4 -6\n"
+             "f -2 -3 -6\nf -5 -3 -2\nf -1 -3 -5\nf -6 -3 -1\n");
     put("s.mtl", mtl);
     put("s.obj", text);
     put("s.view", "eye 0 -.2 3\nat 0 -.6 -1\nfovy 20\nmax_bounces 12\n"
