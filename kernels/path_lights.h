@@ -111,6 +111,8 @@ static inline void path_add_sky(const struct world *w, struct path *p)
             ? sky_light_terms(w, &p->from, p->cell.sky, p->ray.d, &pdf)
             : sky_radiance(w, p->ray.d);
 
+    if (HAS(FEATURE_SKY_IMAGE) && path_drops(p))
+        radiance = sky_below(w->settings.sky_level, radiance);
     path_add(p, radiance, bsdf_mis_weight(w, p->pdf, pdf));
 }
 
@@ -257,8 +259,12 @@ path_choose_light(const struct world *w, const struct path *p,
                       path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
                       path_2d(p, vertex, DIMENSION_LIGHT_CHOICE), &l->at))
         return false;
-    if (path_begins_matte(p) && m->role == ROLE_CASTS && !l->at.is_sky)
-        return false;
+    if (path_begins_matte(p) && m->role == ROLE_CASTS) {
+        if (!l->at.is_sky)
+            return false;
+        if (HAS(FEATURE_SKY_IMAGE))
+            l->at.radiance = sky_below(w->settings.sky_level, l->at.radiance);
+    }
     wi = surface_to_local(v, l->at.wi);
     l->cosine = wi.z;
     if (!surface_sides_agree(v, l->at.wi, wi.z))

@@ -72,6 +72,15 @@ static inline struct vec3 sky_radiance(const struct world *w, struct vec3 d)
     return sky_image_at(w, sky_uv(s, d));
 }
 
+/* Radiance of the sky without what exceeds a level: the mean of the channels is
+ * at most that. */
+static inline struct vec3 sky_below(float level, struct vec3 radiance)
+{
+    float mean = (radiance.x + radiance.y + radiance.z) * (1.0f / 3.0f);
+
+    return mean > level ? v3_scale(radiance, level / mean) : radiance;
+}
+
 /* Squared sine of half the polar angle at the edge above a row. */
 static inline float sky_edge_height(struct sky s, uint32_t row)
 {
@@ -149,33 +158,45 @@ static inline uint32_t sky_cdf_find(const struct world *w, uint32_t first,
     return low - first;
 }
 
-/* Samples a direction with density sky_table_pdf(). u is in [0, 1). The world
+/* A direction to a texel, uniform by solid angle. u is in [0, 1]. The world
  * must have a table. */
-static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
+static inline struct vec3 sky_texel_direction(const struct world *w,
+                                              uint32_t column, uint32_t row,
+                                              struct vec2 u)
 {
     struct sky s = w->settings.sky;
-    float right, down, low, high, haversine, radius, y;
-    uint32_t row = sky_cdf_find(w, 0, sky_starts(s, 0), u.y, &down);
-    uint32_t column = sky_cdf_find(w, sky_row_cdf(s, row),
-                                   sky_starts(s, row + 1u), u.x, &right);
     bool is_below = 2u * row >= s.height;
-    struct vec2 turn = cos_sin_turns(((float)column + right) / (float)s.width);
+    struct vec2 turn = cos_sin_turns(((float)column + u.x) / (float)s.width);
+    float low, high, haversine, radius, y;
     struct vec3 d;
 
     /* the height is computed as the squared sine of half the angle to the
      * nearer pole, as the cosine has no digits left there */
     if (is_below) {
         row = s.height - 1u - row;
-        down = 1.0f - down;
+        u.y = 1.0f - u.y;
     }
     low = w->sky_cdf[sky_heights(s) + row];
     high = w->sky_cdf[sky_heights(s) + row + 1u];
-    haversine = low + (high - low) * down;
+    haversine = low + (high - low) * u.y;
     radius = 2.0f * sqrtf(haversine * (1.0f - haversine));
     y = 1.0f - 2.0f * haversine;
     d = v3(-radius * turn.y, is_below ? -y : y, radius * turn.x);
     return v3(s.rotation_cos * d.x + s.rotation_sin * d.z, d.y,
               s.rotation_cos * d.z - s.rotation_sin * d.x);
+}
+
+/* Samples a direction with density sky_table_pdf(). u is in [0, 1). The world
+ * must have a table. */
+static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
+{
+    struct sky s = w->settings.sky;
+    float right, down;
+    uint32_t row = sky_cdf_find(w, 0, sky_starts(s, 0), u.y, &down);
+    uint32_t column = sky_cdf_find(w, sky_row_cdf(s, row),
+                                   sky_starts(s, row + 1u), u.x, &right);
+
+    return sky_texel_direction(w, column, row, v2(right, down));
 }
 
 /* True if the world has a table for sky_sample(). */

@@ -384,6 +384,7 @@ struct settings {
     uint32_t order;       /* enum order */
     uint32_t sample;      /* enum sample_kind */
     uint32_t light_paths; /* enum light_path_use; FEATURE_LIGHT_PATHS */
+    float sky_level; /* of sky_below(): light paths bring what exceeds it */
     /* probability that a light sample is of light from infinity: of the sky or
      * of a directional light */
     float sky_share;

@@ -15,6 +15,7 @@
 #include "base/name_table.h"
 #include "base/thread_pool.h"
 #include "film/film.h"
+#include "image/color.h"
 #include "read/child/import.h"
 #include "read/gltf/gltf.h"
 #include "read/gltf/gltf_draco.h"
@@ -69,8 +70,10 @@ static float *light_of_paths(struct probe_job *j, const struct host_world *host,
     struct light_image image = {.width = 0};
     const struct cancel never = {0};
     float *means = NULL;
+    double sky_mean =
+        host->sky_table.mean * color_mean(j->w.world.settings.sky.color);
 
-    if (light_paths_build(&paths, &j->w.world, &host->lights) &&
+    if (light_paths_build(&paths, &j->w.world, &host->lights, sky_mean) &&
         paths.sources != NULL && light_image_init(&image, j->width, height) &&
         light_paths_trace(&paths, &j->w, 0, PROBE_PATHS, pool, &never, &image))
         means = alloc_array(pixels, 6 * sizeof *means);
@@ -79,6 +82,7 @@ static float *light_of_paths(struct probe_job *j, const struct host_world *host,
         for (size_t i = 0; i < 3 * pixels; i++)
             means[i] = 0.5f * (means[i] + means[3 * pixels + i]);
         j->w.world.settings.light_paths = LIGHT_PATHS_GUIDED;
+        j->w.world.settings.sky_level = paths.spots.level;
         j->w.world.settings.features |= FEATURE_LIGHT_PATHS;
     }
     light_image_free(&image);

@@ -403,19 +403,21 @@ static struct sky make_sky(const struct host_world *host,
 /* Builds the tables of light paths unless they are current. Versions grow, so
  * that equal sums have equal parts. */
 static bool find_light_paths(struct host_world *host, const struct world *w,
-                             struct error *err)
+                             double sky_mean, struct error *err)
 {
     uint64_t version =
         host->versions[WORLD_SHAPE] + host->versions[WORLD_TRIS] +
         host->versions[WORLD_MATERIALS] + host->versions[WORLD_LIGHTS] +
-        host->versions[WORLD_DIRECTIONAL_LIGHTS];
+        host->versions[WORLD_DIRECTIONAL_LIGHTS] + host->versions[WORLD_SKY];
 
-    if (host->light_paths_version == version)
+    if (host->light_paths_version == version &&
+        host->light_paths_sky == sky_mean)
         return true;
     light_paths_free(&host->light_paths);
-    if (!light_paths_build(&host->light_paths, w, &host->lights))
+    if (!light_paths_build(&host->light_paths, w, &host->lights, sky_mean))
         return fail(err, "out of memory for light paths");
     host->light_paths_version = version;
+    host->light_paths_sky = sky_mean;
     return true;
 }
 
@@ -425,15 +427,17 @@ bool world_guide(struct host_world *host, const struct scene *scene,
     struct bvh8_world w = {.world = world_arrays(host, scene),
                            .tree = &host->tree};
     struct path_guide *guide = &host->guide;
-    double sky = color_mean(make_sky(host, view).color);
+    double sky;
     bool had_table = path_guide_has_tables(guide);
     struct pool *pool = NULL;
     bool ok = true;
 
+    w.world.settings.sky = make_sky(host, view);
+    sky = color_mean(w.world.settings.sky.color);
     lights_lend(&host->lights, &w.world);
     if (host->sky_texels != NULL)
         sky *= host->sky_table.mean;
-    if (!find_light_paths(host, &w.world, err))
+    if (!find_light_paths(host, &w.world, sky, err))
         return false;
     if (path_guide_is_current(guide, sky))
         return true;
@@ -458,6 +462,9 @@ bool world_lend(const struct host_world *host, const struct scene *scene,
     lights_lend(&host->lights, &w);
     sky_table_lend(&host->sky_table, &w);
     path_guide_lend(&host->guide, &w);
+    w.settings.sky_level = host->light_paths.sources != NULL
+                               ? host->light_paths.spots.level
+                               : INFINITY;
     w.settings.max_vertices = view->max_bounces < 0
                                   ? PATH_HARD_STOP
                                   : (uint32_t)view->max_bounces + 1;

@@ -101,6 +101,7 @@ struct host_world {
     struct path_guide guide;
     struct light_paths light_paths;
     uint64_t light_paths_version; /* sum of those of the parts it is made of */
+    double light_paths_sky;       /* mean radiance of its sky */
 
     struct bvh8 tree; /* tree of the triangles, valid if has_tree */
     atomic_bool has_tree;

@@ -21,6 +21,7 @@ enum {
     NUMBER_CHOICE, /* of the lamp and the triangle that casts */
     NUMBER_LAMP,   /* the point on the lamp */
     NUMBER_CASTER,
+    NUMBER_SPOT,   /* of the sky */
     NUMBER_VERTEX, /* those of the first vertex; STRIDE for each */
     NUMBER_STRIDE = 3,
     NUMBER_LOBE = 1, /* and roulette */
@@ -36,7 +37,12 @@ enum {
 /* Least squared distance of a point on a lamp and one that casts. */
 #define DISTANCE2_MIN 1e-30f
 
-enum source_kind { SOURCE_TRIANGLE, SOURCE_POINT, SOURCE_DIRECTIONAL };
+enum source_kind {
+    SOURCE_TRIANGLE,
+    SOURCE_POINT,
+    SOURCE_DIRECTIONAL,
+    SOURCE_SKY
+};
 
 /* ---- tables ---- */
 
@@ -50,11 +56,12 @@ static uint32_t lamp_count(const struct world *w)
     return w->settings.point_light_count + w->settings.directional_light_count;
 }
 
-bool light_paths_help(const struct world *w)
+/* Returns true if the world has surfaces that cast, all of which are listed. */
+static bool has_casters(const struct world *w)
 {
     bool may = false, found = false;
 
-    if (w->settings.light_count + lamp_count(w) == 0 || !all_are_listed(w))
+    if (!all_are_listed(w))
         return false;
     for (uint32_t i = 0; i < w->settings.material_count && !may; i++)
         may = w->materials[i].role == ROLE_CASTS;
@@ -72,8 +79,8 @@ static double irradiance_at(const struct world *w, const struct light_source *s,
     struct light_sample l;
     struct vec3 d;
 
-    if (s->kind == SOURCE_DIRECTIONAL)
-        return (double)w->directional_lights[s->number].power;
+    if (s->kind == SOURCE_DIRECTIONAL || s->kind == SOURCE_SKY)
+        return power;
     if (s->kind == SOURCE_POINT)
         return point_light_sample(w, s->number, place, v2(0.5f, 0.5f), &l)
                    ? color_mean(l.radiance) / (double)l.pdf
@@ -98,9 +105,9 @@ static void add_source(struct building *b, enum source_kind kind,
     b->sources[b->count++] = (struct light_source){number, kind, 0.0f};
 }
 
-/* Lists the lamps. A directional light has the power that the whole scene gets
- * from it. */
-static void add_sources(struct building *b, const struct lights *lights)
+/* Lists the lamps. Lights from infinity have their irradiance as the power. */
+static void add_sources(struct building *b, const struct lights *lights,
+                        const struct sky_spots *spots)
 {
     const struct world *w = b->w;
 
@@ -115,6 +122,8 @@ static void add_sources(struct building *b, const struct lights *lights)
     for (uint32_t i = 0; i < w->settings.directional_light_count; i++)
         add_source(b, SOURCE_DIRECTIONAL, i,
                    (double)w->directional_lights[i].power);
+    if (spots->power > 0)
+        add_source(b, SOURCE_SKY, 0, spots->power);
 }
 
 /* Sets the probabilities: half by the power, half by the light that surfaces
@@ -155,14 +164,20 @@ static bool choose_by(struct light_paths *p, struct building *b)
 }
 
 bool light_paths_build(struct light_paths *p, const struct world *w,
-                       const struct lights *lights)
+                       const struct lights *lights, double sky_mean)
 {
     uint32_t count = 2 * w->settings.light_count + lamp_count(w);
     struct building b = {.w = w};
     bool ok;
 
-    *p = (struct light_paths){.reach = beyond_scene(w)};
-    if (!light_paths_help(w))
+    *p = (struct light_paths){.reach = beyond_scene(w),
+                              .spots = {.level = INFINITY}};
+    if (!has_casters(w))
+        return true;
+    if (!sky_spots_build(&p->spots, w, sky_mean))
+        return false;
+    count += p->spots.power > 0;
+    if (count == 0)
         return true;
     b.sources = p->sources = alloc_array(count, sizeof *p->sources);
     b.powers = alloc_array(count, sizeof *b.powers);
@@ -173,7 +188,7 @@ bool light_paths_build(struct light_paths *p, const struct world *w,
         if (w->materials[tri_material_number(w, i)].role == ROLE_CASTS)
             triangle_cdf_add(&p->casters, i, tri_area(w, i));
     if (ok && triangle_cdf_total(&p->casters) > 0) {
-        add_sources(&b, lights);
+        add_sources(&b, lights, &p->spots);
         ok = choose_by(p, &b);
     }
     free(b.powers);
@@ -187,6 +202,7 @@ void light_paths_free(struct light_paths *p)
     free(p->sources);
     triangle_cdf_free(&p->choice);
     triangle_cdf_free(&p->casters);
+    sky_spots_free(&p->spots);
     *p = (struct light_paths){.sources = NULL};
 }
 
@@ -324,6 +340,19 @@ static bool leave_directional(const struct light_paths *paths,
     return true;
 }
 
+static bool leave_sky(const struct light_paths *paths, const struct world *w,
+                      float choice, struct vec3 to, struct vec2 u,
+                      struct light_path *p)
+{
+    struct vec3 wi;
+
+    p->flux = sky_spots_sample(&paths->spots, w, choice, u, &wi);
+    p->ray.o = v3_add(to, v3_scale(wi, paths->reach));
+    p->ray.d = v3_neg(wi);
+    p->ray.from = 0;
+    return true;
+}
+
 /* Begins a path: chooses a lamp and a point that casts. Returns false if the
  * lamp gives it no light. */
 static bool path_leave(const struct light_paths *paths, const struct world *w,
@@ -343,6 +372,9 @@ static bool path_leave(const struct light_paths *paths, const struct world *w,
         ok = leave_triangle(w, s->number, to, u, p);
     else if (s->kind == SOURCE_POINT)
         ok = leave_point(w, s->number, to, u, p);
+    else if (s->kind == SOURCE_SKY)
+        ok =
+            leave_sky(paths, w, number_2d(p->sampler, NUMBER_SPOT).x, to, u, p);
     else
         ok = leave_directional(paths, w, s->number, to, u, p);
     if (!ok || (s->kind == SOURCE_TRIANGLE && s->number == p->aim))

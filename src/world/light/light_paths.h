@@ -26,10 +26,11 @@
 #include "base/thread_pool.h"
 #include "world/bvh/bvh8.h"
 #include "world/light/lights.h"
-#include "world/light/triangle_cdf.h"
+#include "world/light/sky_spots.h"
 #include "kernels/sum.h"
 
-/* A lamp that light paths begin at: a triangle, point or directional light. */
+/* A lamp that light paths begin at: a triangle, point or directional light, or
+ * all bright spots of the sky. */
 struct light_source {
     uint32_t number; /* of the triangle, or the light in its array */
     uint32_t kind;
@@ -40,16 +41,14 @@ struct light_paths {
     struct light_source *sources;
     struct triangle_cdf choice;  /* of numbers of sources */
     struct triangle_cdf casters; /* by area */
+    struct sky_spots spots;
     float reach; /* a distance at which rays begin outside of the scene */
 };
 
-/* Returns true if the world has lamps and surfaces that cast, all of which are
- * listed. */
-bool light_paths_help(const struct world *w);
-
-/* Makes the tables. Without lamps whose light casts, there are no sources. */
+/* Makes the tables of a world, the image of whose sky has this mean radiance.
+ * Without lamps whose light casts, there are no sources. */
 bool light_paths_build(struct light_paths *paths, const struct world *w,
-                       const struct lights *lights);
+                       const struct lights *lights, double sky_mean);
 void light_paths_free(struct light_paths *paths);
 
 /* Sums of the light that light paths bring to pixels of a film, whose corner is

@@ -204,11 +204,10 @@ static void write_globe(const char *globe)
 
 /* Checks that both have the same mean, within four standard errors of what the
  * seeds show. */
-static void check_same_means(const char *globe)
+static void check_same_means(void)
 {
     double sums[2] = {0, 0}, squares[2] = {0, 0}, mean[2], error = 0;
 
-    write_globe(globe);
     for (uint32_t seed = 1; seed <= SEEDS; seed++)
         for (int alone = 0; alone < 2; alone++) {
             double m = render(alone == 1, alone ? SPP_MANY : SPP, seed).all[1];
@@ -228,11 +227,53 @@ static void check_same_means(const char *globe)
 
 static void paths_from_the_eye_agree(void **state)
 {
+    static const char *const globes[] = {
+        "illum 7\nNi 1.5\nTf 1 1 1",
+        "illum 7\nNi 1.5\nTf .9 .8 .9\nTf_distance .5",
+        "illum 7\nNi 1.5\nTf 1 1 1\nPr .25", "illum 4\nNi 1.5\nTf 1 1 1"};
+
     (void)state;
-    check_same_means("illum 7\nNi 1.5\nTf 1 1 1");
-    check_same_means("illum 7\nNi 1.5\nTf .9 .8 .9\nTf_distance .5");
-    check_same_means("illum 7\nNi 1.5\nTf 1 1 1\nPr .25");
-    check_same_means("illum 4\nNi 1.5\nTf 1 1 1");
+    for (int i = 0; i < 4; i++) {
+        write_globe(globes[i]);
+        check_same_means();
+    }
+}
+
+#define SKY_ROWS 128
+
+/* Writes an image of a sky that is black, except at the zenith. */
+static void write_sky(void)
+{
+    FILE *f = fopen("s.hdr", "wb");
+
+    assert_non_null(f);
+    fprintf(f, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", SKY_ROWS,
+            2 * SKY_ROWS);
+    for (int i = 0; i < 2 * SKY_ROWS * SKY_ROWS; i++)
+        fwrite(i < 2 * SKY_ROWS ? "\200\200\200\212" : "\0\0\0\0", 1, 4, f);
+    assert_int_equal(fclose(f), 0);
+}
+
+/* A sheet is between the floor and the bright part of the sky, where radiance
+ * is 512 up to half a row from the zenith, and 0 a row further, linear between.
+ */
+static void bright_skies_shine_through_sheets(void **state)
+{
+    const double row = M_PI / SKY_ROWS;
+    double irradiance = 0;
+
+    (void)state;
+    for (int i = 0; i < 1000; i++) {
+        double angle = (i + .5) / 1000 * 1.5 * row;
+
+        irradiance += 512 * fmin(1, 1.5 - angle / row) * cos(angle) *
+                      sin(angle) * (1 - sheet_reflectance(cos(angle))) *
+                      (2 * M_PI * 1.5 * row / 1000);
+    }
+    write_sky();
+    write_floor(SHEET, 0, .5, "sky s.hdr");
+    check_close(render(false, 2 * SPP_MANY, 3).all[0], .5 / M_PI * irradiance,
+                .002 * irradiance);
 }
 
 int main(void)
@@ -244,6 +285,7 @@ int main(void)
         cmocka_unit_test(points_shine_by_mirrors),
         cmocka_unit_test(suns_shine_through_sheets),
         cmocka_unit_test(paths_from_the_eye_agree),
+        cmocka_unit_test(bright_skies_shine_through_sheets),
     };
 
     return cmocka_run_group_tests_name("light_paths", tests, enter_folder,
