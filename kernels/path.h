@@ -24,6 +24,7 @@
 #include "kernels/aov.h"
 #include "kernels/camera.h"
 #include "kernels/caustic_lobes.h"
+#include "kernels/light_cells.h"
 #include "kernels/path_lights.h"
 
 /* Samples the next ray from the BSDF, or from the path guide if it has a table
@@ -109,11 +110,32 @@ static inline void path_open(struct path *p, struct ray r,
     p->from.n = r.d;
     p->from.transmits = true;
     p->medium = v3(0.0f, 0.0f, 0.0f);
-    p->drops = p->is_cast = false;
+    p->drops = false;
+    p->is_chain = true;
+    p->casts = 0;
     p->out.radiance = v3(0.0f, 0.0f, 0.0f);
     p->out.rays = 1; /* the camera ray */
     p->out.cut = 0;
     first_surface_begin(&p->surface);
+}
+
+/* Notes the role of a vertex. Returns true if it is a matte one from which on
+ * the path leaves out the light that light cells have there. */
+static inline bool path_meet_role(const struct world *w, struct path *p,
+                                  const struct material *m, uint32_t vertex)
+{
+    bool has_cells = false;
+
+    if (p->is_chain && m->role == ROLE_MATTE &&
+        w->settings.light_paths != LIGHT_PATHS_NONE) {
+        has_cells = vertex > 1 && w->settings.has_light_cells != 0;
+        p->drops = vertex == 1 || has_cells;
+    }
+    p->casts = m->role == ROLE_CASTS ? p->casts + 1 : 0;
+    p->is_chain = p->is_chain && p->casts > 0;
+    if (p->casts > LIGHT_PATH_CASTS_MAX && !p->is_chain)
+        p->drops = false;
+    return has_cells;
 }
 
 /* Extends the path by one vertex, the hit *h of the path's ray. *h becomes the
@@ -127,7 +149,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
     struct path_light light;
     struct vec3 wo;
     struct vec2 lobe;
-    bool is_lit, goes_on;
+    bool is_lit, goes_on, has_cells = false;
 
     /* Add lights before the hit, and the sky and suns of a ray that leaves */
     if (HAS(FEATURE_POINT_LIGHTS))
@@ -156,12 +178,8 @@ static inline bool path_extend(const struct world *w, struct path *p,
     /* Add emission of the surface */
     path_add_emission(w, p, &m, h->tri, &v);
     first_surface_light(&p->surface, vertex, p->out.radiance);
-    if (HAS(FEATURE_LIGHT_PATHS)) {
-        if (vertex == 1)
-            p->drops = w->settings.light_paths != LIGHT_PATHS_NONE &&
-                       m.role == ROLE_MATTE;
-        p->is_cast = m.role == ROLE_CASTS;
-    }
+    if (HAS(FEATURE_LIGHT_PATHS))
+        has_cells = path_meet_role(w, p, &m, vertex);
     /* End at the limit of bounces */
     if (vertex >= w->settings.max_vertices) {
         p->out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;
@@ -172,6 +190,12 @@ static inline bool path_extend(const struct world *w, struct path *p,
     first_surface_meet(&p->surface, &b, v.n, h->t);
     if (bsdf_is_black(&b))
         return false;
+    if (has_cells)
+        path_add(p,
+                 light_cells_radiance(w, p->sampler.is_odd, &v, &b,
+                                      surface_to_local(&v, v3_neg(p->ray.d)),
+                                      random_2d(p->sampler, DIMENSION_CELL)),
+                 1.0f);
     if (!bsdf_is_glass(&b))
         surface_lift(w, h->tri, *h, &v);
     wo = surface_to_local(&v, v3_neg(p->ray.d));

@@ -22,6 +22,11 @@
 /* Number of vertices whose random numbers are computed together. */
 #define VERTICES_AHEAD 2u
 
+/* Largest number of surfaces that cast in a row in light paths. Where normals
+ * are interpolated, the flux of a light path varies at each of them, the more
+ * the longer it is caught in glass. */
+#define LIGHT_PATH_CASTS_MAX 16u
+
 /* State of a path between two vertices. */
 struct path {
     struct ray ray;
@@ -36,8 +41,10 @@ struct path {
     struct vec3 medium;     /* absorption along the ray; FEATURE_ATTENUATION */
     struct path_sample out;
     struct first_surface surface;
-    bool drops;   /* FEATURE_LIGHT_PATHS: light paths bring light of lamps */
-    bool is_cast; /* to surfaces that cast, of which the last vertex is one */
+    /* FEATURE_LIGHT_PATHS: */
+    bool drops;     /* light paths bring light of lamps to surfaces that cast */
+    bool is_chain;  /* all vertices so far cast */
+    uint32_t casts; /* number of last ones that do */
 };
 
 /* Caps a factor at the largest float, because an infinite factor times a black

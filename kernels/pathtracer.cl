@@ -34,7 +34,9 @@ __kernel void trace_paths(
     __global const struct directional_light *directional_lights,
     __global const float *profiles,
     __global const struct caustic_node *caustic_nodes,
-    __global const struct caustic_lobe *caustic_lobes)
+    __global const struct caustic_lobe *caustic_lobes,
+    __global const struct light_grid *light_grids,
+    __global const struct light_cell *light_cells)
 {
     uint i = (uint)get_global_id(0);
 
@@ -69,7 +71,9 @@ __kernel void trace_paths(
                           directional_lights,
                           profiles,
                           caustic_nodes,
-                          caustic_lobes};
+                          caustic_lobes,
+                          light_grids,
+                          light_cells};
 
         struct first_surface surface;
 

@@ -332,6 +332,26 @@ struct caustic_lobe {
     float sum;   /* probability of the leaf's lobes up to and with this one */
 };
 
+/* A grid of light_cells.h. */
+struct light_grid {
+    struct vec3 eye;
+    struct vec3 offset;   /* of the corner of a cell, in cells */
+    struct vec3 facing;   /* the two sides of sheets are in different cells */
+    float distance_scale; /* from 1 to 2 */
+    float width;          /* of cells where the scaled distance is 1 */
+    uint32_t first;       /* slot of the grid */
+    uint32_t mask;        /* number of slots - 1; a power of two of them */
+};
+
+/* A cell of light_cells.h. */
+struct light_cell {
+    uint64_t key; /* 0: an empty slot */
+    /* by the number of light paths, times the cosine of the shading normal over
+     * that of the face */
+    struct vec3 flux;
+    struct vec3 d; /* to where a part of it came from, chosen by flux */
+};
+
 /* Estimators of direct light. Pictures use DIRECT_MIS, the others are for
  * comparison. */
 enum direct {
@@ -379,11 +399,13 @@ struct settings {
     struct sky sky;
     uint32_t max_vertices; /* surface vertices of a path, emitter included */
     uint32_t seed;
-    uint32_t features;    /* enum feature, or-ed */
-    uint32_t direct;      /* enum direct */
-    uint32_t order;       /* enum order */
-    uint32_t sample;      /* enum sample_kind */
-    uint32_t light_paths; /* enum light_path_use; FEATURE_LIGHT_PATHS */
+    uint32_t features;        /* enum feature, or-ed */
+    uint32_t direct;          /* enum direct */
+    uint32_t order;           /* enum order */
+    uint32_t sample;          /* enum sample_kind */
+    uint32_t light_paths;     /* enum light_path_use; FEATURE_LIGHT_PATHS */
+    uint32_t has_light_cells; /* light_cells.h: paths that begin with surfaces
+                                 that cast leave that light out as well */
     float sky_level; /* of sky_below(): light paths bring what exceeds it */
     /* probability that a light sample is of light from infinity: of the sky or
      * of a directional light */
@@ -449,6 +471,8 @@ struct world {
     GLOBAL const float *profiles; /* of point lights, row by row */
     GLOBAL const struct caustic_node *caustic_nodes;
     GLOBAL const struct caustic_lobe *caustic_lobes;
+    GLOBAL const struct light_grid *light_grids; /* of the two halves */
+    GLOBAL const struct light_cell *light_cells; /* of both grids */
 };
 
 struct ray {

@@ -260,6 +260,15 @@ bool engine_uses_device(const struct engine *e)
 
 /* ---- pictures ---- */
 
+bool engine_lend(const struct engine *e, const struct view *view,
+                 struct world *world, struct error *err)
+{
+    if (!world_lend(&e->world, &e->scene, view, e->options.seed, world, err))
+        return false;
+    world->settings.has_light_cells = !e->options.is_exact;
+    return true;
+}
+
 bool engine_prepare(struct engine *e, const struct view *view,
                     struct render_job *job, struct error *err)
 {
@@ -269,8 +278,7 @@ bool engine_prepare(struct engine *e, const struct view *view,
                                .is_adaptive = e->options.is_adaptive};
     if (!engine_begin(e, err) ||
         !world_guide(&e->world, &e->scene, view, err) ||
-        !world_lend(&e->world, &e->scene, view, e->options.seed, &job->world,
-                    err))
+        !engine_lend(e, view, &job->world, err))
         return false;
     job->world.settings.features = engine_features(e);
     if (!engine_uses_device(e))

@@ -93,6 +93,7 @@ struct engine_options {
     struct rect crop;
     uint32_t seed;
     bool is_adaptive;
+    bool is_exact;                   /* without light cells, which blur */
     bool wants_filter;               /* films have what the filter needs */
     bool drops_tree;                 /* beside a device, which has its own */
     const struct cpu_kernel *kernel; /* NULL: the best */
@@ -153,6 +154,10 @@ void engine_use_cpu(struct engine *e);
 
 /* Returns true if an OpenCL device renders. */
 bool engine_uses_device(const struct engine *e);
+
+/* Fills *world for a view and the options: world_lend(). */
+bool engine_lend(const struct engine *e, const struct view *view,
+                 struct world *world, struct error *err);
 
 /* Describes a picture of the view from sample 0 on, without limits. The
  * materials are those that the world has. */

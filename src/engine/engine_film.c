@@ -68,6 +68,7 @@ static void add_settings(const struct settings *s, uint64_t hashes[FILM_PARTS])
     add(&hashes[FILM_LIMITS], &s->direct, sizeof s->direct);
     add(&hashes[FILM_LIMITS], &s->order, sizeof s->order);
     add(&hashes[FILM_LIMITS], &s->sample, sizeof s->sample);
+    add(&hashes[FILM_LIMITS], &s->has_light_cells, sizeof s->has_light_cells);
     add(&hashes[FILM_GUIDE], &s->guide, sizeof s->guide);
 }
 
@@ -97,7 +98,7 @@ bool engine_film_describe(struct engine *e, const struct view *view,
     float exposure = (float)view->lighting.exposure;
 
     if (!world_guide(&e->world, &e->scene, view, err) ||
-        !world_lend(&e->world, &e->scene, view, e->options.seed, world, err))
+        !engine_lend(e, view, world, err))
         return false;
     *id = (struct film_identity){
         .seed = e->options.seed,

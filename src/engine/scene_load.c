@@ -75,7 +75,8 @@ static float *light_of_paths(struct probe_job *j, const struct host_world *host,
 
     if (light_paths_build(&paths, &j->w.world, &host->lights, sky_mean) &&
         paths.sources != NULL && light_image_init(&image, j->width, height) &&
-        light_paths_trace(&paths, &j->w, 0, PROBE_PATHS, pool, &never, &image))
+        light_paths_trace(&paths, &j->w, 0, PROBE_PATHS, pool, &never,
+                          (struct light_film){&image, NULL}))
         means = alloc_array(pixels, 6 * sizeof *means);
     if (means != NULL) {
         light_image_means(&image, PROBE_PATHS, means);

@@ -70,7 +70,7 @@ static const struct field fields[] = {
     {"camera", FIELD_HASH, HEAD(identity.hashes[FILM_CAMERA]), UINT64_MAX,
      "camera"},
     {"limits", FIELD_HASH, HEAD(identity.hashes[FILM_LIMITS]), UINT64_MAX,
-     "limit of bounces (-d)"},
+     "limit of bounces (-d) or --gi"},
     {"guide", FIELD_HASH, HEAD(identity.hashes[FILM_GUIDE]), UINT64_MAX,
      "path guide"},
     {"total", FIELD_NUMBER, HEAD(total), FILM_SPP_MAX, NULL},

@@ -24,6 +24,17 @@ enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 /* Most samples in the mean, with which pixels of any share have that many. */
 #define PASS_MEAN_MAX (PASS_SAMPLES_MAX * SHARE_ONE / SHARE_MAX)
 
+/* Light that the samples of a pass get from light paths. */
+struct pass_light {
+    /* for all samples: 3 numbers for each pixel of the film for samples with
+     * even indices, then for those with odd ones */
+    const float *pixels;
+    const struct light_grid *grids; /* world.light_grids; NULL: none */
+    const struct light_cell *cells;
+    size_t cell_count;
+    uint64_t version; /* equal ones have the same numbers */
+};
+
 /* One pass over the pixels of a grid (0, stride, 2 stride, ... in both
  * directions). Pixels with fewer samples than their target get up to that
  * many. */
@@ -35,12 +46,8 @@ struct pass {
     /* greatest number that a pixel needs; up to PASS_SAMPLES_MAX, unless the
      * backend wants longer passes */
     uint32_t samples;
-    uint32_t order; /* seed for the random order of blocks */
-    /* light that all samples of the pass get from light paths: 3 numbers for
-     * each pixel of the film for samples with even indices, then for those with
-     * odd ones; NULL: none. Equal versions have the same numbers. */
-    const float *light;
-    uint64_t light_version;
+    uint32_t order;                 /* seed for the random order of blocks */
+    const struct pass_light *light; /* NULL: none */
 };
 
 /* Returns the samples of pixel `at` of the film after a pass. */

@@ -121,7 +121,8 @@ static void add_light(const struct job *j, struct row *r, uint32_t count)
         const struct sample_id *id = &r->ids[i];
         size_t at = (size_t)((int)id->y - b->y0) * (size_t)b->film->width +
                     (size_t)((int)id->x - b->x0);
-        const float *from = j->pass.light + 3 * (at + (id->index & 1) * pixels);
+        const float *from =
+            j->pass.light->pixels + 3 * (at + (id->index & 1) * pixels);
 
         r->samples[i].radiance =
             v3_add(r->samples[i].radiance, v3(from[0], from[1], from[2]));
@@ -221,6 +222,10 @@ static enum pass_result cpu_pass(struct backend *base, const struct pass *pass,
     int side = BLOCK_SIDE * pass->stride;
 
     (void)err;
+    if (pass->light != NULL) {
+        b->world.world.light_grids = pass->light->grids;
+        b->world.world.light_cells = pass->light->cells;
+    }
     j.columns = (uint32_t)((b->film->width + side - 1) / side);
     j.count = j.columns * (uint32_t)((b->film->height + side - 1) / side);
     while (j.bits < 32 && (1u << j.bits) < j.count)

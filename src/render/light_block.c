@@ -9,6 +9,7 @@
 #include "image/color.h"
 #include "render/cpu_dispatch.h"
 #include "render/projection.h"
+#include "kernels/rng.h"
 
 /* Size of the pilot, its samples, a multiple of SAMPLE_BLOCK, and its light
  * paths of each half. */
@@ -26,6 +27,17 @@
 #define PATHS_MIN (1.0 / 64)
 #define PATHS_MAX 1.0
 
+/* Width of the first light cells of the halves in pixels. */
+#define CELL_WIDE   2.4
+#define CELL_NARROW 0.6
+
+/* Least limit of vertices for light cells: light that comes to them by paths
+ * near the limit is longer than paths from the eye are. */
+#define CELL_VERTICES_MIN 32
+
+/* Key of the places of grids. */
+#define GRID_KEY 0x5be0cd19u
+
 /* Share of the light that light paths find, below which paths from the eye have
  * missed some of it, and do not know their own noise. */
 #define FOUND_MIN 0.7
@@ -40,14 +52,19 @@
 /* ---- the pilot ---- */
 
 /* Sums over the samples of a pixel: light that paths from the eye find, alone
- * and beside light paths, and the squares. */
+ * and beside light paths, and the squares; light of cells, of each half. */
 struct pilot_pixel {
-    double whole, whole_square, rest, rest_square;
+    double whole, whole_square, rest, rest_square, cells[2];
 };
+
+/* Worlds of the pilot: paths from the eye alone, beside light paths whose cells
+ * are empty, and with their cells. */
+enum { WORLD_ALONE, WORLD_BESIDE, WORLD_CELLS, PILOT_WORLDS };
 
 struct pilot {
     const struct cpu_kernel *kernel;
-    struct bvh8_world worlds[2]; /* alone, beside light paths */
+    struct bvh8_world worlds[PILOT_WORLDS];
+    struct light_cells cells, none;
     struct pilot_pixel pixels[PILOT_PIXELS];
 };
 
@@ -56,25 +73,26 @@ static void pilot_pixel(void *context, uint32_t pixel, int worker)
     struct pilot *p = context;
     struct pilot_pixel *to = &p->pixels[pixel];
     struct sample_id ids[PILOT_SPP];
-    struct path_sample samples[2][PILOT_SPP];
+    struct path_sample samples[PILOT_WORLDS][PILOT_SPP];
     struct first_surface surfaces[SAMPLE_BLOCK];
 
     (void)worker;
     for (uint32_t i = 0; i < PILOT_SPP; i++)
         ids[i] =
             (struct sample_id){pixel % PILOT_WIDTH, pixel / PILOT_WIDTH, i};
-    for (int i = 0; i < 2 * PILOT_SPP; i += SAMPLE_BLOCK)
+    for (int i = 0; i < PILOT_WORLDS * PILOT_SPP; i += SAMPLE_BLOCK)
         p->kernel->samples(&p->worlds[i / PILOT_SPP].world, ids + i % PILOT_SPP,
                            SAMPLE_BLOCK, samples[i / PILOT_SPP] + i % PILOT_SPP,
                            surfaces);
     for (uint32_t i = 0; i < PILOT_SPP; i++) {
-        double whole = color_mean(samples[0][i].radiance);
-        double rest = color_mean(samples[1][i].radiance);
+        double whole = color_mean(samples[WORLD_ALONE][i].radiance);
+        double rest = color_mean(samples[WORLD_BESIDE][i].radiance);
 
         to->whole += whole;
         to->whole_square += whole * whole;
         to->rest += rest;
         to->rest_square += rest * rest;
+        to->cells[i % 2] += color_mean(samples[WORLD_CELLS][i].radiance) - rest;
     }
 }
 
@@ -82,6 +100,25 @@ static void pilot_pixel(void *context, uint32_t pixel, int worker)
 static double variance_of(double sum, double square)
 {
     return fmax(square - sum * sum / PILOT_SPP, 0) / (PILOT_SPP - 1);
+}
+
+/* Returns the light that a half of the light paths brings to a pixel. */
+static double light_of(const struct pilot *p, const float *means, int half,
+                       int pixel)
+{
+    const float *rgb = means + 3 * (half * PILOT_PIXELS + pixel);
+
+    return color_mean(v3(rgb[0], rgb[1], rgb[2])) +
+           p->pixels[pixel].cells[half] / (PILOT_SPP / 2.);
+}
+
+static bool cells_help(const struct pilot *p)
+{
+    double light = 0;
+
+    for (int i = 0; i < PILOT_PIXELS; i++)
+        light += p->pixels[i].cells[0] + p->pixels[i].cells[1];
+    return light > 0;
 }
 
 /* Chooses the number of light paths for each sample by the noise of both, each
@@ -92,11 +129,7 @@ static double choose(const struct pilot *p, const float *means, bool has_points)
     double alone = 0, rest = 0, paths = 0, number;
 
     for (int i = 0; i < PILOT_PIXELS; i++) {
-        const float *a = means + 3 * i, *b = a + 3 * PILOT_PIXELS;
-
-        light[i] = (color_mean(v3(a[0], a[1], a[2])) +
-                    color_mean(v3(b[0], b[1], b[2]))) /
-                   2;
+        light[i] = (light_of(p, means, 0, i) + light_of(p, means, 1, i)) / 2;
         brought += light[i];
         found += (p->pixels[i].whole - p->pixels[i].rest) / PILOT_SPP;
         light[i] += p->pixels[i].rest / PILOT_SPP;
@@ -105,10 +138,8 @@ static double choose(const struct pilot *p, const float *means, bool has_points)
     dark = 0.01 * (all / PILOT_PIXELS) * (all / PILOT_PIXELS);
     for (int i = 0; i < PILOT_PIXELS; i++) {
         const struct pilot_pixel *x = &p->pixels[i];
-        const float *a = means + 3 * i, *b = a + 3 * PILOT_PIXELS;
-        double difference = (color_mean(v3(a[0], a[1], a[2])) -
-                             color_mean(v3(b[0], b[1], b[2]))) /
-                            2;
+        double difference =
+            (light_of(p, means, 0, i) - light_of(p, means, 1, i)) / 2;
         double weight = 1 / (light[i] * light[i] + dark);
 
         if (!(all > 0))
@@ -153,6 +184,73 @@ static bool fits_memory(const struct film *f)
            cgroup_quota_memory("").size_bytes / 2;
 }
 
+static struct world beside_paths(const struct host_world *host,
+                                 const struct world *world,
+                                 const struct light_cells *cells)
+{
+    struct world w = *world;
+
+    w.settings.light_paths = host->guide.portals.glazed.flux != NULL
+                                 ? LIGHT_PATHS_GUIDED
+                                 : LIGHT_PATHS_UNGUIDED;
+    w.settings.features |= FEATURE_LIGHT_PATHS;
+    w.settings.has_light_cells = cells != NULL;
+    if (cells != NULL) {
+        w.light_grids = cells->grids;
+        w.light_cells = cells->cells;
+    }
+    return w;
+}
+
+static int thread_count(const struct pool *pool)
+{
+    return pool != NULL ? pool_thread_count(pool) : 1;
+}
+
+/* Begins the grids of a block of the camera's picture, the first sample of
+ * which is `begin`. */
+static bool begin_cells(struct light_cells *cells, const struct world *w,
+                        uint64_t begin, const struct pool *pool)
+{
+    double finer = pow(1 + (double)begin / 32, -0.25);
+    const double pixels[2] = {CELL_WIDE * finer, CELL_NARROW * finer};
+    uint32_t key = hash_u32(w->settings.seed + GRID_KEY);
+
+    key = hash_u32(key ^ (uint32_t)begin) ^ (uint32_t)(begin >> 32);
+    return light_cells_begin(cells, &w->settings.camera, key, pixels,
+                             thread_count(pool));
+}
+
+/* Traces the light paths of the pilot, then its paths from the eye. */
+static enum pass_result run_pilot(struct pilot *p,
+                                  const struct backend_picture *picture,
+                                  struct light_image *image, bool has_cells,
+                                  struct pool *pool,
+                                  const struct cancel *cancel)
+{
+    const struct bvh8_world *w = &p->worlds[WORLD_ALONE];
+    struct light_film film = {image, has_cells ? &p->cells : NULL};
+
+    if (!begin_cells(&p->none, &w->world, 0, pool) ||
+        !light_cells_end(&p->none, 1, pool) ||
+        !begin_cells(&p->cells, &w->world, 0, pool))
+        return PASS_FAILED;
+    if (!light_paths_trace(&picture->host->light_paths, w, 0, PILOT_PATHS, pool,
+                           cancel, film))
+        return PASS_CANCELLED;
+    if (!light_cells_end(&p->cells, PILOT_PATHS, pool))
+        return PASS_FAILED;
+    p->worlds[WORLD_BESIDE].world =
+        beside_paths(picture->host, &w->world, has_cells ? &p->none : NULL);
+    p->worlds[WORLD_CELLS].world =
+        beside_paths(picture->host, &w->world, has_cells ? &p->cells : NULL);
+    p->kernel = cpu_kernel_fit(cpu_kernel_best(),
+                               p->worlds[WORLD_CELLS].world.settings.features);
+    return pool_run(pool, PILOT_PIXELS, pilot_pixel, p, cancel)
+               ? PASS_DONE
+               : PASS_CANCELLED;
+}
+
 enum pass_result light_block_decide(struct light_block *b,
                                     const struct backend_picture *picture,
                                     struct pool *pool,
@@ -165,59 +263,53 @@ enum pass_result light_block_decide(struct light_block *b,
                                    .shown_height = PILOT_HEIGHT};
     struct bvh8_world w = {*picture->world, world_tree(picture->host)};
     struct camera *c = &w.world.settings.camera;
+    bool has_cells = w.world.settings.has_light_cells != 0 &&
+                     w.world.settings.max_vertices >= CELL_VERTICES_MIN;
+    enum pass_result result = PASS_FAILED;
     struct pilot *p;
-    bool ok;
 
     if (b->is_decided)
         return PASS_DONE;
     b->paths = 0;
+    b->has_cells = false;
     if (picture->host->light_paths.sources == NULL || w.tree == NULL ||
         !fits_memory(picture->film)) {
         b->is_decided = true;
         return PASS_DONE;
     }
-    p = alloc_array(1, sizeof *p);
-    if (p == NULL || !light_image_init(&image, PILOT_WIDTH, PILOT_HEIGHT)) {
-        free(p);
-        light_image_free(&image);
-        return fail(err, "out of memory for a pilot"), PASS_FAILED;
-    }
     part.width = (int)c->width;
     part.height = (int)c->height;
     *c = projection_camera(c, &part);
-    b->paths = 1; /* for light_block_world() */
-    p->worlds[0] = p->worlds[1] = w;
-    p->worlds[1].world =
-        light_block_world(b, picture->host, &p->worlds[1].world);
-    b->paths = 0;
-    p->kernel =
-        cpu_kernel_fit(cpu_kernel_best(), p->worlds[1].world.settings.features);
-    ok = light_paths_trace(&picture->host->light_paths, &w, 0, PILOT_PATHS,
-                           pool, cancel, &image) &&
-         pool_run(pool, PILOT_PIXELS, pilot_pixel, p, cancel);
-    if (ok) {
+    p = alloc_array(1, sizeof *p);
+    if (p != NULL && light_image_init(&image, PILOT_WIDTH, PILOT_HEIGHT)) {
+        for (int i = 0; i < PILOT_WORLDS; i++)
+            p->worlds[i] = w;
+        result = run_pilot(p, picture, &image, has_cells, pool, cancel);
+    }
+    if (result == PASS_DONE) {
         light_image_means(&image, PILOT_PATHS, means);
         b->paths = choose(p, means, has_points(&w.world));
+        b->has_cells = has_cells && cells_help(p);
         b->is_decided = true;
+    }
+    if (p != NULL) {
+        light_cells_free(&p->cells);
+        light_cells_free(&p->none);
     }
     light_image_free(&image);
     free(p);
-    return ok ? PASS_DONE : PASS_CANCELLED;
+    if (result == PASS_FAILED)
+        fail(err, "out of memory for a pilot");
+    return result;
 }
 
 struct world light_block_world(const struct light_block *b,
                                const struct host_world *host,
                                const struct world *world)
 {
-    struct world w = *world;
-
-    if (!(b->paths > 0))
-        return w;
-    w.settings.light_paths = host->guide.portals.glazed.flux != NULL
-                                 ? LIGHT_PATHS_GUIDED
-                                 : LIGHT_PATHS_UNGUIDED;
-    w.settings.features |= FEATURE_LIGHT_PATHS;
-    return w;
+    return b->paths > 0
+               ? beside_paths(host, world, b->has_cells ? &b->cells : NULL)
+               : *world;
 }
 
 /* ---- blocks ---- */
@@ -295,20 +387,31 @@ enum pass_result light_block_find(struct light_block *b,
     const struct camera *c = &w.world.settings.camera;
     uint64_t begin = block_begin(c, sample), end = light_block_end(c, sample);
     uint64_t count;
+    struct light_film film = {&b->image, b->has_cells ? &b->cells : NULL};
 
     if (b->end == end)
         return PASS_DONE;
     b->end = 0;
     if (!resize(b, p->film, err))
         return PASS_FAILED;
+    if (b->has_cells && !begin_cells(&b->cells, &w.world, begin, pool))
+        return fail(err, "out of memory for light cells"), PASS_FAILED;
     count = paths_before(b, c, end) - paths_before(b, c, begin);
     light_image_clear(&b->image);
     b->image.x0 = p->x0;
     b->image.y0 = p->y0;
     if (!light_paths_trace(&p->host->light_paths, &w, paths_before(b, c, begin),
-                           (uint32_t)count, pool, cancel, &b->image))
+                           (uint32_t)count, pool, cancel, film))
         return PASS_CANCELLED;
+    if (b->has_cells && !light_cells_end(&b->cells, count, pool))
+        return fail(err, "out of memory for light cells"), PASS_FAILED;
     light_image_means(&b->image, count, b->means);
+    b->light = (struct pass_light){.pixels = b->means, .version = end};
+    if (b->has_cells) {
+        b->light.grids = b->cells.grids;
+        b->light.cells = b->cells.cells;
+        b->light.cell_count = b->cells.slot_count;
+    }
     b->end = end;
     return PASS_DONE;
 }
@@ -322,6 +425,7 @@ void light_block_reset(struct light_block *b)
 void light_block_free(struct light_block *b)
 {
     light_image_free(&b->image);
+    light_cells_free(&b->cells);
     free(b->means);
     *b = (struct light_block){.means = NULL};
 }

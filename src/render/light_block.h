@@ -5,12 +5,13 @@
  * Samples of all pixels with indices in the same block get the same light from
  * light paths (world/light/light_paths.h), those with even indices that of one
  * half of the paths, those with odd ones that of the other, so that the two
- * halves of a pixel stay independent. Blocks double up to a number that depends
- * on the size of the picture, so that none keeps the screen waiting. The light
- * of a block depends on nothing but the world, the picture and the block. A
- * small pilot of the whole picture, which is the same for everybody who renders
- * a part of it, tells whether light paths help at equal time, and how many
- * there should be.
+ * halves of a pixel stay independent. What the eye sees through glass or in
+ * mirrors gets it from light cells (kernels/light_cells.h) of the block. Blocks
+ * double up to a number that depends on the size of the picture, so that none
+ * keeps the screen waiting. The light of a block depends on nothing but the
+ * world, the picture and the block. A small pilot of the whole picture, which is
+ * the same for everybody who renders a part of it, tells whether light paths help
+ * at equal time, and how many there should be.
  *
  * Units:     samples of each pixel
  * Ownership: light_block_free() frees; a zeroed struct has no block
@@ -26,13 +27,17 @@
 struct light_block {
     bool is_decided; /* of this picture: */
     double paths;    /* light paths for each sample; 0: none */
+    bool has_cells;  /* light cells, for what the eye sees through glass */
     struct light_image image;
-    float *means; /* of light_image_means() */
-    uint64_t end; /* 0: there is no block */
+    struct light_cells cells;
+    float *means;            /* of light_image_means() */
+    uint64_t end;            /* 0: there is no block */
+    struct pass_light light; /* of the block */
 };
 
 /* Decides whether and how many light paths help to render a picture, unless it
- * is decided. The host has its tree. Returns PASS_CANCELLED after a cancel. */
+ * is decided, and whether light cells help if its world may have them. The host
+ * has its tree. Returns PASS_CANCELLED after a cancel. */
 enum pass_result light_block_decide(struct light_block *b,
                                     const struct backend_picture *picture,
                                     struct pool *pool,

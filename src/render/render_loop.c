@@ -248,10 +248,8 @@ static enum pass_result run_to(struct render *r, uint64_t target,
         struct pass pass =
             pass_plan_pass(*spp_done, target, stride, &r->films.adaptive);
 
-        if (r->begun_film == &r->films.film && r->films.light.end > 0) {
-            pass.light = r->films.light.means;
-            pass.light_version = r->films.light.end;
-        }
+        if (r->begun_film == &r->films.film && r->films.light.end > 0)
+            pass.light = &r->films.light.light;
         result = r->backend->pass(r->backend, &pass, &r->cancel, &r->error);
         if (result == PASS_DONE)
             note_first_picture(r);

@@ -70,6 +70,7 @@ struct engine_options options_engine(const struct options *o)
         .crop = o->crop,
         .seed = o->seed,
         .is_adaptive = options_adaptive(o),
+        .is_exact = o->gi == GI_EXACT,
         .wants_filter = o->denoise,
         .drops_tree = o->batch,
         .kernel = o->paths,

@@ -54,6 +54,9 @@ enum backend_choice {
     BACKEND_AUTO /* a GPU through OpenCL if there is one, else the CPU */
 };
 
+/* Light that is seen through glass: light_cells.h. */
+enum gi_kind { GI_CELLS, GI_EXACT };
+
 /* First word of the command line. */
 enum sub_command {
     COMMAND_RENDER, /* without a word: live mode or -b */
@@ -107,9 +110,10 @@ struct options {
     bool has_spp;
     double error_limit;         /* relative; 0: none */
     bool adaptive, no_adaptive; /* neither: options_adaptive() */
-    uint64_t time_ns;           /* limit of the time of rendering; 0: none */
-    int thread_count;           /* 0: all that the process may use */
-    int max_bounces;            /* -1: no limit */
+    enum gi_kind gi;
+    uint64_t time_ns; /* limit of the time of rendering; 0: none */
+    int thread_count; /* 0: all that the process may use */
+    int max_bounces;  /* -1: no limit */
     bool has_max_bounces;
     uint32_t seed;
     bool has_seed;

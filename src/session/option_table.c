@@ -546,6 +546,7 @@ static bool set_color(struct options *o, const struct option_given *g,
 
 /* ---- the table ---- */
 
+static const char *const gi_kinds[] = {"cells", "exact"};
 static const char *const backends[] = {"cpu", "opencl", "auto"};
 static const char *const themes[] = {"auto", "dark", "light", "plain"};
 
@@ -603,6 +604,10 @@ static const struct option_rule rules[] = {
      SCENES, FLAG(adaptive), CLEARS(no_adaptive)},
     {"no-adaptive", NULL, NULL, "the same number of samples in each pixel",
      SCENES, FLAG(no_adaptive), CLEARS(adaptive)},
+    {"gi", "KIND", "cells or exact",
+     "exact: no cells for light that lamps send through glass to what is seen "
+     "through glass, which blur it (default: cells)",
+     SCENES, WORDS(gi, gi_kinds, 2)},
     {"d", "BOUNCES", "a number of bounces",
      "most bounces of a path, 0 to 999 (default: from the view file, or "
      "no limit)",

@@ -191,8 +191,8 @@ void world_free(struct host_world *host);
 
 /* The arrays in the order of the struct, with their lengths for a world *w and
  * its settings *s. `nodes` and `leaf_tris` belong to the backend, which knows
- * their lengths. The table of the sky has its whole length, even if the view
- * does not use it. */
+ * their lengths, `light_grids` and `light_cells` to a pass. The table of the
+ * sky has its whole length, even if the view does not use it. */
 #define WORLD_LIST(X)                                                   \
     X(positions, s->position_count, WORLD_FIXED)                        \
     X(normals, s->normal_count, WORLD_FIXED)                            \
@@ -221,7 +221,9 @@ void world_free(struct host_world *host);
       WORLD_DIRECTIONAL_LIGHTS)                                         \
     X(profiles, s->profile_value_count, WORLD_LIGHTS)                   \
     X(caustic_nodes, s->caustic_node_count, WORLD_GUIDE)                \
-    X(caustic_lobes, s->caustic_lobe_count, WORLD_GUIDE)
+    X(caustic_lobes, s->caustic_lobe_count, WORLD_GUIDE)                \
+    X(light_grids, 0, WORLD_FIXED)                                      \
+    X(light_cells, 0, WORLD_FIXED)
 
 #define WORLD_LIST_NAME(name, count, part) WORLD_LIST_##name,
 enum world_list_index { WORLD_LIST(WORLD_LIST_NAME) WORLD_LIST_COUNT };

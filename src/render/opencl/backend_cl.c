@@ -543,15 +543,17 @@ static bool bind_light(struct backend_cl *b, const struct pass *pass,
 {
     const struct film *film = b->film.film;
     size_t pixels = (size_t)film->width * (size_t)film->height;
+    const struct pass_light *l = pass->light;
 
-    if (pass->light == NULL ||
-        (b->light != NULL && b->light_version == pass->light_version))
+    if (l == NULL || (b->light != NULL && b->light_version == l->version))
         return true;
     cl_machine_drop(&b->machine, &b->light);
-    b->light = cl_machine_buffer(&b->machine, pass->light,
-                                 6 * pixels * sizeof *pass->light, false, err);
-    b->light_version = pass->light_version;
-    return b->light != NULL;
+    b->light = cl_machine_buffer(&b->machine, l->pixels,
+                                 6 * pixels * sizeof *l->pixels, false, err);
+    b->light_version = l->version;
+    return b->light != NULL &&
+           (l->grids == NULL ||
+            cl_world_set_cells(&b->world, &b->machine, l, err));
 }
 
 /* Waits until a failed pass can no longer write to the host's memory. */

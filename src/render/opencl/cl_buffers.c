@@ -46,6 +46,15 @@ bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
     return true;
 }
 
+bool cl_world_set_cells(struct cl_world *c, const struct cl_machine *m,
+                        const struct pass_light *l, struct error *err)
+{
+    return upload(&c->buffers[CL_ARRAYS + WORLD_LIST_light_grids], m, l->grids,
+                  2 * sizeof *l->grids, false, err) &&
+           upload(&c->buffers[CL_ARRAYS + WORLD_LIST_light_cells], m, l->cells,
+                  l->cell_count * sizeof *l->cells, false, err);
+}
+
 void cl_world_free(struct cl_world *c, const struct cl_machine *m)
 {
     for (int i = 0; i < CL_BUFFER_COUNT; i++)

@@ -47,6 +47,10 @@ bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
                      const struct bvh *bvh, uint64_t *upload_count,
                      struct error *err);
 
+/* Uploads the light cells of a pass. */
+bool cl_world_set_cells(struct cl_world *c, const struct cl_machine *m,
+                        const struct pass_light *light, struct error *err);
+
 void cl_world_free(struct cl_world *c, const struct cl_machine *m);
 
 /* ---- film ---- */

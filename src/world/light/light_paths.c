@@ -11,6 +11,7 @@
 #include "kernels/attenuation.h"
 #include "kernels/camera.h"
 #include "kernels/light.h"
+#include "kernels/path_state.h"
 #include "kernels/rng.h"
 
 /* Key and dimensions of light paths. */
@@ -130,14 +131,14 @@ static void add_sources(struct building *b, const struct lights *lights,
  * get that cast, so that no lamp starves. */
 static bool choose_by(struct light_paths *p, struct building *b)
 {
-    const struct sampler s = {LIGHT_PATH_KEY, 0};
+    const struct sampler s = {LIGHT_PATH_KEY, 0, 0};
     double *irradiances = alloc_array(b->count, sizeof *irradiances);
     double power = 0, sum = 0;
 
     if (irradiances == NULL)
         return false;
     for (uint32_t k = 0; k < PLACES; k++) {
-        struct sampler at = {s.key, reverse_bits(k)};
+        struct sampler at = {s.key, reverse_bits(k), 0};
         struct vec3 place =
             tri_point(b->w,
                       triangle_cdf_choose(&p->casters, number_2d(at, 0).x),
@@ -272,6 +273,9 @@ void light_image_means(const struct light_image *image, uint64_t count,
 struct light_path {
     struct ray ray;
     struct sampler sampler;
+    uint32_t number; /* among those that are traced */
+    int half, worker;
+    uint32_t casts;   /* number of last vertices that cast */
     struct vec3 flux; /* over the density of the path so far */
     struct vec3 medium;
     uint32_t aim; /* triangle that it has to hit first */
@@ -435,13 +439,12 @@ struct tracing {
     const struct bvh8_world *w;
     uint64_t first;
     uint32_t count;
-    struct light_image *image;
+    struct light_film film;
 };
 
 /* Connects a vertex to the eye. The surface is that which the eye sees. */
 static void connect(const struct tracing *t, const struct light_path *p,
-                    const struct material *m, struct hit h, uint32_t vertex,
-                    int half)
+                    const struct material *m, struct hit h, uint32_t vertex)
 {
     const struct world *w = &t->w->world;
     struct placed_tri tri = tri_placed(w, h.tri);
@@ -481,7 +484,7 @@ static void connect(const struct tracing *t, const struct light_path *p,
     if (has_coverage(w))
         r.key = ray_key(p->sampler, LIGHT_PATH_DIMENSION + vertex);
     if (!hit_any(w, r, NO_INDEX))
-        add_light(t->image, half, (int)view.x, (int)view.y, f);
+        add_light(t->film.image, p->half, (int)view.x, (int)view.y, f);
 }
 
 /* Weighs a direction that was sampled with a density: by the BSDF as paths from
@@ -545,7 +548,20 @@ static bool scatter(const struct world *w, struct light_path *p,
     return true;
 }
 
-static void follow(const struct tracing *t, struct light_path *p, int half)
+/* Puts light into the cell of a vertex. */
+static void deposit(const struct tracing *t, const struct light_path *p,
+                    const struct surface_point *v, uint32_t vertex)
+{
+    float by_normals = v3_dot(p->ray.d, v->n) / v3_dot(p->ray.d, v->ng);
+    const struct light_deposit d = {.path = p->number,
+                                    .vertex = vertex,
+                                    .flux = v3_scale(p->flux, by_normals),
+                                    .d = v3_neg(p->ray.d)};
+
+    light_cells_add(t->film.cells, p->worker, p->half, v->p, v->ng, &d);
+}
+
+static void follow(const struct tracing *t, struct light_path *p)
 {
     const struct world *w = &t->w->world;
     uint32_t last = w->settings.max_vertices - 1;
@@ -567,8 +583,14 @@ static void follow(const struct tracing *t, struct light_path *p, int half)
         if (vertex == 1 && !v.is_outside)
             p->medium = m.attenuation;
         p->flux = attenuated(p->flux, p->medium, h.t);
-        if (m.role == ROLE_MATTE)
-            connect(t, p, &m, h, vertex, half);
+        p->casts = m.role == ROLE_CASTS ? p->casts + 1 : 0;
+        if (p->casts > LIGHT_PATH_CASTS_MAX)
+            return;
+        if (m.role == ROLE_MATTE) {
+            connect(t, p, &m, h, vertex);
+            if (t->film.cells != NULL)
+                deposit(t, p, &v, vertex);
+        }
         if (!scatter(w, p, &m, &v, h, vertex))
             return;
     }
@@ -585,27 +607,26 @@ static void trace_block(void *context, uint32_t item, int worker)
     uint32_t begin = item * BLOCK;
     uint32_t end = t->count - begin < BLOCK ? t->count : begin + BLOCK;
 
-    (void)worker;
     for (uint32_t i = begin; i < end; i++)
         for (int half = 0; half < 2; half++) {
             uint64_t number = t->first + i;
-            struct light_path p = {.aim = 0};
+            struct light_path p = {.number = i, .half = half, .worker = worker};
 
             p.sampler.key = hash_u32(w->settings.seed + LIGHT_PATH_KEY);
             p.sampler.key = hash_u32(p.sampler.key ^ (uint32_t)half);
             p.sampler.key = hash_u32(p.sampler.key ^ (uint32_t)(number >> 32));
             p.sampler.reversed_index = reverse_bits((uint32_t)number);
             if (path_leave(t->paths, w, &p))
-                follow(t, &p, half);
+                follow(t, &p);
         }
 }
 
 bool light_paths_trace(const struct light_paths *paths,
                        const struct bvh8_world *w, uint64_t first,
                        uint32_t count, struct pool *pool,
-                       const struct cancel *cancel, struct light_image *image)
+                       const struct cancel *cancel, struct light_film film)
 {
-    struct tracing t = {paths, w, first, count, image};
+    struct tracing t = {paths, w, first, count, film};
 
     return !(triangle_cdf_total(&paths->choice) > 0) ||
            pool_run(pool, (count + BLOCK - 1) / BLOCK, trace_block, &t, cancel);

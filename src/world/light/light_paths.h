@@ -25,6 +25,7 @@
 
 #include "base/thread_pool.h"
 #include "world/bvh/bvh8.h"
+#include "world/light/light_cells.h"
 #include "world/light/lights.h"
 #include "world/light/sky_spots.h"
 #include "kernels/sum.h"
@@ -63,13 +64,19 @@ bool light_image_init(struct light_image *image, int width, int height);
 void light_image_clear(struct light_image *image);
 void light_image_free(struct light_image *image);
 
+/* What light paths bring light to. */
+struct light_film {
+    struct light_image *image;
+    struct light_cells *cells; /* or NULL */
+};
+
 /* Traces light paths first to first + count - 1 of each half, and adds their
  * light. A path is a pure function of its number, its half and the seed.
  * Returns false after a cancel. */
 bool light_paths_trace(const struct light_paths *paths,
                        const struct bvh8_world *w, uint64_t first,
                        uint32_t count, struct pool *pool,
-                       const struct cancel *cancel, struct light_image *image);
+                       const struct cancel *cancel, struct light_film film);
 
 /* Writes the mean of `count` light paths of each half: 3 numbers for each pixel
  * of the first half, then those of the second. */

@@ -132,7 +132,7 @@ static double disc_power(const struct search *s, uint32_t i)
 
 static struct vec2 photon_2d(uint32_t photon, uint32_t vertex, uint32_t kind)
 {
-    struct sampler s = {PHOTON_KEY, reverse_bits(photon)};
+    struct sampler s = {PHOTON_KEY, reverse_bits(photon), 0};
 
     return random_2d(s, PHOTON_DIMENSION + PHOTON_STRIDE * vertex + kind);
 }

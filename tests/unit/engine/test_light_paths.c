@@ -202,6 +202,25 @@ static void write_globe(const char *globe)
     free(mtl);
 }
 
+static void append(const char *path, const char *text)
+{
+    FILE *f = fopen(path, "a");
+
+    assert_non_null(f);
+    fputs(text, f);
+    assert_int_equal(fclose(f), 0);
+}
+
+/* Puts a thin sheet between the eye and the box of write_globe(). Light cells
+ * want a high limit of bounces. */
+static void add_pane(void)
+{
+    append("s.mtl", "newmtl pane\n" SHEET "\n");
+    append("s.obj", "usemtl pane\nv -1 -1 1.5\nv 1 -1 1.5\nv 1 1 1.5\n"
+                    "v -1 1 1.5\nf -4 -3 -2 -1\n");
+    append("s.view", "max_bounces 40\n");
+}
+
 /* Checks that both have the same mean, within four standard errors of what the
  * seeds show. */
 static void check_same_means(void)
@@ -276,6 +295,31 @@ static void bright_skies_shine_through_sheets(void **state)
                 .002 * irradiance);
 }
 
+/* A sheet is between the eye and the floor as well: the eye sees what light
+ * cells have there. The floor is dark, so that what the sheet sends back to it
+ * is too little to count. */
+static void sheets_show_what_shines_through_them(void **state)
+{
+    double pass = 1 - sheet_reflectance(1);
+
+    (void)state;
+    write_floor(SHEET, 0, .2, "light point 0 2 0 intensity 10 10 10");
+    put("s.mtl", "newmtl grey\nKd .05 .05 .05\nnewmtl pane\n" SHEET "\n");
+    append("s.view", "max_bounces 40\n");
+    check_close(render(false, 4 * SPP_MANY, 3).all[0],
+                .05 / M_PI * 10 / 4 * pass * pass, 1e-4);
+}
+
+/* The globe, its room and a pane before the eye: all of it is seen through
+ * glass. */
+static void paths_from_the_eye_agree_behind_glass(void **state)
+{
+    (void)state;
+    write_globe("illum 7\nNi 1.5\nTf 1 1 1");
+    add_pane();
+    check_same_means();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -286,6 +330,8 @@ int main(void)
         cmocka_unit_test(suns_shine_through_sheets),
         cmocka_unit_test(paths_from_the_eye_agree),
         cmocka_unit_test(bright_skies_shine_through_sheets),
+        cmocka_unit_test(sheets_show_what_shines_through_them),
+        cmocka_unit_test(paths_from_the_eye_agree_behind_glass),
     };
 
     return cmocka_run_group_tests_name("light_paths", tests, enter_folder,

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+/*
+ * light_cells.h - cells of space with the light that light paths bring to matte
+ * surfaces, for what the eye sees through glass and in mirrors
+ *
+ * kernels/light_cells.h looks them up. Deposits are kept in the order of the
+ * threads, and sorted by cell, path and vertex before they are summed, so that
+ * threads do not change bits.
+ *
+ * Units:     normalised scene units
+ * Ownership: light_cells_free() frees; a zeroed struct has no cells
+ * Threads:   light_cells_add() by the threads of a pool, each with its number;
+ *            other functions by one
+ * Errors:    memory, by false
+ */
+#ifndef GLIM_LIGHT_CELLS_H
+#define GLIM_LIGHT_CELLS_H
+
+#include "base/thread_pool.h"
+#include "kernels/types.h"
+
+/* Light of a light path at a vertex. */
+struct light_deposit {
+    uint64_t key; /* of its cell */
+    uint32_t path, vertex;
+    struct vec3 flux;
+    struct vec3 d; /* to where it came from */
+};
+
+struct light_deposits {
+    struct light_deposit *items;
+    size_t count, capacity;
+    bool is_cut; /* memory was out */
+};
+
+struct light_cells {
+    struct light_grid grids[2]; /* of the halves */
+    struct light_cell *cells;   /* of both: slots */
+    size_t slot_count;
+    struct light_deposits *lists; /* of each thread and half */
+    int thread_count;
+};
+
+/* Makes empty grids for a camera. Key and seed choose their places; `pixels` is
+ * the width of the cells of each half in pixels. */
+bool light_cells_begin(struct light_cells *cells, const struct camera *camera,
+                       uint32_t key, const double pixels[2], int thread_count);
+
+/* Adds light at a point of a surface, whose unit normal ng is on its side. The
+ * deposit has all but its cell. */
+void light_cells_add(struct light_cells *cells, int thread, int half,
+                     struct vec3 p, struct vec3 ng,
+                     const struct light_deposit *deposit);
+
+/* Sums the cells, for the light of this number of paths of each half. */
+bool light_cells_end(struct light_cells *cells, uint64_t path_count,
+                     struct pool *pool);
+
+void light_cells_free(struct light_cells *cells);
+
+#endif
