@@ -43,6 +43,7 @@ try() # name, file, sed expression, test
     fi
     mv "$copy/$3.orig" "$copy/$3"
     touch "$copy/$3"
+    echo "$3" >>"$copy/build/mutated"
     return $status
 }
 
@@ -50,6 +51,11 @@ mkdir -p "$copy"
 # without files that are gone; times are kept, so that only changes are compiled
 find "$copy" -mindepth 1 -maxdepth 1 ! -name build -exec rm -r {} +
 git ls-files -z | tar --null -T - -c | tar -x -C "$copy"
+# files that were broken in the last run, whose objects are newer
+mkdir -p "$copy/build"
+if [ -f "$copy/build/mutated" ]; then
+    (cd "$copy" && xargs -r touch -c <build/mutated && rm build/mutated)
+fi
 while IFS='|' read -r name file change test; do
     case $name in
     '' | '#'*) continue ;;
