@@ -614,6 +614,90 @@ static bool complete_light(const struct scene *scene, struct host_world *host,
     return add_light(scene, host, view, err);
 }
 
+/* Sums over the faces of solid glass of an object. */
+struct glass_body {
+    uint32_t count;   /* of corners */
+    double middle[3]; /* of the corners: first their sum */
+    double volume;    /* six times it, by the winding, seen from the middle */
+    double area;      /* twice it */
+    double open[3];   /* vectors of the faces, which cancel in closed bodies */
+    double radius;    /* largest distance of a corner from the middle */
+};
+
+static void add_corners(const struct scene *scene, const struct tri *t,
+                        struct glass_body *b)
+{
+    for (int k = 0; k < 3; k++) {
+        struct vec3 p = scene->positions[t->v[k]];
+
+        b->middle[0] += (double)p.x;
+        b->middle[1] += (double)p.y;
+        b->middle[2] += (double)p.z;
+        b->count++;
+    }
+}
+
+static void add_glass_face(const struct scene *scene, const struct tri *t,
+                           struct glass_body *b)
+{
+    struct vec3 from =
+        v3((float)(b->middle[0] / b->count), (float)(b->middle[1] / b->count),
+           (float)(b->middle[2] / b->count));
+    struct vec3 p[3], across;
+
+    for (int k = 0; k < 3; k++) {
+        p[k] = v3_sub(scene->positions[t->v[k]], from);
+        b->radius = fmax(b->radius, (double)v3_length(p[k]));
+    }
+    across = v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0]));
+    b->volume += (double)v3_dot(p[0], across);
+    b->area += (double)v3_length(across);
+    b->open[0] += (double)across.x;
+    b->open[1] += (double)across.y;
+    b->open[2] += (double)across.z;
+}
+
+/* Least thickness of a body, as part of its radius. */
+#define BODY_MIN 1e-4
+
+/* True if the body has less than no volume, whatever closes its openings. */
+static bool is_inverted(const struct glass_body *b)
+{
+    double open = hypot(hypot(b->open[0], b->open[1]), b->open[2]);
+
+    return b->count > 0 && b->volume < -(open + BODY_MIN * b->area) * b->radius;
+}
+
+/* Says which bodies of glass are wound inwards: for light their inside is the
+ * air, and lamps hardly shine through. */
+static bool tell_inverted_glass(const struct scene *scene,
+                                const struct host_world *host,
+                                struct warnings *report, struct error *err)
+{
+    const struct tri *tris = world_tris(host, scene);
+    struct glass_body *bodies =
+        alloc_array(scene->object_count, sizeof *bodies);
+
+    if (bodies == NULL)
+        return fail(err, "%s: out of memory", scene->path);
+    for (int turn = 0; turn < 2; turn++)
+        for (uint32_t i = 0; i < scene->tri_count; i++)
+            if (host->materials[tris[i].material].kind == MATERIAL_GLASS)
+                (turn == 0 ? add_corners
+                           : add_glass_face)(scene, &tris[i],
+                                             &bodies[scene->tri_objects[i]]);
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        if (is_inverted(&bodies[i]))
+            warnings_add_named(report, "glass that is wound inwards",
+                               scene->object_names[i],
+                               "%s: found glass whose faces are wound inwards "
+                               "(object '%s'), so that light takes its inside "
+                               "for air: turn the faces around",
+                               scene->path, scene->object_names[i]);
+    free(bodies);
+    return true;
+}
+
 /* Adds a camera and light to scenes without them. */
 static bool complete_view(const struct scene *scene, struct host_world *host,
                           struct view *view, bool has_view_lamps,
@@ -705,7 +789,8 @@ bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
         !world_load_sky(host, view, report, err) ||
         !world_set_lamps(host, scene, view, err))
         return false;
-    return complete_view(scene, host, view, has_view_lamps, report, err) &&
+    return tell_inverted_glass(scene, host, report, err) &&
+           complete_view(scene, host, view, has_view_lamps, report, err) &&
            (!report->has_lost ||
             fail(err, "%s: out of memory for the warnings", options->path));
 }

@@ -9,9 +9,9 @@
  * mirrors gets it from light cells (kernels/light_cells.h) of the block. Blocks
  * double up to a number that depends on the size of the picture, so that none
  * keeps the screen waiting. The light of a block depends on nothing but the
- * world, the picture and the block. A small pilot of the whole picture, which is
- * the same for everybody who renders a part of it, tells whether light paths help
- * at equal time, and how many there should be.
+ * world, the picture and the block. A small pilot of the whole picture, which
+ * is the same for everybody who renders a part of it, tells whether light paths
+ * help at equal time, and how many there should be.
  *
  * Units:     samples of each pixel
  * Ownership: light_block_free() frees; a zeroed struct has no block
