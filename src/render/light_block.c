@@ -55,28 +55,33 @@
  * and beside light paths, and the squares; light of cells, of each half. */
 struct pilot_pixel {
     double whole, whole_square, rest, rest_square, cells[2];
+    bool is_done;
 };
 
 /* Worlds of the pilot: paths from the eye alone, beside light paths whose cells
  * are empty, and with their cells. */
 enum { WORLD_ALONE, WORLD_BESIDE, WORLD_CELLS, PILOT_WORLDS };
 
-struct pilot {
+struct light_pilot {
     const struct cpu_kernel *kernel;
     struct bvh8_world worlds[PILOT_WORLDS];
     struct light_cells cells, none;
+    struct light_image image;
+    bool has_paths; /* light paths have been traced */
     struct pilot_pixel pixels[PILOT_PIXELS];
 };
 
 static void pilot_pixel(void *context, uint32_t pixel, int worker)
 {
-    struct pilot *p = context;
+    struct light_pilot *p = context;
     struct pilot_pixel *to = &p->pixels[pixel];
     struct sample_id ids[PILOT_SPP];
     struct path_sample samples[PILOT_WORLDS][PILOT_SPP];
     struct first_surface surfaces[SAMPLE_BLOCK];
 
     (void)worker;
+    if (to->is_done)
+        return;
     for (uint32_t i = 0; i < PILOT_SPP; i++)
         ids[i] =
             (struct sample_id){pixel % PILOT_WIDTH, pixel / PILOT_WIDTH, i};
@@ -94,6 +99,7 @@ static void pilot_pixel(void *context, uint32_t pixel, int worker)
         to->rest_square += rest * rest;
         to->cells[i % 2] += color_mean(samples[WORLD_CELLS][i].radiance) - rest;
     }
+    to->is_done = true;
 }
 
 /* Returns the variance of a sample. */
@@ -103,8 +109,8 @@ static double variance_of(double sum, double square)
 }
 
 /* Returns the light that a half of the light paths brings to a pixel. */
-static double light_of(const struct pilot *p, const float *means, int half,
-                       int pixel)
+static double light_of(const struct light_pilot *p, const float *means,
+                       int half, int pixel)
 {
     const float *rgb = means + 3 * (half * PILOT_PIXELS + pixel);
 
@@ -112,7 +118,7 @@ static double light_of(const struct pilot *p, const float *means, int half,
            p->pixels[pixel].cells[half] / (PILOT_SPP / 2.);
 }
 
-static bool cells_help(const struct pilot *p)
+static bool cells_help(const struct light_pilot *p)
 {
     double light = 0;
 
@@ -123,7 +129,8 @@ static bool cells_help(const struct pilot *p)
 
 /* Chooses the number of light paths for each sample by the noise of both, each
  * relative to the light of its pixel. */
-static double choose(const struct pilot *p, const float *means, bool has_points)
+static double choose(const struct light_pilot *p, const float *means,
+                     bool has_points)
 {
     double light[PILOT_PIXELS], all = 0, brought = 0, found = 0, dark;
     double alone = 0, rest = 0, paths = 0, number;
@@ -221,34 +228,78 @@ static bool begin_cells(struct light_cells *cells, const struct world *w,
                              thread_count(pool));
 }
 
-/* Traces the light paths of the pilot, then its paths from the eye. */
-static enum pass_result run_pilot(struct pilot *p,
-                                  const struct backend_picture *picture,
-                                  struct light_image *image, bool has_cells,
-                                  struct pool *pool,
-                                  const struct cancel *cancel)
+static void pilot_free(struct light_pilot *p)
+{
+    if (p == NULL)
+        return;
+    light_cells_free(&p->cells);
+    light_cells_free(&p->none);
+    light_image_free(&p->image);
+    free(p);
+}
+
+/* Returns a pilot for a picture, or NULL when memory is out. */
+static struct light_pilot *pilot_begin(const struct backend_picture *picture)
+{
+    struct light_pilot *p = alloc_array(1, sizeof *p);
+    struct projection_part part = {.shown_width = PILOT_WIDTH,
+                                   .shown_height = PILOT_HEIGHT};
+    struct bvh8_world w = {*picture->world, world_tree(picture->host)};
+    struct camera *c = &w.world.settings.camera;
+
+    part.width = (int)c->width;
+    part.height = (int)c->height;
+    *c = projection_camera(c, &part);
+    if (p == NULL || !light_image_init(&p->image, PILOT_WIDTH, PILOT_HEIGHT)) {
+        pilot_free(p);
+        return NULL;
+    }
+    for (int i = 0; i < PILOT_WORLDS; i++)
+        p->worlds[i] = w;
+    return p;
+}
+
+/* Traces the light paths of the pilot. */
+static enum pass_result pilot_light(struct light_pilot *p,
+                                    const struct host_world *host,
+                                    bool has_cells, struct pool *pool,
+                                    const struct cancel *cancel)
 {
     const struct bvh8_world *w = &p->worlds[WORLD_ALONE];
-    struct light_film film = {image, has_cells ? &p->cells : NULL};
+    struct light_film film = {&p->image, has_cells ? &p->cells : NULL};
 
+    light_image_clear(&p->image);
     if (!begin_cells(&p->none, &w->world, 0, pool) ||
         !light_cells_end(&p->none, 1, pool) ||
         !begin_cells(&p->cells, &w->world, 0, pool))
         return PASS_FAILED;
-    if (!light_paths_trace(&picture->host->light_paths, w, 0, PILOT_PATHS, pool,
-                           cancel, film))
+    if (!light_paths_trace(&host->light_paths, w, 0, PILOT_PATHS, pool, cancel,
+                           film))
         return PASS_CANCELLED;
     if (!light_cells_end(&p->cells, PILOT_PATHS, pool))
         return PASS_FAILED;
     p->worlds[WORLD_BESIDE].world =
-        beside_paths(picture->host, &w->world, has_cells ? &p->none : NULL);
+        beside_paths(host, &w->world, has_cells ? &p->none : NULL);
     p->worlds[WORLD_CELLS].world =
-        beside_paths(picture->host, &w->world, has_cells ? &p->cells : NULL);
+        beside_paths(host, &w->world, has_cells ? &p->cells : NULL);
     p->kernel = cpu_kernel_fit(cpu_kernel_best(),
                                p->worlds[WORLD_CELLS].world.settings.features);
-    return pool_run(pool, PILOT_PIXELS, pilot_pixel, p, cancel)
-               ? PASS_DONE
-               : PASS_CANCELLED;
+    p->has_paths = true;
+    return PASS_DONE;
+}
+
+/* Takes the decision of the pilot. */
+static void take_pilot(struct light_block *b, bool has_cells)
+{
+    struct light_pilot *p = b->pilot;
+    float means[6 * PILOT_PIXELS];
+
+    light_image_means(&p->image, PILOT_PATHS, means);
+    b->paths = choose(p, means, has_points(&p->worlds[WORLD_ALONE].world));
+    b->has_cells = has_cells && cells_help(p);
+    b->is_decided = true;
+    pilot_free(p);
+    b->pilot = NULL;
 }
 
 enum pass_result light_block_decide(struct light_block *b,
@@ -257,47 +308,31 @@ enum pass_result light_block_decide(struct light_block *b,
                                     const struct cancel *cancel,
                                     struct error *err)
 {
-    struct light_image image = {.width = 0};
-    float means[6 * PILOT_PIXELS];
-    struct projection_part part = {.shown_width = PILOT_WIDTH,
-                                   .shown_height = PILOT_HEIGHT};
-    struct bvh8_world w = {*picture->world, world_tree(picture->host)};
-    struct camera *c = &w.world.settings.camera;
-    bool has_cells = w.world.settings.has_light_cells != 0 &&
-                     w.world.settings.max_vertices >= CELL_VERTICES_MIN;
-    enum pass_result result = PASS_FAILED;
-    struct pilot *p;
+    const struct settings *s = &picture->world->settings;
+    bool has_cells =
+        s->has_light_cells != 0 && s->max_vertices >= CELL_VERTICES_MIN;
+    enum pass_result result = PASS_DONE;
 
     if (b->is_decided)
         return PASS_DONE;
     b->paths = 0;
     b->has_cells = false;
-    if (picture->host->light_paths.sources == NULL || w.tree == NULL ||
-        !fits_memory(picture->film)) {
+    if (picture->host->light_paths.sources == NULL ||
+        world_tree(picture->host) == NULL || !fits_memory(picture->film)) {
         b->is_decided = true;
         return PASS_DONE;
     }
-    part.width = (int)c->width;
-    part.height = (int)c->height;
-    *c = projection_camera(c, &part);
-    p = alloc_array(1, sizeof *p);
-    if (p != NULL && light_image_init(&image, PILOT_WIDTH, PILOT_HEIGHT)) {
-        for (int i = 0; i < PILOT_WORLDS; i++)
-            p->worlds[i] = w;
-        result = run_pilot(p, picture, &image, has_cells, pool, cancel);
-    }
-    if (result == PASS_DONE) {
-        light_image_means(&image, PILOT_PATHS, means);
-        b->paths = choose(p, means, has_points(&w.world));
-        b->has_cells = has_cells && cells_help(p);
-        b->is_decided = true;
-    }
-    if (p != NULL) {
-        light_cells_free(&p->cells);
-        light_cells_free(&p->none);
-    }
-    light_image_free(&image);
-    free(p);
+    if (b->pilot == NULL)
+        b->pilot = pilot_begin(picture);
+    if (b->pilot == NULL)
+        result = PASS_FAILED;
+    else if (!b->pilot->has_paths)
+        result = pilot_light(b->pilot, picture->host, has_cells, pool, cancel);
+    if (result == PASS_DONE &&
+        !pool_run(pool, PILOT_PIXELS, pilot_pixel, b->pilot, cancel))
+        result = PASS_CANCELLED;
+    if (result == PASS_DONE)
+        take_pilot(b, has_cells);
     if (result == PASS_FAILED)
         fail(err, "out of memory for a pilot");
     return result;
@@ -418,12 +453,15 @@ enum pass_result light_block_find(struct light_block *b,
 
 void light_block_reset(struct light_block *b)
 {
+    pilot_free(b->pilot);
+    b->pilot = NULL;
     b->is_decided = false;
     b->end = 0;
 }
 
 void light_block_free(struct light_block *b)
 {
+    light_block_reset(b);
     light_image_free(&b->image);
     light_cells_free(&b->cells);
     free(b->means);

@@ -25,9 +25,10 @@
 #include "world/light/light_paths.h"
 
 struct light_block {
-    bool is_decided; /* of this picture: */
-    double paths;    /* light paths for each sample; 0: none */
-    bool has_cells;  /* light cells, for what the eye sees through glass */
+    struct light_pilot *pilot; /* in progress: a cancel loses little of it */
+    bool is_decided;           /* of this picture: */
+    double paths;              /* light paths for each sample; 0: none */
+    bool has_cells; /* light cells, for what the eye sees through glass */
     struct light_image image;
     struct light_cells cells;
     float *means;            /* of light_image_means() */

@@ -17,8 +17,11 @@
 
 /* Seeds, samples beside light paths, and without them. */
 #define SEEDS    6
-#define SPP      512
-#define SPP_MANY 1024
+#define SPP      256
+#define SPP_MANY 512
+
+/* Samples where closed forms are known. */
+#define SPP_CLOSED 2048
 
 /* Mean of the picture, of each channel. */
 struct means {
@@ -111,7 +114,7 @@ static void points_shine_through_sheets(void **state)
         char *lamp = xformat("light point %d 2 0 intensity 1 1 1", x);
 
         write_floor(SHEET, x / 2., 1, lamp);
-        check_close(render(false, 2 * SPP_MANY, 3).all[0],
+        check_close(render(false, SPP_CLOSED, 3).all[0],
                     .5 / M_PI * cosine / square *
                         (1 - sheet_reflectance(cosine)),
                     8e-4);
@@ -129,7 +132,7 @@ static void many_points_shine_through_sheets(void **state)
 
     (void)state;
     write_floor(SHEET, 0, 1, lamps);
-    check_close(render(false, 2 * SPP_MANY, 3).all[0],
+    check_close(render(false, SPP_CLOSED, 3).all[0],
                 .5 / M_PI / 4 * (1 - sheet_reflectance(1)), 8e-4);
     free(lamps);
 }
@@ -143,7 +146,7 @@ static void splats_are_right_off_the_axis(void **state)
                 "at .33564 0 0\nfovy 100\n"
                 "light point 0 2 0 intensity 1 1 1");
     check_close(
-        render_part((struct rect){2, 7, 1, 2}, false, 2 * SPP_MANY, 3).all[0],
+        render_part((struct rect){2, 7, 1, 2}, false, SPP_CLOSED, 3).all[0],
         .5 / M_PI / 4 * (1 - sheet_reflectance(1)), 3e-3);
 }
 
@@ -154,7 +157,7 @@ static void points_shine_by_mirrors(void **state)
     (void)state;
     write_floor("Kd .9 .9 .9\nPm 1\nPr 0", 2 / 3., 1,
                 "light spot 1 .5 0 at 1 1 0 intensity 1 1 1 inner 60 outer 80");
-    check_close(render(false, 2 * SPP_MANY, 3).all[0],
+    check_close(render(false, SPP_CLOSED, 3).all[0],
                 .5 / M_PI * .9 * (1.5 / sqrt(3.25)) / 3.25, 8e-4);
 }
 
@@ -164,7 +167,7 @@ static void suns_shine_through_sheets(void **state)
     (void)state;
     write_floor(SHEET, 0, .5,
                 "light directional 0 90 irradiance 3 3 3 angle 0");
-    check_close(render(false, 2 * SPP_MANY, 3).all[0],
+    check_close(render(false, SPP_CLOSED, 3).all[0],
                 .5 / M_PI * 3 * (1 - sheet_reflectance(1)), 9e-3);
 }
 
@@ -291,7 +294,7 @@ static void bright_skies_shine_through_sheets(void **state)
     }
     write_sky();
     write_floor(SHEET, 0, .15, "sky s.hdr\neye 0 .1 0\nfovy 40");
-    check_close(render(false, 2 * SPP_MANY, 3).all[0], .5 / M_PI * irradiance,
+    check_close(render(false, SPP_CLOSED, 3).all[0], .5 / M_PI * irradiance,
                 .002 * irradiance);
 }
 
@@ -306,7 +309,7 @@ static void sheets_show_what_shines_through_them(void **state)
     write_floor(SHEET, 0, .2, "light point 0 2 0 intensity 10 10 10");
     put("s.mtl", "newmtl grey\nKd .05 .05 .05\nnewmtl pane\n" SHEET "\n");
     append("s.view", "max_bounces 40\n");
-    check_close(render(false, 4 * SPP_MANY, 3).all[0],
+    check_close(render(false, 2 * SPP_CLOSED, 3).all[0],
                 .05 / M_PI * 10 / 4 * pass * pass, 1e-4);
 }
 

@@ -85,7 +85,8 @@
     S(settings) M(settings, camera) M(settings, sky)                          \
       M(settings, max_vertices) M(settings, seed) M(settings, features)       \
       M(settings, direct) M(settings, order) M(settings, sample)              \
-      M(settings, light_paths)                                                \
+      M(settings, light_paths) M(settings, has_light_cells)                   \
+      M(settings, sky_level)                                                  \
       M(settings, sky_share) M(settings, light_share)                         \
       M(settings, sky_power) M(settings, point_light_count)                   \
       M(settings, sphere_count) M(settings, directional_light_count)          \
@@ -115,6 +116,10 @@
       M(task, first) M(task, count)                                           \
       M(task, columns) M(task, stride) M(task, width) M(task, x0)             \
       M(task, y0) M(task, has_shares) M(task, light_pixels)                            \
+    S(light_grid) M(light_grid, eye) M(light_grid, offset)                    \
+      M(light_grid, facing) M(light_grid, distance_scale)                     \
+      M(light_grid, width) M(light_grid, first) M(light_grid, mask)           \
+    S(light_cell) M(light_cell, key) M(light_cell, flux) M(light_cell, d)     \
     S(camera_sample) M(camera_sample, ray) M(camera_sample, sampler)
 /* clang-format on */
 
