@@ -19,13 +19,14 @@
 #define PILOT_SPP    16
 #define PILOT_PATHS  2048
 
-/* Time of a light path in samples; measured 2 to 3. */
-#define PATH_COST 2.5
+/* Time of a ray of a light path in those of samples; measured 1 to 2. */
+#define LIGHT_RAY_COST 1.5
 
 /* Least and greatest number of light paths for each sample: powers of two, so
- * that chance in the pilot seldom changes it. */
+ * that chance in the pilot seldom changes it. The first sample of a pixel has
+ * at most one, so that the first picture does not wait. */
 #define PATHS_MIN (1.0 / 64)
-#define PATHS_MAX 1.0
+#define PATHS_MAX 4.0
 
 /* Width of the first light cells of the halves in pixels. */
 #define CELL_WIDE   2.4
@@ -55,6 +56,7 @@
  * and beside light paths, and the squares; light of cells, of each half. */
 struct pilot_pixel {
     double whole, whole_square, rest, rest_square, cells[2];
+    uint64_t rays; /* beside light paths */
     bool is_done;
 };
 
@@ -98,6 +100,7 @@ static void pilot_pixel(void *context, uint32_t pixel, int worker)
         to->rest += rest;
         to->rest_square += rest * rest;
         to->cells[i % 2] += color_mean(samples[WORLD_CELLS][i].radiance) - rest;
+        to->rays += samples[WORLD_BESIDE][i].rays;
     }
     to->is_done = true;
 }
@@ -133,7 +136,7 @@ static double choose(const struct light_pilot *p, const float *means,
                      bool has_points)
 {
     double light[PILOT_PIXELS], all = 0, brought = 0, found = 0, dark;
-    double alone = 0, rest = 0, paths = 0, number;
+    double alone = 0, rest = 0, paths = 0, rays = 0, cost, number;
 
     for (int i = 0; i < PILOT_PIXELS; i++) {
         light[i] = (light_of(p, means, 0, i) + light_of(p, means, 1, i)) / 2;
@@ -141,7 +144,10 @@ static double choose(const struct light_pilot *p, const float *means,
         found += (p->pixels[i].whole - p->pixels[i].rest) / PILOT_SPP;
         light[i] += p->pixels[i].rest / PILOT_SPP;
         all += light[i];
+        rays += (double)p->pixels[i].rays;
     }
+    cost = LIGHT_RAY_COST * (double)p->image.rays / (2.0 * PILOT_PATHS) /
+           fmax(rays / (PILOT_PIXELS * PILOT_SPP), 1);
     dark = 0.01 * (all / PILOT_PIXELS) * (all / PILOT_PIXELS);
     for (int i = 0; i < PILOT_PIXELS; i++) {
         const struct pilot_pixel *x = &p->pixels[i];
@@ -160,9 +166,9 @@ static double choose(const struct light_pilot *p, const float *means,
         return PATHS_UNSEEN;
     if (!(brought > SHARE_MIN * all))
         return 0;
-    number = sqrt(paths / (PATH_COST * fmax(rest, 1e-30)));
+    number = sqrt(paths / (cost * fmax(rest, 1e-30)));
     if (found > FOUND_MIN * brought &&
-        !(pow(sqrt(rest) + sqrt(PATH_COST * paths), 2) < alone))
+        !(pow(sqrt(rest) + sqrt(cost * paths), 2) < alone))
         return 0;
     return fmin(fmax(exp2(rint(log2(number))), PATHS_MIN), PATHS_MAX);
 }
@@ -390,9 +396,11 @@ static uint64_t block_begin(const struct camera *c, uint64_t sample)
 static uint64_t paths_before(const struct light_block *b,
                              const struct camera *c, uint64_t sample)
 {
-    return (uint64_t)(0.5 * b->paths * (double)c->width * (double)c->height) *
-               sample +
-           sample;
+    double pixels = (double)c->width * (double)c->height;
+    uint64_t first = (uint64_t)(0.5 * fmin(b->paths, 1) * pixels) + 1;
+    uint64_t each = (uint64_t)(0.5 * b->paths * pixels) + 1;
+
+    return sample == 0 ? 0 : first + each * (sample - 1);
 }
 
 static bool resize(struct light_block *b, const struct film *f,

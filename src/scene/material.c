@@ -457,33 +457,37 @@ static void check_map(const struct material_values *s, enum mtl_map which,
                      at->path, mtl_maps[which].keys[0]);
 }
 
-/* Greatest roughness of materials that cast, and least one of highlights on
- * matte ones: a narrow highlight that a light path meets by chance is a speck.
- */
-#define CASTS_ALPHA_MAX 0.1f
-#define MATTE_ALPHA_MIN 0.3f
+/* Greatest roughness of materials that cast, and least one of matte metals and
+ * of highlights on matte surfaces: a narrow highlight that a light path meets
+ * by chance is a speck. */
+#define CASTS_ALPHA_MAX     0.1f
+#define METAL_ALPHA_MIN     0.2f
+#define HIGHLIGHT_ALPHA_MIN 0.3f
 
 /* True if a highlight is wide, or a delta, which light paths do not see. */
 static bool is_wide(float alpha, uint32_t texture)
 {
     return alpha < ALPHA_SMOOTH ||
-           (alpha >= MATTE_ALPHA_MIN && texture == NO_INDEX);
+           (alpha >= HIGHLIGHT_ALPHA_MIN && texture == NO_INDEX);
 }
 
 static enum material_role role_of(const struct material *m)
 {
     bool is_clear = m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS;
+    bool is_matte = is_wide(m->alpha, m->alpha_texture) &&
+                    is_wide(m->coat_alpha, m->coat_alpha_texture);
 
     if (m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_ROUGH_DIFFUSE)
         return ROLE_MATTE;
     if (is_clear || m->kind == MATERIAL_METAL ||
         (m->kind == MATERIAL_PRINCIPLED &&
-         m->metalness + m->transmission >= 0.5f))
-        return m->alpha < CASTS_ALPHA_MAX ? ROLE_CASTS : ROLE_NONE;
-    return is_wide(m->alpha, m->alpha_texture) &&
-                   is_wide(m->coat_alpha, m->coat_alpha_texture)
-               ? ROLE_MATTE
-               : ROLE_NONE;
+         m->metalness + m->transmission >= 0.5f)) {
+        if (m->alpha < CASTS_ALPHA_MAX)
+            return ROLE_CASTS;
+        is_matte = m->kind == MATERIAL_METAL && m->alpha >= METAL_ALPHA_MIN &&
+                   m->alpha_texture == NO_INDEX;
+    }
+    return is_matte ? ROLE_MATTE : ROLE_NONE;
 }
 
 struct material material_from_source(const struct material_values *source,

@@ -227,6 +227,7 @@ void light_image_clear(struct light_image *image)
 
     for (int h = 0; h < 2; h++)
         memset(image->sums[h], 0, 3 * pixels * sizeof(struct sum));
+    atomic_init(&image->rays, 0);
 }
 
 void light_image_free(struct light_image *image)
@@ -274,6 +275,7 @@ struct light_path {
     struct ray ray;
     struct sampler sampler;
     uint32_t number; /* among those that are traced */
+    uint32_t rays;   /* number of rays that were traced for it */
     int half, worker;
     uint32_t casts;   /* number of last vertices that cast */
     struct vec3 flux; /* over the density of the path so far */
@@ -443,7 +445,7 @@ struct tracing {
 };
 
 /* Connects a vertex to the eye. The surface is that which the eye sees. */
-static void connect(const struct tracing *t, const struct light_path *p,
+static void connect(const struct tracing *t, struct light_path *p,
                     const struct material *m, struct hit h, uint32_t vertex)
 {
     const struct world *w = &t->w->world;
@@ -483,6 +485,7 @@ static void connect(const struct tracing *t, const struct light_path *p,
     r.from = v.face;
     if (has_coverage(w))
         r.key = ray_key(p->sampler, LIGHT_PATH_DIMENSION + vertex);
+    p->rays++;
     if (!hit_any(w, r, NO_INDEX))
         add_light(t->film.image, p->half, (int)view.x, (int)view.y, f);
 }
@@ -572,6 +575,7 @@ static void follow(const struct tracing *t, struct light_path *p)
         struct surface_point v = {0};
         struct hit h;
 
+        p->rays++;
         p->ray.t_max = FLOAT_MAX;
         if (has_coverage(w))
             p->ray.key = ray_key(p->sampler, vertex);
@@ -606,6 +610,7 @@ static void trace_block(void *context, uint32_t item, int worker)
     const struct world *w = &t->w->world;
     uint32_t begin = item * BLOCK;
     uint32_t end = t->count - begin < BLOCK ? t->count : begin + BLOCK;
+    uint64_t rays = 0;
 
     for (uint32_t i = begin; i < end; i++)
         for (int half = 0; half < 2; half++) {
@@ -618,7 +623,9 @@ static void trace_block(void *context, uint32_t item, int worker)
             p.sampler.reversed_index = reverse_bits((uint32_t)number);
             if (path_leave(t->paths, w, &p))
                 follow(t, &p);
+            rays += p.rays;
         }
+    atomic_fetch_add_explicit(&t->film.image->rays, rays, memory_order_relaxed);
 }
 
 bool light_paths_trace(const struct light_paths *paths,

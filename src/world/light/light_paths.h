@@ -22,6 +22,7 @@
 #define GLIM_LIGHT_PATHS_H
 
 #include <pthread.h>
+#include <stdatomic.h>
 
 #include "base/thread_pool.h"
 #include "world/bvh/bvh8.h"
@@ -58,6 +59,7 @@ struct light_image {
     int width, height, x0, y0;
     struct sum *sums[2];       /* 3 for each pixel */
     pthread_mutex_t locks[64]; /* of rows */
+    _Atomic uint64_t rays;     /* number of rays that were traced */
 };
 
 bool light_image_init(struct light_image *image, int width, int height);
