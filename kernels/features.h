@@ -31,7 +31,6 @@ enum feature {
     FEATURE_ATTENUATION = 262144, /* solids that absorb light: attenuation.h */
     FEATURE_VERTEX_COLORS = 524288,
     FEATURE_ROUGH_SHEETS = 1048576, /* rough thin glass */
-    FEATURE_CAUSTICS = 2097152,     /* of lamps: caustic_lobes.h */
     FEATURE_THIN_FILM = 4194304,    /* iridescence: thin_film.h */
     FEATURE_INSTANCES = 8388608,    /* instance.h */
     /* texture_flag beyond TEXTURE_CLAMP, channels, maps of rare parameters */
@@ -39,10 +38,10 @@ enum feature {
     FEATURE_VERTEX_ALPHAS = 33554432,
     FEATURE_TANGENTS = 67108864,      /* tangents of vertices */
     FEATURE_COAT_NORMALS = 134217728, /* coats over bumps, or with a map */
-    FEATURE_LIGHT_PATHS = 268435456   /* settings.light_paths */
+    FEATURE_LIGHT_PATHS = 2097152     /* settings.has_light_paths */
 };
 
-#define FEATURES_ALL 536870911u
+#define FEATURES_ALL 268435455u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

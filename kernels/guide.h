@@ -2,9 +2,9 @@
 /*
  * guide.h - path guiding: directions of light that is hard to find
  *
- * src/world/light/path_guide.c has traced rays for light that BSDF and light
- * samples rarely find: caustics, and the sky through windows. Each cell of a
- * grid over the scene has tables of how much arrives from each of GUIDE_BINS
+ * src/world/light/path_guide.c has traced rays for the sky through windows,
+ * which BSDF and light samples rarely find. Each cell of a grid over the scene
+ * has tables of how much arrives from each of GUIDE_BINS
  * directions (Jensen 1995, "Importance driven path tracing using the photon
  * map"). At a diffuse surface a direction is sampled from the cell's table with
  * a fixed probability, the table's share, and otherwise from the BSDF or the
@@ -13,10 +13,9 @@
  * so that any table is unbiased, and a good one has less variance.
  *
  * There are two tables. Light samples are guided to the sky that they can
- * reach; paths are guided to the rest only, caustics and the sky behind panes
- * of glass. A path that is guided to a window has left the room, and one that
- * is not counts 1 / (1 - share) times as much at each vertex, which adds up in
- * a white room.
+ * reach; paths are guided to the rest only, the sky behind panes of glass. A
+ * path that is guided to a window has left the room, and one that is not counts
+ * 1 / (1 - share) times as much at each vertex, which adds up in a white room.
  *
  * Bins are squares of an octahedral map, whose Jacobian needs no trigonometry:
  * the octahedron |x| + |y| + |z| = 1 projected along y, with the solid angle dw
@@ -28,9 +27,6 @@
 #define KERNELS_GUIDE_H
 
 #include "kernels/surface_point.h"
-
-/* Roughness below which metal and glass count as casters of caustics. */
-#define GUIDE_ALPHA_MAX 0.3f
 
 /* True if the BSDF is diffuse enough for guiding. */
 static inline bool guide_helps(const struct bsdf *b)

@@ -23,7 +23,6 @@
 
 #include "kernels/aov.h"
 #include "kernels/camera.h"
-#include "kernels/caustic_lobes.h"
 #include "kernels/light_cells.h"
 #include "kernels/path_lights.h"
 
@@ -36,15 +35,8 @@ static inline bool path_scatter(const struct world *w, struct path *p,
 {
     struct bsdf_sample s;
     struct vec3 wi;
-    uint32_t caustics = NO_INDEX;
 
-    if (HAS(FEATURE_CAUSTICS) && guide_helps(b) && !path_begins_matte(p))
-        caustics = caustic_leaf_at(w, v->p, v->ng);
-    if (HAS(FEATURE_CAUSTICS) && caustics != NO_INDEX) {
-        if (!caustic_scatter(w, caustics, p->cell.scatter, v, b, wo, direction,
-                             choice, &s, &wi, &p->scale))
-            return false;
-    } else if (HAS(FEATURE_GUIDE) && p->cell.scatter != NO_INDEX) {
+    if (HAS(FEATURE_GUIDE) && p->cell.scatter != NO_INDEX) {
         if (!guide_scatter(w, p->cell.scatter, v, b, wo, direction, choice, &s,
                            &wi, &p->scale))
             return false;
@@ -127,7 +119,7 @@ static inline bool path_meet_role(const struct world *w, struct path *p,
     bool has_cells = false;
 
     if (p->is_chain && m->role == ROLE_MATTE &&
-        w->settings.light_paths != LIGHT_PATHS_NONE) {
+        w->settings.has_light_paths != 0) {
         has_cells = vertex > 1 && w->settings.has_light_cells != 0;
         p->drops = vertex == 1 || has_cells;
     }
@@ -203,9 +195,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
     p->from.n = v.n;
     p->from.transmits = bsdf_transmits(&b);
     p->cell = guide_cell_none();
-    if (HAS(FEATURE_GUIDE) && guide_helps(&b) &&
-        !(path_begins_matte(p) &&
-          w->settings.light_paths == LIGHT_PATHS_UNGUIDED))
+    if (HAS(FEATURE_GUIDE) && guide_helps(&b))
         p->cell = guide_at(w, v.p, v.ng);
     /* Sample a light. Its shadow ray is traced after the next direction was
      * sampled, on which it does not depend: 3 to 6 % less time. */

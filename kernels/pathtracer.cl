@@ -33,8 +33,6 @@ __kernel void trace_paths(
     __global const struct point_light *point_lights,
     __global const struct directional_light *directional_lights,
     __global const float *profiles,
-    __global const struct caustic_node *caustic_nodes,
-    __global const struct caustic_lobe *caustic_lobes,
     __global const struct light_grid *light_grids,
     __global const struct light_cell *light_cells)
 {
@@ -70,8 +68,6 @@ __kernel void trace_paths(
                           point_lights,
                           directional_lights,
                           profiles,
-                          caustic_nodes,
-                          caustic_lobes,
                           light_grids,
                           light_cells};
 

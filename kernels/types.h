@@ -311,27 +311,6 @@ struct guide_cell {
     uint32_t sky;     /* directions for light samples of the sky */
 };
 
-/* A node of the k-d tree of caustics; see kernels/caustic_lobes.h. The first
- * GUIDE_FACINGS nodes are roots, one for each class of normals. The two lowest
- * bits of `next` are the axis of the split, and the others the lower child,
- * which the upper one follows; in a leaf they are 3 and the first lobe. */
-struct caustic_node {
-    float split;   /* of a leaf: the probability to sample its lobes */
-    uint32_t next; /* NO_INDEX: a leaf without lobes */
-};
-
-/* A density on the plane axis.q = height near a caster. Seen from p, it is that
- * of the numbers u.(q - p) + du.p + u0 and the same with v. */
-struct caustic_lobe {
-    struct vec3 axis; /* unit vector, away from the places that are lit */
-    float height;
-    struct vec3 u, v; /* on the plane */
-    struct vec3 du, dv;
-    float u0, v0;
-    float scale; /* 1 / pi of the area on which the two numbers change by 1 */
-    float sum;   /* probability of the leaf's lobes up to and with this one */
-};
-
 /* A grid of light_cells.h. */
 struct light_grid {
     struct vec3 eye;
@@ -385,25 +364,19 @@ enum order {
 #define PATH_HARD_STOP 1000u
 
 /* The part of struct world that is not arrays. */
-/* Whether light paths bring the light whose last surface before the lamp casts,
- * and whose first one from the eye is matte. Paths from the eye then leave it
- * out. */
-enum light_path_use {
-    LIGHT_PATHS_NONE,
-    LIGHT_PATHS_GUIDED,  /* the path guide knows other light as well */
-    LIGHT_PATHS_UNGUIDED /* paths that leave it out need no path guide */
-};
-
 struct settings {
     struct camera camera;
     struct sky sky;
     uint32_t max_vertices; /* surface vertices of a path, emitter included */
     uint32_t seed;
-    uint32_t features;        /* enum feature, or-ed */
-    uint32_t direct;          /* enum direct */
-    uint32_t order;           /* enum order */
-    uint32_t sample;          /* enum sample_kind */
-    uint32_t light_paths;     /* enum light_path_use; FEATURE_LIGHT_PATHS */
+    uint32_t features; /* enum feature, or-ed */
+    uint32_t direct;   /* enum direct */
+    uint32_t order;    /* enum order */
+    uint32_t sample;   /* enum sample_kind */
+    /* 1: light paths bring the light whose last surface before the lamp casts,
+     * and whose first one from the eye is matte. Paths from the eye then leave
+     * it out; FEATURE_LIGHT_PATHS */
+    uint32_t has_light_paths;
     uint32_t has_light_cells; /* light_cells.h: paths that begin with surfaces
                                  that cast leave that light out as well */
     float sky_level; /* of sky_below(): light paths bring what exceeds it */
@@ -436,8 +409,6 @@ struct settings {
     uint32_t profile_value_count;
 
     struct guide_grid guide;
-    uint32_t caustic_node_count;
-    uint32_t caustic_lobe_count;
 };
 
 /* The data that a sample reads, and nothing more. nodes and leaf_tris belong to
@@ -469,8 +440,6 @@ struct world {
     GLOBAL const struct point_light *point_lights;
     GLOBAL const struct directional_light *directional_lights;
     GLOBAL const float *profiles; /* of point lights, row by row */
-    GLOBAL const struct caustic_node *caustic_nodes;
-    GLOBAL const struct caustic_lobe *caustic_lobes;
     GLOBAL const struct light_grid *light_grids; /* of the two halves */
     GLOBAL const struct light_cell *light_cells; /* of both grids */
 };

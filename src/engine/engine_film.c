@@ -48,8 +48,6 @@ static const enum film_part film_parts[WORLD_LIST_COUNT] = {
     [WORLD_LIST_point_lights] = FILM_LIGHT,
     [WORLD_LIST_directional_lights] = FILM_LIGHT,
     [WORLD_LIST_profiles] = FILM_LIGHT,
-    [WORLD_LIST_caustic_nodes] = FILM_GUIDE,
-    [WORLD_LIST_caustic_lobes] = FILM_GUIDE,
 };
 
 static void add(uint64_t *hash, const void *bytes, size_t size)

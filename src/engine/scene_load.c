@@ -82,7 +82,7 @@ static float *light_of_paths(struct probe_job *j, const struct host_world *host,
         light_image_means(&image, PROBE_PATHS, means);
         for (size_t i = 0; i < 3 * pixels; i++)
             means[i] = 0.5f * (means[i] + means[3 * pixels + i]);
-        j->w.world.settings.light_paths = LIGHT_PATHS_GUIDED;
+        j->w.world.settings.has_light_paths = 1;
         j->w.world.settings.sky_level = paths.spots.level;
         j->w.world.settings.features |= FEATURE_LIGHT_PATHS;
     }

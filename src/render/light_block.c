@@ -197,15 +197,12 @@ static bool fits_memory(const struct film *f)
            cgroup_quota_memory("").size_bytes / 2;
 }
 
-static struct world beside_paths(const struct host_world *host,
-                                 const struct world *world,
+static struct world beside_paths(const struct world *world,
                                  const struct light_cells *cells)
 {
     struct world w = *world;
 
-    w.settings.light_paths = host->guide.portals.glazed.flux != NULL
-                                 ? LIGHT_PATHS_GUIDED
-                                 : LIGHT_PATHS_UNGUIDED;
+    w.settings.has_light_paths = 1;
     w.settings.features |= FEATURE_LIGHT_PATHS;
     w.settings.has_light_cells = cells != NULL;
     if (cells != NULL) {
@@ -285,9 +282,9 @@ static enum pass_result pilot_light(struct light_pilot *p,
     if (!light_cells_end(&p->cells, PILOT_PATHS, pool))
         return PASS_FAILED;
     p->worlds[WORLD_BESIDE].world =
-        beside_paths(host, &w->world, has_cells ? &p->none : NULL);
+        beside_paths(&w->world, has_cells ? &p->none : NULL);
     p->worlds[WORLD_CELLS].world =
-        beside_paths(host, &w->world, has_cells ? &p->cells : NULL);
+        beside_paths(&w->world, has_cells ? &p->cells : NULL);
     p->kernel = cpu_kernel_fit(cpu_kernel_best(),
                                p->worlds[WORLD_CELLS].world.settings.features);
     p->has_paths = true;
@@ -345,12 +342,10 @@ enum pass_result light_block_decide(struct light_block *b,
 }
 
 struct world light_block_world(const struct light_block *b,
-                               const struct host_world *host,
                                const struct world *world)
 {
-    return b->paths > 0
-               ? beside_paths(host, world, b->has_cells ? &b->cells : NULL)
-               : *world;
+    return b->paths > 0 ? beside_paths(world, b->has_cells ? &b->cells : NULL)
+                        : *world;
 }
 
 /* ---- blocks ---- */

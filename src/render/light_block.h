@@ -48,7 +48,6 @@ enum pass_result light_block_decide(struct light_block *b,
 /* Returns the world whose paths from the eye leave out what light paths bring.
  */
 struct world light_block_world(const struct light_block *b,
-                               const struct host_world *host,
                                const struct world *world);
 
 /* Returns the end of the block of a sample of the camera's picture. */

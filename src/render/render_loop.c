@@ -528,7 +528,7 @@ static enum pass_result run_film(struct render *r)
     if (r->backend->takes_light)
         result = light_block_decide(&r->films.light, &picture, r->backend->pool,
                                     &r->cancel, &r->error);
-    world = light_block_world(&r->films.light, r->job.host, &r->job.world);
+    world = light_block_world(&r->films.light, &r->job.world);
     if (result == PASS_DONE)
         result = begin(r, &world, &r->films.film, r->job.crop.x, r->job.crop.y);
     if (result == PASS_DONE) /* a halt may have come between pass and error */

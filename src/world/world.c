@@ -305,8 +305,6 @@ uint32_t world_features(const struct host_world *host)
 
     if (host->guide.grid.table_count > 0)
         features |= FEATURE_GUIDE;
-    if (host->guide.lamps.node_count > 0)
-        features |= FEATURE_CAUSTICS;
     if (host->point_light_count > 0)
         features |= FEATURE_POINT_LIGHTS;
     if (host->directional_light_count > 0)

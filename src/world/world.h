@@ -220,8 +220,6 @@ void world_free(struct host_world *host);
     X(directional_lights, s->directional_light_count,                   \
       WORLD_DIRECTIONAL_LIGHTS)                                         \
     X(profiles, s->profile_value_count, WORLD_LIGHTS)                   \
-    X(caustic_nodes, s->caustic_node_count, WORLD_GUIDE)                \
-    X(caustic_lobes, s->caustic_lobe_count, WORLD_GUIDE)                \
     X(light_grids, 0, WORLD_FIXED)                                      \
     X(light_cells, 0, WORLD_FIXED)
 

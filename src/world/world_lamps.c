@@ -285,7 +285,6 @@ static void set_directions(struct host_world *host, struct made *m)
     host->directional_light_count = m->direction_count;
     m->directions = NULL; /* the world owns it now */
     world_renew(host, WORLD_DIRECTIONAL_LIGHTS);
-    path_guide_outdate_lamps(&host->guide);
 }
 
 bool world_set_lamps(struct host_world *host, const struct scene *scene,

@@ -106,9 +106,11 @@ static bool make_job(const struct scene *scene, struct host_world *host,
     view.pose.fovy_deg = 75;
     view.lighting.background[0] = view.lighting.background[1] =
         view.lighting.background[2] = 0.5;
-    ok = ((features & FEATURE_GUIDE) == 0 ||
-          world_guide(host, scene, &view, err)) &&
-         world_lend(host, scene, &view, 1, &job->world, err);
+    ok =
+        (features & FEATURE_GUIDE) == 0 || world_guide(host, scene, &view, err);
+    if ((features & FEATURE_LIGHT_PATHS) == 0)
+        light_paths_free(&host->light_paths);
+    ok = ok && world_lend(host, scene, &view, 1, &job->world, err);
     view_free(&view);
     return ok;
 }

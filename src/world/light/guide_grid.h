@@ -3,8 +3,8 @@
  * guide_grid.h - the path guide's grid over the scene, and flux found in it
  *
  * The grid divides the box around the scene into cubes, of GUIDE_FACINGS cells
- * each. A guide_flux has one kind of light, such as caustics, that a search has
- * found in the cells. path_guide.c makes the table of directions of it.
+ * each. A guide_flux has one kind of light, such as the open sky, that a search
+ * has found in the cells. path_guide.c makes the table of directions of it.
  *
  * Units:     normalised scene units; flux in any unit, as only ratios count
  * Ownership: guide_flux_free() frees; a zeroed struct has not been searched for

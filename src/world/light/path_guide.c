@@ -11,14 +11,8 @@
 #include "world/bvh/bvh8.h"
 #include "world/light/guide_grid.h"
 #include "world/light/lights.h"
-#include "world/light/photons.h"
-#include "world/light/triangle_cdf.h"
 #include "kernels/guide.h"
 #include "kernels/light.h"
-
-/* Share of the table for caustics, at most; half of it where caustics are as
- * bright as other light. */
-#define SHARE_CAUSTICS 0.5
 
 /* Share of the table for paths to the sky behind panes of glass. A share of 1/2
  * leaves up to a third more error in rooms of albedo .8 and more, and as much
@@ -30,9 +24,7 @@
  * smaller than a bin. */
 #define SHARE_SKY 0.5
 
-/* Least share of a cell's light for which the cell gets a table. For caustics
- * on two balls this leaves out half of the cells, for 3 % more error and 7 %
- * less time. */
+/* Least share of a cell's light for which the cell gets a table. */
 #define PART_MIN 0.1
 
 /* The tables while they are made. */
@@ -42,113 +34,24 @@ struct table {
     uint32_t count;
 };
 
-/* ---- caustics ---- */
-
-/*
- * Their flux is added up on the next two diffuse surfaces: those that have the
- * caustic, and those that it lights. Measured for a glass ball and a gold one:
- * 20 ms of one thread, and .66 times the error.
- */
-
-/* Number of photons, of which about half arrive. On two balls four times as
- * many leave 8 % less error, but the first picture has to wait for them. */
-#define PHOTONS 16384u
-
-/* Diffuse surfaces on which a photon is stored. */
-#define LANDINGS 2u
-
-/* Light of other kinds, as a part of the mean irradiance by all lights on the
- * box around the scene. Caustics of this size get half of their share. On two
- * balls twice as much leaves 4 % more error. */
-#define REST 0.25
-
-/* Sets the light of other kinds in the unit of the photons' flux. */
-static void fill_rest(const struct photons *p, const struct guide_grid *grid,
-                      double box, struct guide_flux *caustics)
-{
-    double cell = 1 / (double)grid->cells_per_unit;
-    double rest =
-        REST * 2 * M_PI * PHOTONS / p->caster_area * cell * cell / box;
-
-    for (uint32_t i = 0; i < guide_cell_count(grid); i++)
-        caustics->rest[i] = (float)rest;
-}
-
-/* Traces photons and adds their flux to `caustics`. `box` is the surface area
- * of the box around the scene. */
-static bool caustics_find(const struct bvh8_world *w,
-                          const struct lights *lights,
-                          const struct guide_grid *grid, double box,
-                          struct pool *pool, struct guide_flux *caustics)
-{
-    struct photons p = {.landings = NULL};
-    const struct photon_plan plan = {PHOTONS_OF_TRIANGLES, PHOTONS, LANDINGS,
-                                     box};
-    bool ok = photons_trace(w, lights, &plan, pool, &p);
-
-    for (uint32_t i = 0; ok && i < p.landing_count; i++) {
-        const struct landing *l = &p.landings[i];
-
-        if (l->flux > 0.0f)
-            caustics
-                ->flux[guide_cell_index(grid, l->p, l->n) * (size_t)GUIDE_BINS +
-                       guide_bin(l->wi)] += l->flux;
-    }
-    if (ok && p.caster_area > 0)
-        fill_rest(&p, grid, box, caustics);
-    photons_free(&p);
-    return ok;
-}
-
-/* ---- the fluxes ---- */
-
-static bool wants_caustics(const struct path_guide *g, const struct world *w)
-{
-    return g->caustics.flux == NULL &&
-           photons_possible(w, PHOTONS_OF_TRIANGLES);
-}
-
-static bool wants_lamps(const struct path_guide *g, const struct world *w)
-{
-    return !g->has_lamps && photons_possible(w, PHOTONS_OF_LAMPS);
-}
+/* ---- the search ---- */
 
 static bool wants_portals(const struct path_guide *g, double sky)
 {
     return g->portals.open.flux == NULL && sky > 0;
 }
 
-static bool find_parts(struct path_guide *g, const struct bvh8_world *w,
-                       const struct lights *lights, double sky,
-                       struct pool *pool)
+static bool find_portals(struct path_guide *g, const struct bvh8_world *w,
+                         const struct lights *lights, double sky,
+                         struct pool *pool)
 {
-    bool has_caustics = wants_caustics(g, &w->world);
-    bool has_portals = wants_portals(g, sky);
     double box, overlap;
 
-    if (!has_caustics && !has_portals)
+    if (!wants_portals(g, sky))
         return true;
     box = guide_grid_init(&g->grid, &w->world, &overlap);
     g->lights = 2 * lights_power(lights) / box;
-    return (!has_caustics ||
-            (guide_flux_init(&g->caustics, &g->grid) &&
-             caustics_find(w, lights, &g->grid, box, pool, &g->caustics))) &&
-           (!has_portals ||
-            sky_portals_find(w, &g->grid, overlap, pool, &g->portals));
-}
-
-/* Searches for caustics of lamps, or frees the tables if there can be none. */
-static bool update_lamps(struct path_guide *g, const struct bvh8_world *w,
-                         const struct lights *lights, struct pool *pool)
-{
-    if (g->has_lamps)
-        return true;
-    if (!wants_lamps(g, &w->world))
-        caustic_lobes_free(&g->lamps);
-    else if (!caustic_lobes_build(&g->lamps, w, lights, pool))
-        return false;
-    g->has_lamps = true;
-    return true;
+    return sky_portals_find(w, &g->grid, overlap, pool, &g->portals);
 }
 
 /* ---- the table ---- */
@@ -183,27 +86,16 @@ static double other_light(const struct path_guide *g, uint32_t cell,
 static uint32_t add_scatter_table(struct table *t, const struct path_guide *g,
                                   uint32_t cell, const struct other *o)
 {
-    const struct guide_flux *fluxes[2] = {&g->caustics, &g->portals.glazed};
-    const double most[2] = {SHARE_CAUSTICS, SHARE_GLAZED};
-    double totals[2] = {0, 0}, shares[2] = {0, 0};
-    double scale;
-    float *sums;
+    const struct guide_flux *glazed = &g->portals.glazed;
+    double total, part;
 
-    for (int i = 0; i < 2; i++)
-        if (fluxes[i]->flux != NULL) {
-            double other = i == 0 ? 0 : other_light(g, cell, o), part;
-
-            totals[i] = guide_flux_total(fluxes[i], cell);
-            part = guide_flux_share(fluxes[i], cell, totals[i], other);
-            shares[i] = part < PART_MIN ? 0 : most[i] * part;
-        }
-    if (shares[0] + shares[1] == 0)
+    if (glazed->flux == NULL)
         return NO_INDEX;
-    /* the shares as if one table were asked after the other */
-    scale = 1 - shares[0] * shares[1] / (shares[0] + shares[1]);
-    sums = next_sums(t);
-    for (int i = 0; i < 2; i++)
-        guide_flux_add_cdf(fluxes[i], cell, totals[i], scale * shares[i], sums);
+    total = guide_flux_total(glazed, cell);
+    part = guide_flux_share(glazed, cell, total, other_light(g, cell, o));
+    if (part < PART_MIN)
+        return NO_INDEX;
+    guide_flux_add_cdf(glazed, cell, total, SHARE_GLAZED * part, next_sums(t));
     return take_sums(t);
 }
 
@@ -276,15 +168,13 @@ static bool update(struct path_guide *g, const struct bvh8_world *w,
 {
     struct table t = {.cells = NULL};
 
-    if (w->world.settings.tri_count > 0) {
-        struct other o = {.lights = INFINITY};
+    if (w->world.settings.tri_count > 0 && sky > 0) {
+        struct other o;
 
-        if (!find_parts(g, w, lights, sky, pool) ||
-            !update_lamps(g, w, lights, pool))
+        if (!find_portals(g, w, lights, sky, pool))
             return false;
-        if (sky > 0)
-            o = (struct other){g->lights / sky,
-                               sky_portals_bounces(&g->portals, &w->world)};
+        o = (struct other){g->lights / sky,
+                           sky_portals_bounces(&g->portals, &w->world)};
         if (!make_table(g, &o, &t)) {
             free(t.cells);
             free(t.sums);
@@ -297,7 +187,7 @@ static bool update(struct path_guide *g, const struct bvh8_world *w,
 
 bool path_guide_has_tables(const struct path_guide *g)
 {
-    return g->cells != NULL || g->lamps.nodes != NULL;
+    return g->cells != NULL;
 }
 
 bool path_guide_is_current(const struct path_guide *g, double sky)
@@ -309,7 +199,7 @@ bool path_guide_needs_rays(const struct path_guide *g, const struct world *w,
                            double sky)
 {
     return !path_guide_is_current(g, sky) && w->settings.tri_count > 0 &&
-           (wants_caustics(g, w) || wants_lamps(g, w) || wants_portals(g, sky));
+           wants_portals(g, sky);
 }
 
 bool path_guide_update(struct path_guide *g, const struct bvh8_world *w,
@@ -329,14 +219,7 @@ bool path_guide_update(struct path_guide *g, const struct bvh8_world *w,
 
 void path_guide_outdate(struct path_guide *g)
 {
-    guide_flux_free(&g->caustics);
     sky_portals_free(&g->portals);
-    path_guide_outdate_lamps(g);
-}
-
-void path_guide_outdate_lamps(struct path_guide *g)
-{
-    g->has_lamps = false;
     g->is_current = false;
 }
 
@@ -345,9 +228,17 @@ void path_guide_recolor(struct path_guide *g)
     g->is_current = g->is_current && g->portals.open.flux == NULL;
 }
 
+/* A material without its colours, which the rays of the search do not see. */
+static struct material without_colors(struct material m)
+{
+    m.color = m.specular = v3(1.0f, 1.0f, 1.0f);
+    m.color_texture = m.specular_texture = NO_INDEX;
+    return m;
+}
+
 bool path_guides_differ(const struct material *a, const struct material *b)
 {
-    struct material x = photons_material(*a), y = photons_material(*b);
+    struct material x = without_colors(*a), y = without_colors(*b);
 
     return memcmp(&x, &y, sizeof x) != 0;
 }
@@ -359,7 +250,6 @@ void path_guide_lend(const struct path_guide *g, struct world *world)
         world->settings.guide = g->grid;
     world->guide_cells = g->cells;
     world->guide_cdf = g->sums;
-    caustic_lobes_lend(&g->lamps, world);
 }
 
 void path_guide_free(struct path_guide *g)
@@ -367,6 +257,5 @@ void path_guide_free(struct path_guide *g)
     path_guide_outdate(g);
     free(g->cells);
     free(g->sums);
-    caustic_lobes_free(&g->lamps);
     *g = (struct path_guide){.cells = NULL};
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * path_guide.h - the path guide: tables of directions of light that is hard to
- * find
+ * path_guide.h - the path guide: tables of directions to the sky that is seen
+ * through portals (sky_portals.h)
  *
- * Caustics (caustic_lobes.h), and the sky that is seen through portals
- * (sky_portals.h). kernels/guide.h samples the tables and weights the samples,
+ * kernels/guide.h samples the tables and weights the samples,
  * so that errors of the tables cost time but add no bias. The guide depends on
  * the scene and its sky, not on the camera.
  *
@@ -20,7 +19,6 @@
 #include <stdbool.h>
 
 #include "base/error.h"
-#include "world/light/caustic_lobes.h"
 #include "world/light/lights.h"
 #include "world/light/sky_portals.h"
 
@@ -28,13 +26,9 @@ struct path_guide {
     struct guide_cell *cells; /* see kernels/guide.h; NULL if there are none */
     float *sums;
     struct guide_grid grid;
-    /* flux of which the tables are made */
-    struct guide_flux caustics; /* flux is NULL before a search */
-    struct sky_portals portals;
+    struct sky_portals portals; /* of which the tables are made */
     double lights; /* mean irradiance by all lights on the box / pi */
     double sky;    /* mean radiance of the sky for which cells are */
-    struct caustic_lobes lamps; /* caustics of lamps */
-    bool has_lamps;             /* they have been searched for */
     bool is_current;
 };
 
@@ -60,9 +54,6 @@ bool path_guide_update(struct path_guide *guide, const struct bvh8_world *world,
 
 /* Call this when the world has changed in geometry or in how rays scatter. */
 void path_guide_outdate(struct path_guide *guide);
-
-/* Call this when only directional lights have changed. */
-void path_guide_outdate_lamps(struct path_guide *guide);
 
 /* Call this when only colours have changed. */
 void path_guide_recolor(struct path_guide *guide);

@@ -85,7 +85,7 @@
     S(settings) M(settings, camera) M(settings, sky)                          \
       M(settings, max_vertices) M(settings, seed) M(settings, features)       \
       M(settings, direct) M(settings, order) M(settings, sample)              \
-      M(settings, light_paths) M(settings, has_light_cells)                   \
+      M(settings, has_light_paths) M(settings, has_light_cells)                   \
       M(settings, sky_level)                                                  \
       M(settings, sky_share) M(settings, light_share)                         \
       M(settings, sky_power) M(settings, point_light_count)                   \
@@ -99,13 +99,7 @@
       M(settings, material_count) M(settings, texture_count)                  \
       M(settings, texel_count) M(settings, light_count)                       \
       M(settings, light_node_count) M(settings, sky_cdf_count)                \
-      M(settings, guide) M(settings, caustic_node_count)                      \
-      M(settings, caustic_lobe_count)                                         \
-    S(caustic_node) M(caustic_node, split) M(caustic_node, next)              \
-    S(caustic_lobe) M(caustic_lobe, axis) M(caustic_lobe, height)             \
-      M(caustic_lobe, u) M(caustic_lobe, v) M(caustic_lobe, du)               \
-      M(caustic_lobe, dv) M(caustic_lobe, u0) M(caustic_lobe, v0)             \
-      M(caustic_lobe, scale) M(caustic_lobe, sum)                             \
+      M(settings, guide)                                                        \
     S(ray) M(ray, o) M(ray, d) M(ray, t_max) M(ray, key) M(ray, from)         \
     S(path_sample) M(path_sample, radiance) M(path_sample, rays)              \
       M(path_sample, cut)                                                     \

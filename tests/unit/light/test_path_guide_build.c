@@ -1,30 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_path_guide_build.c - the guide built for a scene: it leads to where
- * caustics come from and to windows, and exists only where it helps
+ * test_path_guide_build.c - the guide built for a scene: it leads to windows,
+ * and exists only where it helps
  */
 #include "tests/unit/light/guide_lookup.h"
 #include "tests/unit/truth.h"
 #include "world/light/path_guide.h"
 #include "world/light/triangle_cdf.h"
-
-/* Makes a small lamp beside a wall of this kind, above a floor. */
-static void make_lamp_and_wall(struct lit_mesh *s, enum material_kind kind)
-{
-    *s = (struct lit_mesh){.mesh = {.positions = NULL}};
-    s->mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
-    s->mesh.materials[1] = mesh_material((uint32_t)kind, .9f);
-    s->mesh.materials[2] = mesh_material(MATERIAL_DIFFUSE, 0);
-    s->mesh.materials[2].emission = v3(9, 9, 9);
-    mesh_add_quad(&s->mesh, v3(-.5f, 0, -.5f), v3(-.5f, 0, .5f),
-                  v3(.5f, 0, .5f), v3(.5f, 0, -.5f), 0);
-    mesh_add_quad(&s->mesh, v3(-.5f, 0, -.5f), v3(-.5f, 0, .5f),
-                  v3(-.5f, .9f, .5f), v3(-.5f, .9f, -.5f), 1);
-    mesh_add_quad(&s->mesh, v3(-.4f, .4f, -.02f), v3(-.4f, .4f, .02f),
-                  v3(-.36f, .42f, .02f), v3(-.36f, .42f, -.02f), 2);
-    lit_mesh_finish(s);
-    lights_lend(&s->lights, &s->mesh.world);
-}
 
 /* Returns the lights that the world uses. */
 static const struct lights *lent_lights(const struct lit_mesh *s)
@@ -42,73 +24,6 @@ static void build_guide(struct lit_mesh *s, float sky, struct path_guide *g)
     check_or_say(path_guide_update(g, &s->mesh.wide_world, lent_lights(s),
                                    (double)sky, NULL, &err),
                  err.text);
-}
-
-/* On the floor, light reflected by the mirror comes from the lamp's image. */
-static void mirrors_guide_to_the_lamp_s_image(void **state)
-{
-    struct vec3 image = {-.62f, .41f, 0};
-    struct path_guide g = {.cells = NULL};
-    struct lit_mesh s;
-    int found = 0;
-
-    (void)state;
-    make_lamp_and_wall(&s, MATERIAL_METAL);
-    s.mesh.materials[1].alpha = 0;
-    build_guide(&s, 0, &g);
-    path_guide_lend(&g, &s.mesh.world);
-    for (float x = -.4f; x < .45f; x += .1f) {
-        struct vec3 p = v3(x, 0, 0);
-        uint32_t cell = scatter_table_at(&s.mesh.world, p, v3(0, 1, 0));
-        struct vec3 d = v3_unit(v3_sub(image, p));
-        double sure = 0;
-        uint64_t random = 1;
-
-        if (cell == NO_INDEX)
-            continue;
-        for (int i = 0; i < 1000; i++) {
-            float u = (float)check_random(&random) * .999f *
-                      guide_share(&s.mesh.world, cell);
-            struct vec3 way = guide_sample(&s.mesh.world, cell,
-                                           v2(u, (float)check_random(&random)));
-
-            /* A bin is .25 wide, and a cell of .1 subtends less. */
-            sure += v3_dot(way, d) > cosf(.35f) ? .001 : 0;
-        }
-        check_at_most(.9, sure);
-        found++;
-    }
-    assert_true(found >= 6);
-    path_guide_free(&g);
-    lit_mesh_free(&s);
-}
-
-static void tables_exist_only_with_caustics(void **state)
-{
-    struct path_guide g = {.cells = NULL}, again = {.cells = NULL};
-    struct lit_mesh s;
-    size_t count;
-
-    (void)state;
-    make_lamp_and_wall(&s, MATERIAL_DIFFUSE);
-    build_guide(&s, 0, &g);
-    assert_true(g.cells == NULL && g.sums == NULL);
-    s.mesh.materials[1] = mesh_material(MATERIAL_METAL, .9f);
-    s.mesh.materials[1].alpha = 1;
-    build_guide(&s, 0, &g);
-    assert_null(g.cells);
-    s.mesh.materials[1].alpha = 0;
-    build_guide(&s, 0, &g);
-    build_guide(&s, 0, &again);
-    count = (size_t)g.grid.table_count * GUIDE_BINS;
-    assert_true(count > 0);
-    assert_memory_equal(&g.grid, &again.grid, sizeof g.grid);
-    assert_memory_equal(g.sums, again.sums, count * sizeof *g.sums);
-    s.mesh.world.settings.light_count = 0;
-    build_guide(&s, 0, &g);
-    assert_null(g.cells);
-    path_guide_free(&again);
-    lit_mesh_free(&s);
 }
 
 /* The room is [-1, 1]^3. Its wall at x = -1 has a window with these ranges of y
@@ -364,7 +279,6 @@ static void tables_exist_only_where_the_sky_is_hidden(void **state)
     lit_mesh_free(&s);
 }
 
-/* Tables for caustics and for windows have the same bits. */
 static void thread_counts_give_the_same_tables(void **state)
 {
     struct error err;
@@ -372,19 +286,15 @@ static void thread_counts_give_the_same_tables(void **state)
 
     (void)state;
     assert_non_null(pool);
-    for (int sky = 0; sky < 2; sky++) {
+    for (int has_pane = 0; has_pane < 2; has_pane++) {
         struct path_guide alone = {.cells = NULL}, together = {.cells = NULL};
         struct lit_mesh s;
 
-        if (sky == 1) {
-            make_room(&s, false);
-            lit_mesh_finish(&s);
-        } else {
-            make_lamp_and_wall(&s, MATERIAL_METAL);
-        }
-        build_guide(&s, (float)sky, &alone);
+        make_room(&s, has_pane);
+        lit_mesh_finish(&s);
+        build_guide(&s, 1, &alone);
         check_or_say(path_guide_update(&together, &s.mesh.wide_world,
-                                       lent_lights(&s), sky, pool, &err),
+                                       lent_lights(&s), 1, pool, &err),
                      err.text);
         assert_non_null(alone.cells);
         assert_int_equal(alone.grid.table_count, together.grid.table_count);
@@ -405,8 +315,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(thread_counts_give_the_same_tables),
-        cmocka_unit_test(mirrors_guide_to_the_lamp_s_image),
-        cmocka_unit_test(tables_exist_only_with_caustics),
         cmocka_unit_test(guided_directions_lead_to_the_window),
         cmocka_unit_test(white_rooms_are_guided_less),
         cmocka_unit_test(guided_rooms_keep_the_mean),
