@@ -5,6 +5,7 @@
  * A test compares the output with the files in the repository, so scenes are
  * changed here only. The first comment of each OBJ file describes the scene.
  */
+#include "glasses.h"
 #include "images.h"
 #include "mesh.h"
 #include "models.h"
@@ -23,19 +24,6 @@ static const char *folder;
 static struct point at(double x, double y, double z)
 {
     return (struct point){x, y, z};
-}
-
-static void write_text(const char *name, const char *ending, const char *text)
-{
-    char path[4096];
-    FILE *file;
-
-    snprintf(path, sizeof path, "%s/%s.%s", folder, name, ending);
-    file = fopen(path, "w");
-    if (!file || fputs(text, file) == EOF || fclose(file) != 0) {
-        fprintf(stderr, "%s: %s\n", path, strerror(errno));
-        exit(1);
-    }
 }
 
 /* --- cornell: box data of Cornell University Program of Computer Graphics
@@ -105,12 +93,12 @@ static void make_cornell(void)
     cornell_part(&m, "short_block", "white", 9, 5);
     cornell_part(&m, "tall_block", "white", 14, 5);
     mesh_close(&m);
-    write_text("cornell", "mtl",
+    write_text(folder, "cornell", "mtl",
                "newmtl white\nKd .725 .71 .68\nillum 1\n"
                "newmtl red\nKd .63 .065 .05\nillum 1\n"
                "newmtl green\nKd .14 .45 .091\nillum 1\n"
                "newmtl light\nKd .78 .78 .78\nKe 17 12 4\nillum 1\n");
-    write_text("cornell", "view",
+    write_text(folder, "cornell", "view",
                "eye 278 273 -800\nat 278 273 0\nup 0 1 0\nfovy 39.3077\n"
                "res 600 600\nexposure 1\n");
 }
@@ -143,7 +131,7 @@ static void make_materials(void)
         mesh_sphere(&m, at(-3.5 + 1.75 * i, .8001, -1.2), .8, SEGMENTS);
     }
     mesh_close(&m);
-    write_text("materials", "mtl",
+    write_text(folder, "materials", "mtl",
                "newmtl tiles\nKd 1 1 1\nmap_Kd tiles.png\nillum 1\n"
                "newmtl wall\nKd .55 .58 .62\nillum 1\n"
                "newmtl lamp\nKd 0 0 0\nKe 5 4.8 4.4\nillum 1\n"
@@ -157,7 +145,7 @@ static void make_materials(void)
                "newmtl frosted\nKd 0 0 0\nillum 7\nNi 1.5\nPr .35\n"
                "newmtl bottle\nKd 0 0 0\nillum 7\nNi 1.5\nTf .6 .9 .7\n"
                "newmtl glow\nKd 0 0 0\nKe 1.2 .65 .22\nillum 1\n");
-    write_text("materials", "view",
+    write_text(folder, "materials", "view",
                "eye 0 3.2 8\nat 0 .7 -.2\nup 0 1 0\nfovy 34\nres 1024 576\n"
                "background .25 .3 .4\n");
 }
@@ -217,7 +205,7 @@ static void make_glass_mirror(void)
     mesh_box(&m, at(1.25, .0005, .3), at(.5, 1.2, .5), 30);
     mesh_close(&m);
     write_text(
-        "glass_mirror", "mtl",
+        folder, "glass_mirror", "mtl",
         "newmtl tiles\nKd 1 1 1\nmap_Kd tiles.png\nillum 1\n"
         "newmtl white\nKd .75 .74 .72\nillum 1\n"
         "newmtl orange\nKd .72 .36 .14\nillum 1\n"
@@ -228,7 +216,7 @@ static void make_glass_mirror(void)
         "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
         "newmtl frosted\nKd 0 0 0\nillum 7\nNi 1.5\nPr .3\n"
         "newmtl green_glass\nKd 0 0 0\nillum 7\nNi 1.5\nTf .65 .95 .8\n");
-    write_text("glass_mirror", "view",
+    write_text(folder, "glass_mirror", "view",
                "eye .2 1.5 5.6\nat 0 1.05 -.5\nup 0 1 0\nfovy 34\n"
                "res 1024 576\n");
 }
@@ -317,7 +305,7 @@ static void make_interior(void)
     mesh_object(&m, "lamp_cord", "black");
     mesh_box(&m, at(3.6, 2.5, 2.4), at(.015, .5, .015), 0);
     mesh_close(&m);
-    write_text("interior", "mtl",
+    write_text(folder, "interior", "mtl",
                "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
                "newmtl paper\nKd 1 1 1\nmap_Kd paper.png\nillum 1\n"
                "newmtl rug\nKd 1 1 1\nmap_Kd rug.png\nillum 1\n"
@@ -329,7 +317,7 @@ static void make_interior(void)
                "newmtl brass\nKd .91 .78 .42\nPm 1\nPr .4\n"
                "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
                "newmtl lamp\nKd 0 0 0\nKe 9 6.5 3.6\nillum 1\n");
-    write_text("interior", "view",
+    write_text(folder, "interior", "view",
                "eye 4.5 1.65 5.7\nat 2.2 1.1 1.2\nup 0 1 0\nfovy 46\n"
                "res 1024 576\nbackground 5 6 7.5\n");
 }
@@ -369,7 +357,7 @@ static void make_skylit(void)
     mesh_object(&m, "tall_box", "blue");
     mesh_box(&m, at(2.2, .1205, -1.4), at(.8, 2.2, .8), -20);
     mesh_close(&m);
-    write_text("skylit", "mtl",
+    write_text(folder, "skylit", "mtl",
                "newmtl ground\nKd .36 .40 .26\nillum 1\n"
                "newmtl tiles\nKd 1 1 1\nmap_Kd tiles.png\nillum 1\n"
                "newmtl ivory\nKd .82 .78 .68\nillum 1\n"
@@ -378,7 +366,7 @@ static void make_skylit(void)
                "newmtl gold\nKd 1 .78 .34\nPm 1\nPr .3\n"
                "newmtl mirror\nKd .95 .95 .95\nPm 1\nPr 0\n"
                "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n");
-    write_text("skylit", "view",
+    write_text(folder, "skylit", "view",
                "eye -1.2 2.3 7.4\nat .15 .75 0\nup 0 1 0\nfovy 36\n"
                "res 1024 576\nsky sky.hdr\nsky_strength 1\nsky_rotation 0\n"
                "exposure -.5\n");
@@ -434,7 +422,7 @@ static void make_lights200(void)
         mesh_sphere(&m, at(x, y, z), .05 + .07 * u, 1);
     }
     mesh_close(&m);
-    write_text("lights200", "mtl",
+    write_text(folder, "lights200", "mtl",
                "newmtl floor\nKd .62 .62 .60\nillum 1\n"
                "newmtl stone\nKd .58 .54 .48\nillum 1\n"
                "newmtl warm_a\nKd 0 0 0\nKe 10 8 5\n"
@@ -449,7 +437,7 @@ static void make_lights200(void)
                "newmtl cyan_a\nKd 0 0 0\nKe 2 8 10\n"
                "newmtl cyan_b\nKd 0 0 0\nKe 12 48 60\n"
                "newmtl cyan_c\nKd 0 0 0\nKe 60 240 300\n");
-    write_text("lights200", "view",
+    write_text(folder, "lights200", "view",
                "eye 2 6.5 17\nat 0 .6 0\nup 0 1 0\nfovy 38\nres 1024 576\n"
                "background .04 .05 .08\n");
 }
@@ -495,121 +483,35 @@ static void make_principled(void)
         mesh_sphere(&m, at(1.3 * (column - 2), .5501, 1.5 * (row - 2)), .55, 6);
     }
     mesh_close(&m);
-    write_text("principled", "mtl", mtl);
-    write_text("principled", "view",
+    write_text(folder, "principled", "mtl", mtl);
+    write_text(folder, "principled", "view",
                "eye 0 6.5 8.5\nat 0 .2 0\nup 0 1 0\nfovy 36\nres 1024 768\n"
                "background .5 .55 .6\n");
 }
 
 /* --- glTF ----------------------------------------------------------------- */
 
-/* --- globe ---------------------------------------------------------------- */
-
-#define GLOBE_ARC 24
-
-/* A globe of glass with an opening at the top, around the middle. */
-static void glass_globe(struct mesh *m, struct point middle, double radius,
-                        double thickness)
-{
-    double profile[2 * GLOBE_ARC][2];
-
-    for (int i = 0; i < GLOBE_ARC; i++) {
-        double turn = 165 * M_PI / 180 * i / (GLOBE_ARC - 1);
-        double inner = radius - thickness;
-        int back = 2 * GLOBE_ARC - 1 - i;
-
-        profile[i][0] = radius * sin(turn);
-        profile[i][1] = -radius * cos(turn);
-        profile[back][0] = inner * sin(turn);
-        profile[back][1] = -inner * cos(turn);
-    }
-    mesh_lathe(m, middle, (const double(*)[2])profile, 2 * GLOBE_ARC, 64);
-}
-
-static void globe_room(struct mesh *m)
-{
-    mesh_object(m, "floor", "planks");
-    mesh_quad(m, at(-2.5, 0, 3), at(2.5, 0, 3), at(2.5, 0, -1.6),
-              at(-2.5, 0, -1.6), 2.5, 2.3);
-    mesh_object(m, "walls", "plaster");
-    mesh_quad(m, at(-2.5, 0, -1.6), at(2.5, 0, -1.6), at(2.5, 2.6, -1.6),
-              at(-2.5, 2.6, -1.6), 1, 1);
-    mesh_quad(m, at(-2.5, 2.6, -1.6), at(2.5, 2.6, -1.6), at(2.5, 2.6, 3),
-              at(-2.5, 2.6, 3), 1, 1);
-    mesh_quad(m, at(-2.5, 0, 3), at(-2.5, 0, -1.6), at(-2.5, 2.6, -1.6),
-              at(-2.5, 2.6, 3), 1, 1);
-    mesh_quad(m, at(2.5, 0, -1.6), at(2.5, 0, 3), at(2.5, 2.6, 3),
-              at(2.5, 2.6, -1.6), 1, 1);
-    mesh_object(m, "table", "wood");
-    mesh_box(m, at(0, .72, 0), at(2, .04, 1.1), 0);
-    for (int i = 0; i < 4; i++)
-        mesh_box(m, at(i % 2 ? .9 : -.9, 0, i / 2 ? .45 : -.45),
-                 at(.06, .72, .06), 0);
-}
-
-static void make_globe(void)
-{
-    static const double tumbler[][2] = {{0, 0},      {.045, 0},  {.05, .01},
-                                        {.055, .15}, {.05, .15}, {.046, .02},
-                                        {0, .018}};
-    struct mesh m = mesh_open(folder, "globe",
-                              "A lamp in a globe of glass, the only light: a "
-                              "path from the eye hardly finds it.");
-
-    globe_room(&m);
-    mesh_object(&m, "globe", "glass");
-    glass_globe(&m, at(-.1, 1.0002, -.05), .22, .012);
-    mesh_object(&m, "lamp", "lamp");
-    mesh_sphere(&m, at(-.1, 1, -.05), .03, 8);
-    mesh_object(&m, "rod", "brass");
-    mesh_box(&m, at(-.1, 1.03, -.05), at(.012, 1.57, .012), 0);
-    mesh_object(&m, "stand", "brass");
-    mesh_box(&m, at(-.1, .7601, -.05), at(.16, .02, .16), 0);
-    mesh_object(&m, "tumbler", "glass");
-    mesh_lathe(&m, at(.45, .7605, .2), tumbler, COUNT(tumbler), 48);
-    mesh_object(&m, "books", "red");
-    mesh_box(&m, at(-.6, .7601, .1), at(.3, .05, .22), 20);
-    mesh_object(&m, "book", "blue");
-    mesh_box(&m, at(-.59, .8102, .1), at(.27, .04, .2), 5);
-    mesh_object(&m, "egg", "plaster");
-    mesh_sphere(&m, at(.2, .8202, .32), .06, SEGMENTS);
-    mesh_close(&m);
-    write_text("globe", "mtl",
-               "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
-               "newmtl plaster\nKd .74 .7 .64\nillum 1\n"
-               "newmtl wood\nKd .36 .22 .12\nillum 1\n"
-               "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
-               "newmtl lamp\nKd 0 0 0\nKe 260 190 110\nillum 1\n"
-               "newmtl brass\nKd .85 .62 .3\nPm 1\nPr .5\n"
-               "newmtl red\nKd .5 .1 .08\nillum 1\n"
-               "newmtl blue\nKd .1 .18 .4\nillum 1\n");
-    write_text("globe", "view",
-               "eye .55 1.42 2.1\nat -.05 .93 0\nup 0 1 0\nfovy 36\n"
-               "background 0 0 0\n"
-               "res 1024 640\nexposure .7\ntone aces\n");
-}
-
 /* The models have cameras; the view files have the rest. */
 static void make_models(void)
 {
     model_chess(folder);
-    write_text("chess", "view",
+    write_text(folder, "chess", "view",
                "res 1024 640\nbackground .03 .035 .045\ntone aces\n"
                "exposure .6\n");
     model_bottles(folder);
-    write_text("bottles", "view",
+    write_text(folder, "bottles", "view",
                "res 1024 640\nbackground .05 .05 .055\ntone aces\n");
     model_bubbles(folder);
-    write_text("bubbles", "view",
+    write_text(folder, "bubbles", "view",
                "res 1024 640\nbackground .006 .008 .014\ntone aces\n");
     model_knot(folder);
-    write_text("knot", "view",
+    write_text(folder, "knot", "view",
                "res 1024 640\nbackground .02 .022 .028\ntone aces\n");
     model_forest(folder);
-    write_text("forest", "view",
+    write_text(folder, "forest", "view",
                "res 1024 640\nsun 285 17\nexposure 1.2\ntone aces\n");
     model_jellyfish(folder);
-    write_text("jellyfish", "view",
+    write_text(folder, "jellyfish", "view",
                "res 1024 640\nbackground .002 .008 .022\ntone aces\n");
 }
 
@@ -627,7 +529,7 @@ int main(int argc, char **argv)
     make_skylit();
     make_lights200();
     make_principled();
-    make_globe();
+    glasses_write(folder);
     make_models();
     images_write(folder);
     return 0;

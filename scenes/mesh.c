@@ -307,3 +307,17 @@ void mesh_lathe(struct mesh *m, struct point foot, const double (*profile)[2],
         put_band(m, &rings[k], vn, &is_tip[k], segments);
     }
 }
+
+void write_text(const char *folder, const char *name, const char *ending,
+                const char *text)
+{
+    char path[4096];
+    FILE *file;
+
+    snprintf(path, sizeof path, "%s/%s.%s", folder, name, ending);
+    file = fopen(path, "w");
+    if (!file || fputs(text, file) == EOF || fclose(file) != 0) {
+        fprintf(stderr, "%s: %s\n", path, strerror(errno));
+        exit(1);
+    }
+}

@@ -8,7 +8,8 @@
  * Units:     scene units, degrees; y is up
  * Ownership: mesh_open() opens a file for mesh_close()
  * Threads:   one
- * Errors:    mesh_open() and mesh_close() stop the program with a message
+ * Errors:    mesh_open(), mesh_close() and write_text() stop the program with a
+ *            message
  */
 #ifndef SCENES_MESH_H
 #define SCENES_MESH_H
@@ -52,5 +53,9 @@ void mesh_sphere(struct mesh *m, struct point center, double radius,
  * degrees stay sharp. */
 void mesh_lathe(struct mesh *m, struct point foot, const double (*profile)[2],
                 int count, int segments);
+
+/* Writes FOLDER/NAME.ENDING. */
+void write_text(const char *folder, const char *name, const char *ending,
+                const char *text);
 
 #endif

@@ -22,8 +22,11 @@ render interior 320 700
 render skylit 320 300
 render lights200 320 500
 render principled 480 400
-"$glim" -b -w 640 -s 512 --denoise -o scenes/gallery/globe.png scenes/globe.obj
-echo scenes/gallery/globe.png
+for glass in globe bulb water; do
+    "$glim" -b -w 480 -s 128 --denoise -o "scenes/gallery/$glass.png" \
+        "scenes/$glass.obj"
+    echo "scenes/gallery/$glass.png"
+done
 
 model() # model, samples, option...
 {

@@ -444,7 +444,10 @@ enum pass_result light_block_find(struct light_block *b,
     if (b->has_cells && !light_cells_end(&b->cells, count, pool))
         return fail(err, "out of memory for light cells"), PASS_FAILED;
     light_image_means(&b->image, count, b->means);
-    b->light = (struct pass_light){.pixels = b->means, .version = end};
+    b->light = (struct pass_light){.pixels = b->means,
+                                   .pixel_count = (size_t)p->film->width *
+                                                  (size_t)p->film->height,
+                                   .version = end};
     if (b->has_cells) {
         b->light.grids = b->cells.grids;
         b->light.cells = b->cells.cells;

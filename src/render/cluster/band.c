@@ -184,9 +184,31 @@ void band_take(struct band *b, const struct film *film,
         memcpy(b->shares, range->pass.shares + at, pixels * sizeof *b->shares);
 }
 
+/* Copies the rows of a band from the light of the whole film. */
+static bool cut_light(const struct band *b, struct pass_light *light,
+                      float **pixels, struct error *err)
+{
+    const struct pass_light *whole = b->range.pass.light;
+    size_t count = (size_t)b->film.width * (size_t)b->film.height;
+    size_t at = (size_t)b->range.y * (size_t)b->film.width;
+
+    *light = *whole;
+    *pixels = alloc_array(count, 6 * sizeof **pixels);
+    if (*pixels == NULL)
+        return fail(err, "out of memory for light paths");
+    for (size_t half = 0; half < 2; half++)
+        memcpy(*pixels + half * 3 * count,
+               whole->pixels + 3 * (half * whole->pixel_count + at),
+               3 * count * sizeof **pixels);
+    light->pixels = *pixels;
+    light->pixel_count = count;
+    return true;
+}
+
 /* Renders the pass of a band in shorter ones if it is too long for a backend.
  */
 static enum pass_result render_passes(const struct band *b,
+                                      const struct pass_light *light,
                                       struct backend *backend,
                                       const struct cancel *cancel,
                                       struct error *err)
@@ -199,6 +221,7 @@ static enum pass_result render_passes(const struct band *b,
         uint64_t mean = left < PASS_MEAN_MAX ? left : PASS_MEAN_MAX;
         struct pass pass = pass_with(*whole, whole->target - left + mean, mean);
 
+        pass.light = light;
         result = backend->pass(backend, &pass, cancel, err);
         left -= mean;
     } while (left > 0 && result == PASS_DONE);
@@ -213,7 +236,13 @@ enum pass_result band_render(struct band *b, struct backend *backend,
     struct film *f = &b->film;
     struct backend_picture part = *whole;
     size_t pixels = (size_t)f->width * (size_t)f->height;
+    bool has_light = b->range.pass.light != NULL;
+    struct pass_light light;
+    float *light_pixels = NULL;
     enum pass_result result;
+
+    if (has_light && !cut_light(b, &light, &light_pixels, err))
+        return PASS_FAILED;
 
     /* the backend goes on from these numbers of samples with sums of 0; their
      * total makes the film one that has samples */
@@ -224,9 +253,11 @@ enum pass_result band_render(struct band *b, struct backend *backend,
     }
     part.film = f;
     part.y0 += b->range.y;
-    if (!backend->begin(backend, &part, err))
-        return PASS_FAILED;
-    result = render_passes(b, backend, cancel, err);
+    result =
+        backend->begin(backend, &part, err)
+            ? render_passes(b, has_light ? &light : NULL, backend, cancel, err)
+            : PASS_FAILED;
+    free(light_pixels);
     for (size_t i = 0; i < pixels; i++) {
         f->counts[i] -= b->before[i];
         atomic_fetch_sub(&f->samples, b->before[i]);

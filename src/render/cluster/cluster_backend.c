@@ -30,7 +30,8 @@ struct backend_cluster {
     struct cluster_ranks ranks;
     uint64_t sent[WORLD_LIST_COUNT]; /* versions that the workers have */
     bool is_announced;               /* the workers know the picture, */
-    bool is_begun; /* and the local backend has the whole film */
+    uint64_t light; /* version of the light that they have; 0: none */
+    bool is_begun;  /* and the local backend has the whole film */
 };
 
 /* ---- one pass ---- */
@@ -480,6 +481,24 @@ static void announce(struct backend_cluster *c)
         c->sent[i] = version;
     }
     c->is_announced = true;
+    c->light = 0;
+}
+
+/* Tells the workers of the light of light paths. */
+static void announce_light(struct backend_cluster *c,
+                           const struct pass_light *light)
+{
+    const struct rank_order o = {.kind = ORDER_LIGHT, .light = *light};
+
+    for (int rank = 1; rank < wire_size(); rank++)
+        wire_post(rank, WIRE_ORDER, &o, sizeof o);
+    for (int i = 0; i < LIGHT_ARRAYS; i++) {
+        const void *bytes;
+        size_t size = light_array(light, i, &bytes);
+
+        wire_broadcast((void *)(uintptr_t)bytes, size);
+    }
+    c->light = light->version;
 }
 
 /* ---- passes ---- */
@@ -511,6 +530,12 @@ static enum pass_result pass_alone(struct backend_cluster *c,
     return result;
 }
 
+static bool has_new_light(const struct backend_cluster *c,
+                          const struct pass *pass)
+{
+    return pass->light != NULL && pass->light->version != c->light;
+}
+
 static enum pass_result pass(struct backend *base, const struct pass *pass,
                              const struct cancel *cancel, struct error *err)
 {
@@ -518,13 +543,16 @@ static enum pass_result pass(struct backend *base, const struct pass *pass,
 
     if (is_local(c, pass))
         return pass_alone(c, pass, cancel, err);
-    if (!c->is_announced) {
+    if (!c->is_announced || has_new_light(c, pass)) {
         enum pass_result result =
             cluster_pass_wait_for_late(&c->ranks, cancel, err);
 
         if (result != PASS_DONE)
             return result;
-        announce(c);
+        if (!c->is_announced)
+            announce(c);
+        if (has_new_light(c, pass))
+            announce_light(c, pass->light);
     }
     c->is_begun = false;
     return cluster_pass(&c->ranks, pass, cancel, err);
@@ -574,6 +602,7 @@ struct backend *cluster_backend_create(struct backend *local, struct error *err)
                                .rank_count = wire_size(),
                                .pass_least = PASS_RANK * (uint32_t)wire_size(),
                                .pool = local->pool,
+                               .takes_light = local->takes_light,
                                .load = load,
                                .unload = unload,
                                .begin = begin,

@@ -17,6 +17,8 @@ struct worker {
     void *arrays[WORLD_LIST_COUNT];
     uint64_t versions[WORLD_LIST_COUNT];
     struct rank_order picture; /* the last ORDER_BEGIN */
+    struct pass_light light;   /* of the last ORDER_LIGHT */
+    void *light_arrays[LIGHT_ARRAYS];
     /* the band in progress, and the one before, whose answer is being sent */
     uint32_t epochs[2];
     struct band bands[2];
@@ -76,6 +78,28 @@ static bool begin_picture(struct worker *w, const struct rank_order *o,
     return true;
 }
 
+static bool receive_light(struct worker *w, const struct rank_order *o,
+                          struct error *err)
+{
+    void **arrays = w->light_arrays;
+
+    for (int i = 0; i < LIGHT_ARRAYS; i++) {
+        const void *none;
+        size_t size = light_array(&o->light, i, &none);
+
+        free(arrays[i]);
+        arrays[i] = size > 0 ? alloc_aligned(size, 1) : NULL;
+        if (size > 0 && arrays[i] == NULL)
+            return lacks_memory("light paths", err);
+        wire_broadcast(arrays[i], size);
+    }
+    w->light = o->light;
+    w->light.pixels = arrays[LIGHT_PIXELS];
+    w->light.grids = arrays[LIGHT_GRIDS];
+    w->light.cells = arrays[LIGHT_CELLS];
+    return true;
+}
+
 /* ---- bands ---- */
 
 /* Sends the answer for one of the bands. `error` is "" or why it failed. */
@@ -118,6 +142,7 @@ static bool begin_band(struct worker *w, const struct rank_order *o,
     band = &w->bands[w->current];
     w->epochs[w->current] = o->epoch;
     range.pass.shares = o->has_shares ? &some_shares : NULL;
+    range.pass.light = range.pass.light != NULL ? &w->light : NULL;
     if (!band_init(band, p->width, &range, p->has_surfaces, &why))
         return fail(err, "rank %d: %.900s", wire_rank(), why.text);
     fill_band(band, o);
@@ -163,6 +188,8 @@ static bool do_order(struct worker *w, const struct rank_order *o,
 {
     if (o->kind == ORDER_BEGIN)
         return begin_picture(w, o, err);
+    if (o->kind == ORDER_LIGHT)
+        return receive_light(w, o, err);
     if (o->kind == ORDER_BAND)
         return begin_band(w, o, err);
     *is_ended = true;
@@ -246,6 +273,8 @@ bool cluster_work(struct backend *local, struct error *err)
     world_drop_tree(&w->host);
     for (int i = 0; i < WORLD_LIST_COUNT; i++)
         free(w->arrays[i]);
+    for (int i = 0; i < LIGHT_ARRAYS; i++)
+        free(w->light_arrays[i]);
     free(w);
     return ok;
 }

@@ -21,7 +21,7 @@
 /* The largest message. */
 #define WIRE_BYTES_MAX ((size_t)1 << 30)
 
-enum order_kind { ORDER_BEGIN, ORDER_BAND, ORDER_END };
+enum order_kind { ORDER_BEGIN, ORDER_LIGHT, ORDER_BAND, ORDER_END };
 
 struct rank_order {
     enum order_kind kind;
@@ -33,6 +33,9 @@ struct rank_order {
     int width, x0, y0; /* the film: its width, its corner in the picture */
     bool has_surfaces;
     uint64_t first_sample;
+    /* ORDER_LIGHT: what light paths bring to the bands that follow. Its pixels,
+     * grids and cells are broadcast behind it. */
+    struct pass_light light;
     /* ORDER_BAND: rows of the film. The pixels' numbers of samples follow
      * unless all have `before`, then the shares. */
     uint32_t epoch; /* bands up to a cancelled epoch get empty answers */

@@ -20,6 +20,10 @@
 static struct mesh mesh;
 static struct backend *backend;
 static uint16_t shares[PIXELS];
+static float light_pixels[6 * PIXELS];
+static const struct pass_light light = {.pixels = light_pixels,
+                                        .pixel_count = PIXELS,
+                                        .version = 1};
 
 static int open_room(void **state)
 {
@@ -44,6 +48,8 @@ static int open_room(void **state)
     mesh.world.settings.features = FEATURES_ALL;
     for (int i = 0; i < PIXELS; i++)
         shares[i] = (uint16_t)(512 + check_random(&seed) * 9000);
+    for (int i = 0; i < 6 * PIXELS; i++)
+        light_pixels[i] = (float)check_random(&seed);
     backend = backend_cpu_create(2, cpu_kernel_best(), &err);
     return backend == NULL ||
            !backend->load(backend, &mesh.host, &mesh.world, &err);
@@ -59,10 +65,12 @@ static int close_room(void **state)
 
 static const struct cancel never;
 
+/* Passes with shares have light as well. */
 static struct pass pass_to(uint64_t done, uint64_t target, bool has_shares)
 {
     struct pass pass = {.stride = 1,
                         .shares = has_shares ? shares : NULL,
+                        .light = has_shares ? &light : NULL,
                         .order = 3};
 
     return pass_with(pass, target, target - done);

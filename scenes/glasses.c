@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "glasses.h"
+
+#include <math.h>
+
+#include "mesh.h"
+
+#define SEGMENTS     8 /* subdivision: 1,280 triangles a sphere */
+#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
+
+static struct point at(double x, double y, double z)
+{
+    return (struct point){x, y, z};
+}
+
+/* ---- globe ---- */
+
+#define GLOBE_ARC 24
+
+/* A hollow ball of glass with an opening at the top, around the middle. */
+static void glass_globe(struct mesh *m, struct point middle, double radius,
+                        double thickness)
+{
+    double profile[2 * GLOBE_ARC][2];
+
+    for (int i = 0; i < GLOBE_ARC; i++) {
+        double turn = 165 * M_PI / 180 * i / (GLOBE_ARC - 1);
+        double inner = radius - thickness;
+        int back = 2 * GLOBE_ARC - 1 - i;
+
+        profile[i][0] = radius * sin(turn);
+        profile[i][1] = -radius * cos(turn);
+        profile[back][0] = inner * sin(turn);
+        profile[back][1] = -inner * cos(turn);
+    }
+    mesh_lathe(m, middle, (const double(*)[2])profile, 2 * GLOBE_ARC, 64);
+}
+
+/* A room with a table, whose top is at a height of .76. */
+static void table_room(struct mesh *m)
+{
+    mesh_object(m, "floor", "planks");
+    mesh_quad(m, at(-2.5, 0, 3), at(2.5, 0, 3), at(2.5, 0, -1.6),
+              at(-2.5, 0, -1.6), 2.5, 2.3);
+    mesh_object(m, "walls", "plaster");
+    mesh_quad(m, at(-2.5, 0, -1.6), at(2.5, 0, -1.6), at(2.5, 2.6, -1.6),
+              at(-2.5, 2.6, -1.6), 1, 1);
+    mesh_quad(m, at(-2.5, 2.6, -1.6), at(2.5, 2.6, -1.6), at(2.5, 2.6, 3),
+              at(-2.5, 2.6, 3), 1, 1);
+    mesh_quad(m, at(-2.5, 0, 3), at(-2.5, 0, -1.6), at(-2.5, 2.6, -1.6),
+              at(-2.5, 2.6, 3), 1, 1);
+    mesh_quad(m, at(2.5, 0, -1.6), at(2.5, 0, 3), at(2.5, 2.6, 3),
+              at(2.5, 2.6, -1.6), 1, 1);
+    mesh_object(m, "table", "wood");
+    mesh_box(m, at(0, .72, 0), at(2, .04, 1.1), 0);
+    for (int i = 0; i < 4; i++)
+        mesh_box(m, at(i % 2 ? .9 : -.9, 0, i / 2 ? .45 : -.45),
+                 at(.06, .72, .06), 0);
+}
+
+static void make_globe(const char *folder)
+{
+    static const double tumbler[][2] = {{0, 0},      {.045, 0},  {.05, .01},
+                                        {.055, .15}, {.05, .15}, {.046, .02},
+                                        {0, .018}};
+    struct mesh m = mesh_open(folder, "globe",
+                              "A lamp in a globe of glass, the only light: a "
+                              "path from the eye hardly finds it.");
+
+    table_room(&m);
+    mesh_object(&m, "globe", "glass");
+    glass_globe(&m, at(-.1, 1.0002, -.05), .22, .012);
+    mesh_object(&m, "lamp", "lamp");
+    mesh_sphere(&m, at(-.1, 1, -.05), .03, 8);
+    mesh_object(&m, "rod", "brass");
+    mesh_box(&m, at(-.1, 1.03, -.05), at(.012, 1.57, .012), 0);
+    mesh_object(&m, "stand", "brass");
+    mesh_box(&m, at(-.1, .7601, -.05), at(.16, .02, .16), 0);
+    mesh_object(&m, "tumbler", "glass");
+    mesh_lathe(&m, at(.45, .7605, .2), tumbler, COUNT(tumbler), 48);
+    mesh_object(&m, "books", "red");
+    mesh_box(&m, at(-.6, .7601, .1), at(.3, .05, .22), 20);
+    mesh_object(&m, "book", "blue");
+    mesh_box(&m, at(-.59, .8102, .1), at(.27, .04, .2), 5);
+    mesh_object(&m, "egg", "plaster");
+    mesh_sphere(&m, at(.2, .8202, .32), .06, SEGMENTS);
+    mesh_close(&m);
+    write_text(folder, "globe", "mtl",
+               "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
+               "newmtl plaster\nKd .74 .7 .64\nillum 1\n"
+               "newmtl wood\nKd .36 .22 .12\nillum 1\n"
+               "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
+               "newmtl lamp\nKd 0 0 0\nKe 260 190 110\nillum 1\n"
+               "newmtl brass\nKd .85 .62 .3\nPm 1\nPr .5\n"
+               "newmtl red\nKd .5 .1 .08\nillum 1\n"
+               "newmtl blue\nKd .1 .18 .4\nillum 1\n");
+    write_text(folder, "globe", "view",
+               "eye .55 1.42 2.1\nat -.05 .93 0\nup 0 1 0\nfovy 36\n"
+               "background 0 0 0\n"
+               "res 1024 640\nexposure .7\ntone aces\n");
+}
+
+/* ---- bulb ---- */
+
+/* A shade that is open above and below, a bulb of clear glass in it, and what
+ * both hang from. */
+static void hanging_lamp(struct mesh *m, struct point bulb)
+{
+    static const double shade[][2] = {
+        {.2, -.07}, {.07, .13}, {.066, .128}, {.195, -.072}, {.2, -.07}};
+    static const double socket[][2] = {{0, 0},      {.012, 0},   {.024, .004},
+                                       {.024, .06}, {.018, .07}, {0, .07}};
+
+    mesh_object(m, "shade", "enamel");
+    mesh_lathe(m, bulb, shade, COUNT(shade), 64);
+    mesh_object(m, "bulb", "glass");
+    glass_globe(m, bulb, .045, .0015);
+    mesh_object(m, "filament", "filament");
+    mesh_sphere(m, bulb, .008, 2);
+    mesh_object(m, "socket", "brass");
+    mesh_lathe(m, at(bulb.x, bulb.y + .0452, bulb.z), socket, COUNT(socket),
+               32);
+    mesh_object(m, "cable", "dark");
+    mesh_box(m, at(bulb.x, bulb.y + .1155, bulb.z), at(.006, 1.2, .006), 0);
+    for (int i = 0; i < 2; i++)
+        mesh_box(m, at(bulb.x, bulb.y + .106, bulb.z),
+                 i == 0 ? at(.15, .004, .004) : at(.004, .004, .15), 0);
+}
+
+static void make_bulb(const char *folder)
+{
+    static const double bowl[][2] = {{0, 0},      {.05, 0},    {.055, .012},
+                                     {.1, .035},  {.13, .08},  {.126, .082},
+                                     {.095, .04}, {.05, .018}, {0, .016}};
+    struct mesh m = mesh_open(folder, "bulb",
+                              "A bulb of clear glass under a shade, the only "
+                              "light.");
+
+    table_room(&m);
+    hanging_lamp(&m, at(0, 1.34, 0));
+    mesh_object(&m, "bowl", "china");
+    mesh_lathe(&m, at(-.02, .7601, .02), bowl, COUNT(bowl), 48);
+    mesh_object(&m, "apples", "red");
+    mesh_sphere(&m, at(-.065, .82, .02), .042, SEGMENTS);
+    mesh_sphere(&m, at(.025, .82, .058), .041, SEGMENTS);
+    mesh_object(&m, "lime", "green");
+    mesh_sphere(&m, at(.02, .816, -.03), .036, SEGMENTS);
+    mesh_object(&m, "book", "blue");
+    mesh_box(&m, at(-.42, .7601, .12), at(.24, .03, .17), 25);
+    mesh_object(&m, "page", "plaster");
+    mesh_box(&m, at(.36, .7601, .16), at(.21, .002, .297), -15);
+    mesh_close(&m);
+    write_text(folder, "bulb", "mtl",
+               "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
+               "newmtl plaster\nKd .74 .7 .64\nillum 1\n"
+               "newmtl wood\nKd .36 .22 .12\nillum 1\n"
+               "newmtl enamel\nKd .2 .42 .32\nillum 1\n"
+               "newmtl china\nKd .8 .8 .78\nillum 1\n"
+               "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
+               "newmtl filament\nKd 0 0 0\nKe 5200 3700 2000\nillum 1\n"
+               "newmtl brass\nKd .85 .62 .3\nPm 1\nPr .5\n"
+               "newmtl dark\nKd .03 .03 .03\nillum 1\n"
+               "newmtl red\nKd .55 .08 .05\nillum 1\n"
+               "newmtl green\nKd .3 .5 .08\nillum 1\n"
+               "newmtl blue\nKd .1 .18 .4\nillum 1\n");
+    write_text(folder, "bulb", "view",
+               "eye .45 1.3 1.5\nat 0 1.02 0\nup 0 1 0\nfovy 36\n"
+               "background 0 0 0\n"
+               "res 1024 640\nexposure 1.1\ntone aces\n");
+}
+
+/* ---- water ---- */
+
+/* A tumbler that is partly full. Where glass meets water, its index is that of
+ * glass relative to water. */
+static void glass_of_water(struct mesh *m, struct point foot)
+{
+    static const double glass[][2] = {{0, 0},         {.03, 0},
+                                      {.032, .003},   {.038, .12},
+                                      {.0372, .1215}, {.0358, .1215},
+                                      {.035, .12},    {.0338, .09}};
+    static const double wall[][2] = {{.0338, .09},
+                                     {.0302, .016},
+                                     {.027, .013},
+                                     {0, .012}};
+    static const double surface[][2] = {{.0338, .09}, {0, .09}};
+
+    mesh_object(m, "glass", "glass");
+    mesh_lathe(m, foot, glass, COUNT(glass), 96);
+    mesh_object(m, "glass", "glass_water");
+    mesh_lathe(m, foot, wall, COUNT(wall), 96);
+    mesh_object(m, "glass", "water");
+    mesh_lathe(m, foot, surface, COUNT(surface), 96);
+}
+
+static void make_water(const char *folder)
+{
+    static const double straw[][2] = {{0, 0},
+                                      {.0035, 0},
+                                      {.0035, .15},
+                                      {0, .15}};
+    struct mesh m =
+        mesh_open(folder, "water", "A glass of water on a table in the sun.");
+
+    mesh_object(&m, "table", "planks");
+    mesh_quad(&m, at(-1, 0, 1), at(1, 0, 1), at(1, 0, -1), at(-1, 0, -1), 6, 6);
+    glass_of_water(&m, at(0, .0002, 0));
+    mesh_object(&m, "straw", "red");
+    mesh_lathe(&m, at(.012, .0135, -.01), straw, COUNT(straw), 24);
+    mesh_object(&m, "lemon", "yellow");
+    mesh_sphere(&m, at(-.085, .0302, -.01), .03, SEGMENTS);
+    mesh_object(&m, "napkin", "cloth");
+    mesh_box(&m, at(.03, 0, .01), at(.3, .0001, .22), 12);
+    mesh_close(&m);
+    write_text(folder, "water", "mtl",
+               "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
+               "newmtl cloth\nKd .7 .69 .66\nillum 1\n"
+               "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
+               "newmtl glass_water\nKd 0 0 0\nillum 7\nNi 1.126\n"
+               "newmtl water\nKd 0 0 0\nillum 7\nNi 1.332\n"
+               "newmtl red\nKd .6 .07 .05\nillum 1\n"
+               "newmtl yellow\nKd .75 .55 .05\nillum 1\n");
+    write_text(folder, "water", "view",
+               "eye .07 .25 .38\nat .025 .04 .015\nup 0 1 0\nfovy 30\n"
+               "sun 318 30\n"
+               "res 1024 640\nexposure .8\ntone aces\n");
+}
+
+void glasses_write(const char *folder)
+{
+    make_globe(folder);
+    make_bulb(folder);
+    make_water(folder);
+}

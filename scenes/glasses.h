@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+/*
+ * glasses.h - scenes in which light comes through glass
+ *
+ * Threads:   one
+ * Errors:    stop the program with a message
+ */
+#ifndef SCENES_GLASSES_H
+#define SCENES_GLASSES_H
+
+/* Writes globe, bulb and water. */
+void glasses_write(const char *folder);
+
+#endif
