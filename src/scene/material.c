@@ -457,11 +457,10 @@ static void check_map(const struct material_values *s, enum mtl_map which,
                      at->path, mtl_maps[which].keys[0]);
 }
 
-/* Greatest roughness of materials that cast, and least one of matte metals and
- * of highlights on matte surfaces: a narrow highlight that a light path meets
- * by chance is a speck. */
-#define CASTS_ALPHA_MAX     0.1f
-#define METAL_ALPHA_MIN     0.2f
+/* Roughness below which metal and glass cast, above which metal is matte; and
+ * least one of highlights on matte surfaces: a narrow highlight that a light
+ * path meets by chance is a speck. */
+#define CASTS_ALPHA_MAX     0.2f
 #define HIGHLIGHT_ALPHA_MIN 0.3f
 
 /* True if a highlight is wide, or a delta, which light paths do not see. */
@@ -484,8 +483,7 @@ static enum material_role role_of(const struct material *m)
          m->metalness + m->transmission >= 0.5f)) {
         if (m->alpha < CASTS_ALPHA_MAX)
             return ROLE_CASTS;
-        is_matte = m->kind == MATERIAL_METAL && m->alpha >= METAL_ALPHA_MIN &&
-                   m->alpha_texture == NO_INDEX;
+        is_matte = m->kind == MATERIAL_METAL && m->alpha_texture == NO_INDEX;
     }
     return is_matte ? ROLE_MATTE : ROLE_NONE;
 }
