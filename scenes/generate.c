@@ -93,14 +93,14 @@ static void make_cornell(void)
     cornell_part(&m, "short_block", "white", 9, 5);
     cornell_part(&m, "tall_block", "white", 14, 5);
     mesh_close(&m);
-    write_text(folder, "cornell", "mtl",
-               "newmtl white\nKd .725 .71 .68\nillum 1\n"
-               "newmtl red\nKd .63 .065 .05\nillum 1\n"
-               "newmtl green\nKd .14 .45 .091\nillum 1\n"
-               "newmtl light\nKd .78 .78 .78\nKe 17 12 4\nillum 1\n");
-    write_text(folder, "cornell", "view",
-               "eye 278 273 -800\nat 278 273 0\nup 0 1 0\nfovy 39.3077\n"
-               "res 600 600\nexposure 1\n");
+    mesh_text(folder, "cornell", "mtl",
+              "newmtl white\nKd .725 .71 .68\nillum 1\n"
+              "newmtl red\nKd .63 .065 .05\nillum 1\n"
+              "newmtl green\nKd .14 .45 .091\nillum 1\n"
+              "newmtl light\nKd .78 .78 .78\nKe 17 12 4\nillum 1\n");
+    mesh_text(folder, "cornell", "view",
+              "eye 278 273 -800\nat 278 273 0\nup 0 1 0\nfovy 39.3077\n"
+              "res 600 600\nexposure 1\n");
 }
 
 /* --- materials ------------------------------------------------------------ */
@@ -131,23 +131,23 @@ static void make_materials(void)
         mesh_sphere(&m, at(-3.5 + 1.75 * i, .8001, -1.2), .8, SEGMENTS);
     }
     mesh_close(&m);
-    write_text(folder, "materials", "mtl",
-               "newmtl tiles\nKd 1 1 1\nmap_Kd tiles.png\nillum 1\n"
-               "newmtl wall\nKd .55 .58 .62\nillum 1\n"
-               "newmtl lamp\nKd 0 0 0\nKe 5 4.8 4.4\nillum 1\n"
-               "newmtl mirror\nKd .95 .95 .95\nPm 1\nPr 0\n"
-               "newmtl silver\nKd .95 .93 .88\nPm 1\nPr .2\n"
-               "newmtl gold\nKd 1 .78 .34\nPm 1\nPr .35\n"
-               "newmtl copper\nKd .96 .64 .54\nPm 1\nPr .5\n"
-               "newmtl steel\nKd .56 .57 .58\nPm 1\nPr .7\n"
-               "newmtl red\nKd .7 .12 .1\nillum 1\n"
-               "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
-               "newmtl frosted\nKd 0 0 0\nillum 7\nNi 1.5\nPr .35\n"
-               "newmtl bottle\nKd 0 0 0\nillum 7\nNi 1.5\nTf .6 .9 .7\n"
-               "newmtl glow\nKd 0 0 0\nKe 1.2 .65 .22\nillum 1\n");
-    write_text(folder, "materials", "view",
-               "eye 0 3.2 8\nat 0 .7 -.2\nup 0 1 0\nfovy 34\nres 1024 576\n"
-               "background .25 .3 .4\n");
+    mesh_text(folder, "materials", "mtl",
+              "newmtl tiles\nKd 1 1 1\nmap_Kd tiles.png\nillum 1\n"
+              "newmtl wall\nKd .55 .58 .62\nillum 1\n"
+              "newmtl lamp\nKd 0 0 0\nKe 5 4.8 4.4\nillum 1\n"
+              "newmtl mirror\nKd .95 .95 .95\nPm 1\nPr 0\n"
+              "newmtl silver\nKd .95 .93 .88\nPm 1\nPr .2\n"
+              "newmtl gold\nKd 1 .78 .34\nPm 1\nPr .35\n"
+              "newmtl copper\nKd .96 .64 .54\nPm 1\nPr .5\n"
+              "newmtl steel\nKd .56 .57 .58\nPm 1\nPr .7\n"
+              "newmtl red\nKd .7 .12 .1\nillum 1\n"
+              "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
+              "newmtl frosted\nKd 0 0 0\nillum 7\nNi 1.5\nPr .35\n"
+              "newmtl bottle\nKd 0 0 0\nillum 7\nNi 1.5\nTf .6 .9 .7\n"
+              "newmtl glow\nKd 0 0 0\nKe 1.2 .65 .22\nillum 1\n");
+    mesh_text(folder, "materials", "view",
+              "eye 0 3.2 8\nat 0 .7 -.2\nup 0 1 0\nfovy 34\nres 1024 576\n"
+              "background .25 .3 .4\n");
 }
 
 /* --- glass_mirror --------------------------------------------------------- */
@@ -204,21 +204,20 @@ static void make_glass_mirror(void)
     mesh_object(&m, "block", "green_glass");
     mesh_box(&m, at(1.25, .0005, .3), at(.5, 1.2, .5), 30);
     mesh_close(&m);
-    write_text(
-        folder, "glass_mirror", "mtl",
-        "newmtl tiles\nKd 1 1 1\nmap_Kd tiles.png\nillum 1\n"
-        "newmtl white\nKd .75 .74 .72\nillum 1\n"
-        "newmtl orange\nKd .72 .36 .14\nillum 1\n"
-        "newmtl blue\nKd .18 .32 .60\nillum 1\n"
-        "newmtl wood\nKd .32 .19 .10\nillum 1\n"
-        "newmtl lamp\nKd 0 0 0\nKe 7 6.6 6\nillum 1\n"
-        "newmtl mirror\nKd 0 0 0\nKs .95 .95 .95\nillum 5\nPr 0\n"
-        "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
-        "newmtl frosted\nKd 0 0 0\nillum 7\nNi 1.5\nPr .3\n"
-        "newmtl green_glass\nKd 0 0 0\nillum 7\nNi 1.5\nTf .65 .95 .8\n");
-    write_text(folder, "glass_mirror", "view",
-               "eye .2 1.5 5.6\nat 0 1.05 -.5\nup 0 1 0\nfovy 34\n"
-               "res 1024 576\n");
+    mesh_text(folder, "glass_mirror", "mtl",
+              "newmtl tiles\nKd 1 1 1\nmap_Kd tiles.png\nillum 1\n"
+              "newmtl white\nKd .75 .74 .72\nillum 1\n"
+              "newmtl orange\nKd .72 .36 .14\nillum 1\n"
+              "newmtl blue\nKd .18 .32 .60\nillum 1\n"
+              "newmtl wood\nKd .32 .19 .10\nillum 1\n"
+              "newmtl lamp\nKd 0 0 0\nKe 7 6.6 6\nillum 1\n"
+              "newmtl mirror\nKd 0 0 0\nKs .95 .95 .95\nillum 5\nPr 0\n"
+              "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
+              "newmtl frosted\nKd 0 0 0\nillum 7\nNi 1.5\nPr .3\n"
+              "newmtl green_glass\nKd 0 0 0\nillum 7\nNi 1.5\nTf .65 .95 .8\n");
+    mesh_text(folder, "glass_mirror", "view",
+              "eye .2 1.5 5.6\nat 0 1.05 -.5\nup 0 1 0\nfovy 34\n"
+              "res 1024 576\n");
 }
 
 /* --- interior: 5 wide, 3 high, 6 deep; a window in the left wall ---------- */
@@ -305,21 +304,21 @@ static void make_interior(void)
     mesh_object(&m, "lamp_cord", "black");
     mesh_box(&m, at(3.6, 2.5, 2.4), at(.015, .5, .015), 0);
     mesh_close(&m);
-    write_text(folder, "interior", "mtl",
-               "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
-               "newmtl paper\nKd 1 1 1\nmap_Kd paper.png\nillum 1\n"
-               "newmtl rug\nKd 1 1 1\nmap_Kd rug.png\nillum 1\n"
-               "newmtl painting\nKd 1 1 1\nmap_Kd painting.png\nillum 1\n"
-               "newmtl wood\nKd .8 .7 .6\nmap_Kd planks.png\nillum 1\n"
-               "newmtl white\nKd .82 .81 .78\nillum 1\n"
-               "newmtl black\nKd .04 .04 .04\nillum 1\n"
-               "newmtl glaze\nKd .35 .55 .75\nPm 1\nPr .3\n"
-               "newmtl brass\nKd .91 .78 .42\nPm 1\nPr .4\n"
-               "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
-               "newmtl lamp\nKd 0 0 0\nKe 9 6.5 3.6\nillum 1\n");
-    write_text(folder, "interior", "view",
-               "eye 4.5 1.65 5.7\nat 2.2 1.1 1.2\nup 0 1 0\nfovy 46\n"
-               "res 1024 576\nbackground 5 6 7.5\n");
+    mesh_text(folder, "interior", "mtl",
+              "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
+              "newmtl paper\nKd 1 1 1\nmap_Kd paper.png\nillum 1\n"
+              "newmtl rug\nKd 1 1 1\nmap_Kd rug.png\nillum 1\n"
+              "newmtl painting\nKd 1 1 1\nmap_Kd painting.png\nillum 1\n"
+              "newmtl wood\nKd .8 .7 .6\nmap_Kd planks.png\nillum 1\n"
+              "newmtl white\nKd .82 .81 .78\nillum 1\n"
+              "newmtl black\nKd .04 .04 .04\nillum 1\n"
+              "newmtl glaze\nKd .35 .55 .75\nPm 1\nPr .3\n"
+              "newmtl brass\nKd .91 .78 .42\nPm 1\nPr .4\n"
+              "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
+              "newmtl lamp\nKd 0 0 0\nKe 9 6.5 3.6\nillum 1\n");
+    mesh_text(folder, "interior", "view",
+              "eye 4.5 1.65 5.7\nat 2.2 1.1 1.2\nup 0 1 0\nfovy 46\n"
+              "res 1024 576\nbackground 5 6 7.5\n");
 }
 
 /* --- skylit --------------------------------------------------------------- */
@@ -357,19 +356,19 @@ static void make_skylit(void)
     mesh_object(&m, "tall_box", "blue");
     mesh_box(&m, at(2.2, .1205, -1.4), at(.8, 2.2, .8), -20);
     mesh_close(&m);
-    write_text(folder, "skylit", "mtl",
-               "newmtl ground\nKd .36 .40 .26\nillum 1\n"
-               "newmtl tiles\nKd 1 1 1\nmap_Kd tiles.png\nillum 1\n"
-               "newmtl ivory\nKd .82 .78 .68\nillum 1\n"
-               "newmtl red\nKd .66 .13 .10\nillum 1\n"
-               "newmtl blue\nKd .14 .24 .52\nillum 1\n"
-               "newmtl gold\nKd 1 .78 .34\nPm 1\nPr .3\n"
-               "newmtl mirror\nKd .95 .95 .95\nPm 1\nPr 0\n"
-               "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n");
-    write_text(folder, "skylit", "view",
-               "eye -1.2 2.3 7.4\nat .15 .75 0\nup 0 1 0\nfovy 36\n"
-               "res 1024 576\nsky sky.hdr\nsky_strength 1\nsky_rotation 0\n"
-               "exposure -.5\n");
+    mesh_text(folder, "skylit", "mtl",
+              "newmtl ground\nKd .36 .40 .26\nillum 1\n"
+              "newmtl tiles\nKd 1 1 1\nmap_Kd tiles.png\nillum 1\n"
+              "newmtl ivory\nKd .82 .78 .68\nillum 1\n"
+              "newmtl red\nKd .66 .13 .10\nillum 1\n"
+              "newmtl blue\nKd .14 .24 .52\nillum 1\n"
+              "newmtl gold\nKd 1 .78 .34\nPm 1\nPr .3\n"
+              "newmtl mirror\nKd .95 .95 .95\nPm 1\nPr 0\n"
+              "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n");
+    mesh_text(folder, "skylit", "view",
+              "eye -1.2 2.3 7.4\nat .15 .75 0\nup 0 1 0\nfovy 36\n"
+              "res 1024 576\nsky sky.hdr\nsky_strength 1\nsky_rotation 0\n"
+              "exposure -.5\n");
 }
 
 /* --- lights200 ------------------------------------------------------------ */
@@ -422,24 +421,24 @@ static void make_lights200(void)
         mesh_sphere(&m, at(x, y, z), .05 + .07 * u, 1);
     }
     mesh_close(&m);
-    write_text(folder, "lights200", "mtl",
-               "newmtl floor\nKd .62 .62 .60\nillum 1\n"
-               "newmtl stone\nKd .58 .54 .48\nillum 1\n"
-               "newmtl warm_a\nKd 0 0 0\nKe 10 8 5\n"
-               "newmtl warm_b\nKd 0 0 0\nKe 60 48 30\n"
-               "newmtl warm_c\nKd 0 0 0\nKe 300 240 150\n"
-               "newmtl amber_a\nKd 0 0 0\nKe 10 5 1\n"
-               "newmtl amber_b\nKd 0 0 0\nKe 60 30 6\n"
-               "newmtl amber_c\nKd 0 0 0\nKe 300 150 30\n"
-               "newmtl rose_a\nKd 0 0 0\nKe 9 3 5\n"
-               "newmtl rose_b\nKd 0 0 0\nKe 54 18 30\n"
-               "newmtl rose_c\nKd 0 0 0\nKe 270 90 150\n"
-               "newmtl cyan_a\nKd 0 0 0\nKe 2 8 10\n"
-               "newmtl cyan_b\nKd 0 0 0\nKe 12 48 60\n"
-               "newmtl cyan_c\nKd 0 0 0\nKe 60 240 300\n");
-    write_text(folder, "lights200", "view",
-               "eye 2 6.5 17\nat 0 .6 0\nup 0 1 0\nfovy 38\nres 1024 576\n"
-               "background .04 .05 .08\n");
+    mesh_text(folder, "lights200", "mtl",
+              "newmtl floor\nKd .62 .62 .60\nillum 1\n"
+              "newmtl stone\nKd .58 .54 .48\nillum 1\n"
+              "newmtl warm_a\nKd 0 0 0\nKe 10 8 5\n"
+              "newmtl warm_b\nKd 0 0 0\nKe 60 48 30\n"
+              "newmtl warm_c\nKd 0 0 0\nKe 300 240 150\n"
+              "newmtl amber_a\nKd 0 0 0\nKe 10 5 1\n"
+              "newmtl amber_b\nKd 0 0 0\nKe 60 30 6\n"
+              "newmtl amber_c\nKd 0 0 0\nKe 300 150 30\n"
+              "newmtl rose_a\nKd 0 0 0\nKe 9 3 5\n"
+              "newmtl rose_b\nKd 0 0 0\nKe 54 18 30\n"
+              "newmtl rose_c\nKd 0 0 0\nKe 270 90 150\n"
+              "newmtl cyan_a\nKd 0 0 0\nKe 2 8 10\n"
+              "newmtl cyan_b\nKd 0 0 0\nKe 12 48 60\n"
+              "newmtl cyan_c\nKd 0 0 0\nKe 60 240 300\n");
+    mesh_text(folder, "lights200", "view",
+              "eye 2 6.5 17\nat 0 .6 0\nup 0 1 0\nfovy 38\nres 1024 576\n"
+              "background .04 .05 .08\n");
 }
 
 /* --- principled ----------------------------------------------------------- */
@@ -483,10 +482,10 @@ static void make_principled(void)
         mesh_sphere(&m, at(1.3 * (column - 2), .5501, 1.5 * (row - 2)), .55, 6);
     }
     mesh_close(&m);
-    write_text(folder, "principled", "mtl", mtl);
-    write_text(folder, "principled", "view",
-               "eye 0 6.5 8.5\nat 0 .2 0\nup 0 1 0\nfovy 36\nres 1024 768\n"
-               "background .5 .55 .6\n");
+    mesh_text(folder, "principled", "mtl", mtl);
+    mesh_text(folder, "principled", "view",
+              "eye 0 6.5 8.5\nat 0 .2 0\nup 0 1 0\nfovy 36\nres 1024 768\n"
+              "background .5 .55 .6\n");
 }
 
 /* --- glTF ----------------------------------------------------------------- */
@@ -495,24 +494,24 @@ static void make_principled(void)
 static void make_models(void)
 {
     model_chess(folder);
-    write_text(folder, "chess", "view",
-               "res 1024 640\nbackground .03 .035 .045\ntone aces\n"
-               "exposure .6\n");
+    mesh_text(folder, "chess", "view",
+              "res 1024 640\nbackground .03 .035 .045\ntone aces\n"
+              "exposure .6\n");
     model_bottles(folder);
-    write_text(folder, "bottles", "view",
-               "res 1024 640\nbackground .05 .05 .055\ntone aces\n");
+    mesh_text(folder, "bottles", "view",
+              "res 1024 640\nbackground .05 .05 .055\ntone aces\n");
     model_bubbles(folder);
-    write_text(folder, "bubbles", "view",
-               "res 1024 640\nbackground .006 .008 .014\ntone aces\n");
+    mesh_text(folder, "bubbles", "view",
+              "res 1024 640\nbackground .006 .008 .014\ntone aces\n");
     model_knot(folder);
-    write_text(folder, "knot", "view",
-               "res 1024 640\nbackground .02 .022 .028\ntone aces\n");
+    mesh_text(folder, "knot", "view",
+              "res 1024 640\nbackground .02 .022 .028\ntone aces\n");
     model_forest(folder);
-    write_text(folder, "forest", "view",
-               "res 1024 640\nsun 285 17\nexposure 1.2\ntone aces\n");
+    mesh_text(folder, "forest", "view",
+              "res 1024 640\nsun 285 17\nexposure 1.2\ntone aces\n");
     model_jellyfish(folder);
-    write_text(folder, "jellyfish", "view",
-               "res 1024 640\nbackground .002 .008 .022\ntone aces\n");
+    mesh_text(folder, "jellyfish", "view",
+              "res 1024 640\nbackground .002 .008 .022\ntone aces\n");
 }
 
 int main(int argc, char **argv)

@@ -85,19 +85,19 @@ static void make_globe(const char *folder)
     mesh_object(&m, "egg", "plaster");
     mesh_sphere(&m, at(.2, .8202, .32), .06, SEGMENTS);
     mesh_close(&m);
-    write_text(folder, "globe", "mtl",
-               "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
-               "newmtl plaster\nKd .74 .7 .64\nillum 1\n"
-               "newmtl wood\nKd .36 .22 .12\nillum 1\n"
-               "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
-               "newmtl lamp\nKd 0 0 0\nKe 260 190 110\nillum 1\n"
-               "newmtl brass\nKd .85 .62 .3\nPm 1\nPr .5\n"
-               "newmtl red\nKd .5 .1 .08\nillum 1\n"
-               "newmtl blue\nKd .1 .18 .4\nillum 1\n");
-    write_text(folder, "globe", "view",
-               "eye .55 1.42 2.1\nat -.05 .93 0\nup 0 1 0\nfovy 36\n"
-               "background 0 0 0\n"
-               "res 1024 640\nexposure .7\ntone aces\n");
+    mesh_text(folder, "globe", "mtl",
+              "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
+              "newmtl plaster\nKd .74 .7 .64\nillum 1\n"
+              "newmtl wood\nKd .36 .22 .12\nillum 1\n"
+              "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
+              "newmtl lamp\nKd 0 0 0\nKe 260 190 110\nillum 1\n"
+              "newmtl brass\nKd .85 .62 .3\nPm 1\nPr .5\n"
+              "newmtl red\nKd .5 .1 .08\nillum 1\n"
+              "newmtl blue\nKd .1 .18 .4\nillum 1\n");
+    mesh_text(folder, "globe", "view",
+              "eye .55 1.42 2.1\nat -.05 .93 0\nup 0 1 0\nfovy 36\n"
+              "background 0 0 0\n"
+              "res 1024 640\nexposure .7\ntone aces\n");
 }
 
 /* ---- bulb ---- */
@@ -150,23 +150,23 @@ static void make_bulb(const char *folder)
     mesh_object(&m, "page", "plaster");
     mesh_box(&m, at(.36, .7601, .16), at(.21, .002, .297), -15);
     mesh_close(&m);
-    write_text(folder, "bulb", "mtl",
-               "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
-               "newmtl plaster\nKd .74 .7 .64\nillum 1\n"
-               "newmtl wood\nKd .36 .22 .12\nillum 1\n"
-               "newmtl enamel\nKd .2 .42 .32\nillum 1\n"
-               "newmtl china\nKd .8 .8 .78\nillum 1\n"
-               "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
-               "newmtl filament\nKd 0 0 0\nKe 5200 3700 2000\nillum 1\n"
-               "newmtl brass\nKd .85 .62 .3\nPm 1\nPr .5\n"
-               "newmtl dark\nKd .03 .03 .03\nillum 1\n"
-               "newmtl red\nKd .55 .08 .05\nillum 1\n"
-               "newmtl green\nKd .3 .5 .08\nillum 1\n"
-               "newmtl blue\nKd .1 .18 .4\nillum 1\n");
-    write_text(folder, "bulb", "view",
-               "eye .45 1.3 1.5\nat 0 1.02 0\nup 0 1 0\nfovy 36\n"
-               "background 0 0 0\n"
-               "res 1024 640\nexposure 1.1\ntone aces\n");
+    mesh_text(folder, "bulb", "mtl",
+              "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
+              "newmtl plaster\nKd .74 .7 .64\nillum 1\n"
+              "newmtl wood\nKd .36 .22 .12\nillum 1\n"
+              "newmtl enamel\nKd .2 .42 .32\nillum 1\n"
+              "newmtl china\nKd .8 .8 .78\nillum 1\n"
+              "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
+              "newmtl filament\nKd 0 0 0\nKe 5000 4100 2900\nillum 1\n"
+              "newmtl brass\nKd .85 .62 .3\nPm 1\nPr .5\n"
+              "newmtl dark\nKd .03 .03 .03\nillum 1\n"
+              "newmtl red\nKd .55 .08 .05\nillum 1\n"
+              "newmtl green\nKd .3 .5 .08\nillum 1\n"
+              "newmtl blue\nKd .1 .18 .4\nillum 1\n");
+    mesh_text(folder, "bulb", "view",
+              "eye .45 1.3 1.5\nat 0 1.02 0\nup 0 1 0\nfovy 36\n"
+              "background 0 0 0\n"
+              "res 1024 640\nexposure 1.1\ntone aces\n");
 }
 
 /* ---- water ---- */
@@ -212,18 +212,18 @@ static void make_water(const char *folder)
     mesh_object(&m, "napkin", "cloth");
     mesh_box(&m, at(.03, 0, .01), at(.3, .0001, .22), 12);
     mesh_close(&m);
-    write_text(folder, "water", "mtl",
-               "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
-               "newmtl cloth\nKd .7 .69 .66\nillum 1\n"
-               "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
-               "newmtl glass_water\nKd 0 0 0\nillum 7\nNi 1.126\n"
-               "newmtl water\nKd 0 0 0\nillum 7\nNi 1.332\n"
-               "newmtl red\nKd .6 .07 .05\nillum 1\n"
-               "newmtl yellow\nKd .75 .55 .05\nillum 1\n");
-    write_text(folder, "water", "view",
-               "eye .07 .25 .38\nat .025 .04 .015\nup 0 1 0\nfovy 30\n"
-               "sun 318 30\n"
-               "res 1024 640\nexposure .8\ntone aces\n");
+    mesh_text(folder, "water", "mtl",
+              "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
+              "newmtl cloth\nKd .7 .69 .66\nillum 1\n"
+              "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
+              "newmtl glass_water\nKd 0 0 0\nillum 7\nNi 1.126\n"
+              "newmtl water\nKd 0 0 0\nillum 7\nNi 1.332\n"
+              "newmtl red\nKd .6 .07 .05\nillum 1\n"
+              "newmtl yellow\nKd .75 .55 .05\nillum 1\n");
+    mesh_text(folder, "water", "view",
+              "eye .07 .25 .38\nat .025 .04 .015\nup 0 1 0\nfovy 30\n"
+              "sun 318 30\n"
+              "res 1024 640\nexposure .8\ntone aces\n");
 }
 
 void glasses_write(const char *folder)

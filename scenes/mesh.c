@@ -308,8 +308,8 @@ void mesh_lathe(struct mesh *m, struct point foot, const double (*profile)[2],
     }
 }
 
-void write_text(const char *folder, const char *name, const char *ending,
-                const char *text)
+void mesh_text(const char *folder, const char *name, const char *ending,
+               const char *text)
 {
     char path[4096];
     FILE *file;

@@ -8,7 +8,7 @@
  * Units:     scene units, degrees; y is up
  * Ownership: mesh_open() opens a file for mesh_close()
  * Threads:   one
- * Errors:    mesh_open(), mesh_close() and write_text() stop the program with a
+ * Errors:    mesh_open(), mesh_close() and mesh_text() stop the program with a
  *            message
  */
 #ifndef SCENES_MESH_H
@@ -55,7 +55,7 @@ void mesh_lathe(struct mesh *m, struct point foot, const double (*profile)[2],
                 int count, int segments);
 
 /* Writes FOLDER/NAME.ENDING. */
-void write_text(const char *folder, const char *name, const char *ending,
-                const char *text);
+void mesh_text(const char *folder, const char *name, const char *ending,
+               const char *text);
 
 #endif

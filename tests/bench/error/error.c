@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
  * error - relative MSE over seconds, with all techniques and with each of them
- * off, with adaptive sampling, with the filter, and the gain over glim's first
- * integrator
+ * off, with adaptive sampling, with the filter, the gain over glim's first
+ * integrator, and the variance by class of path
  *
  * usage: error FOLDER THREADS ROUNDS [PART_OF_A_NAME]
  *
@@ -23,6 +23,7 @@
 #include "base/clock.h"
 #include "command/chart.h"
 #include "film/filter/film_filter.h"
+#include "classes.h"
 #include "reference.h"
 #include "terminal/xmalloc.h"
 #include "tests/bench/median.h"
@@ -46,11 +47,19 @@ enum need {
     NEED_LIGHT_SAMPLES,
     NEED_LIGHTS,
     NEED_SKY_TABLE,
-    NEED_GUIDE
+    NEED_GUIDE,
+    NEED_LIGHT_PATHS
 };
 
 /* What a render has besides its kernel and settings. */
-enum extra { GUIDED, UNGUIDED, ADAPTIVE, FILTERED };
+enum extra {
+    GUIDED,
+    UNGUIDED,
+    ADAPTIVE,
+    FILTERED,
+    WITHOUT_LIGHT_CELLS,
+    WITHOUT_LIGHT_PATHS
+};
 
 /* All techniques that are on by default, or all except the one of this name, or
  * those and this one. */
@@ -65,7 +74,7 @@ static const struct technique {
     {"everything", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_NOTHING,
      GUIDED},
     {"first integrator", &paths_hashed, DIRECT_BSDF, SKY_WITH_MIS, NEED_NOTHING,
-     UNGUIDED},
+     WITHOUT_LIGHT_PATHS},
     {"without light samples", &paths_whole, DIRECT_BSDF, SKY_WITH_MIS,
      NEED_LIGHT_SAMPLES, GUIDED},
     {"without light by chance", &paths_whole, DIRECT_LIGHTS, SKY_ALONE,
@@ -82,6 +91,10 @@ static const struct technique {
      NEED_LIGHT_SAMPLES, GUIDED},
     {"without the guide", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_GUIDE,
      UNGUIDED},
+    {"without light cells", &paths_whole, DIRECT_MIS, SKY_WITH_MIS,
+     NEED_LIGHT_PATHS, WITHOUT_LIGHT_CELLS},
+    {"without light paths", &paths_whole, DIRECT_MIS, SKY_WITH_MIS,
+     NEED_LIGHT_PATHS, WITHOUT_LIGHT_PATHS},
     {"with adaptive sampling", &paths_whole, DIRECT_MIS, SKY_WITH_MIS,
      NEED_NOTHING, ADAPTIVE},
     {"with the filter", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_NOTHING,
@@ -108,6 +121,9 @@ static const struct subject {
     {"interior", SHIPPED, DIRECT_BSDF, 0.95},
     {"skylit", SHIPPED, DIRECT_MIS, 0.95},
     {"lights200", SHIPPED, DIRECT_MIS, 0.95},
+    {"globe", SHIPPED, DIRECT_MIS, 100},
+    {"bulb", SHIPPED, DIRECT_MIS, 100},
+    {"water", SHIPPED, DIRECT_MIS, 10},
     {"cornell", SHARED, DIRECT_MIS, 30},
     {"many_lights", SHARED, DIRECT_MIS, 0.95},
     {"sky", SHARED, DIRECT_MIS, 0.95},
@@ -159,13 +175,15 @@ struct measurement {
     struct error_curve curves[TECHNIQUES];
 };
 
-static bool matters(const struct technique *t, const struct settings *s)
+static bool matters(const struct technique *t, const struct host_world *host,
+                    const struct settings *s)
 {
     switch (t->need) {
     case NEED_LIGHT_SAMPLES: return s->light_count > 0 || s->sky_share > 0;
     case NEED_LIGHTS: return s->light_count > 1;
     case NEED_SKY_TABLE: return s->sky_share > 0;
     case NEED_GUIDE: return s->guide.table_count > 0;
+    case NEED_LIGHT_PATHS: return host->light_paths.sources != NULL;
     case NEED_NOTHING: break;
     }
     return true;
@@ -201,21 +219,15 @@ static bool take_picture(struct measurement *m, bool is_filtered,
     return true;
 }
 
-/* Adds one render of this world to a curve; afterwards `rgb` is its picture. */
-static bool measure_world(struct measurement *m, struct error_curve *c,
-                          int round, const struct world *world,
-                          enum extra extra, struct error *err)
+/* Adds one render of a job to a curve; afterwards `rgb` is its picture. */
+static bool measure_job(struct measurement *m, struct error_curve *c, int round,
+                        const struct render_job *job, enum extra extra,
+                        struct error *err)
 {
     struct session *s = &m->session;
-    struct render_job job = {.world = *world,
-                             .host = &s->engine.world,
-                             .crop = {0, 0, s->edit.now.view.width_px,
-                                      s->edit.now.view.height_px},
-                             .limits.spp = 1,
-                             .is_adaptive = extra == ADAPTIVE};
     double seconds = 0, filter_seconds, error = 0;
 
-    if (!start(s->engine.render, &job,
+    if (!start(s->engine.render, job,
                err)) /* builds the tree, loads the code */
         return false;
     for (int i = 0; i < POINTS; i++) {
@@ -225,7 +237,7 @@ static bool measure_world(struct measurement *m, struct error_curve *c,
             render_resume(s->engine.render,
                           (struct render_limits){.spp = 1ull << i});
             render_wait(s->engine.render, -1);
-        } else if (!start(s->engine.render, &job, err)) {
+        } else if (!start(s->engine.render, job, err)) {
             return false;
         }
         seconds += seconds_between(begin_ns, clock_cpu_ns());
@@ -240,6 +252,28 @@ static bool measure_world(struct measurement *m, struct error_curve *c,
     return true;
 }
 
+/* Adds one render of this world to a curve; afterwards `rgb` is its picture. */
+static bool measure_world(struct measurement *m, struct error_curve *c,
+                          int round, const struct world *world,
+                          enum extra extra, struct error *err)
+{
+    struct session *s = &m->session;
+    struct render_job job = {.world = *world,
+                             .host = &s->engine.world,
+                             .crop = {0, 0, s->edit.now.view.width_px,
+                                      s->edit.now.view.height_px},
+                             .limits.spp = 1,
+                             .is_adaptive = extra == ADAPTIVE};
+    struct light_source *sources = s->engine.world.light_paths.sources;
+    bool ok;
+
+    if (extra == WITHOUT_LIGHT_PATHS)
+        s->engine.world.light_paths.sources = NULL;
+    ok = measure_job(m, c, round, &job, extra, err);
+    s->engine.world.light_paths.sources = sources;
+    return ok;
+}
+
 /* Adds one render of a technique to its curve. */
 static bool measure_round(struct measurement *m, int technique, int round,
                           struct error *err)
@@ -252,18 +286,39 @@ static bool measure_round(struct measurement *m, int technique, int round,
     if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view,
                     (uint32_t)round, &world, err))
         return false;
-    c->is_measured = matters(t, &world.settings);
+    c->is_measured = matters(t, &s->engine.world, &world.settings);
     if (!c->is_measured)
         return true;
     if (t->sky_use == SKY_ALONE)
         sky_table_lend(&m->whole_sky, &world);
     if (t->extra == FILTERED)
         world.settings.features |= FEATURE_FILTER;
-    if (t->extra == UNGUIDED)
+    world.settings.has_light_cells = t->extra != WITHOUT_LIGHT_CELLS;
+    if (t->extra == UNGUIDED || technique == FIRST_INTEGRATOR)
         path_guide_lend(&(struct path_guide){.cells = NULL}, &world);
     world.settings.direct = t->direct;
     render_set_backend(s->engine.render, m->bench->backends[technique]);
     return measure_world(m, c, round, &world, t->extra, err);
+}
+
+/* Prints which paths have the variance of a sample. */
+static bool print_classes(const struct measurement *m, struct error *err)
+{
+    const struct engine *e = &m->session.engine;
+    struct class_variance v;
+    struct world world;
+    double all;
+
+    if (!world_lend(&e->world, &e->scene, &m->session.edit.now.view, 1, &world,
+                    err) ||
+        !class_variance_measure(&world, &e->world, &paths_whole, &v, err))
+        return false;
+    all = v.light_paths + v.light_cells + v.rest;
+    printf("variance of a sample of paths from the eye: %.3g; light paths take "
+           "%.1f %%, light cells %.1f %%, %.1f %% is left\n",
+           all, 100 * v.light_paths / all, 100 * v.light_cells / all,
+           100 * v.rest / all);
+    return true;
 }
 
 /* Converts sums over rounds to means without the reference's noise. */
@@ -412,6 +467,10 @@ static bool measure_scene(const struct bench *bench,
         series[i] = series_of(&m->curves[i], bench->rounds);
     if (ok) {
         print_curves(m, name, series);
+        ok = m->session.engine.world.light_paths.sources == NULL ||
+             print_classes(m, err);
+    }
+    if (ok) {
         gain->times =
             series_times(&series[EVERYTHING], &series[FIRST_INTEGRATOR]);
         gain->spread = hypot(m->curves[EVERYTHING].spread,

@@ -7,7 +7,7 @@
 #ifndef ERROR_SHADOWS_H
 #define ERROR_SHADOWS_H
 
-#include "kernels/path_lights.h"
+#include "kernels/roulette.h"
 
 static inline float always(struct vec3 light, struct vec3 sum)
 {

@@ -8,7 +8,7 @@
 #ifndef ERROR_THROUGHPUT_H
 #define ERROR_THROUGHPUT_H
 
-#include "kernels/path_lights.h"
+#include "kernels/roulette.h"
 
 static inline float throughput(struct vec3 beta, uint32_t vertex)
 {

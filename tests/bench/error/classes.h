@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/*
+ * classes.h - variance of a sample by the class of its paths
+ *
+ * Paths from the eye are traced three times with the same random numbers: all
+ * of them, without those that light paths make, and without those whose light
+ * light cells have. The variance that each step takes away is that of its
+ * class.
+ *
+ * Units:     variance relative to the square of the pixel's mean, mean of all
+ *            pixels
+ * Threads:   one
+ * Errors:    out of memory
+ */
+#ifndef ERROR_CLASSES_H
+#define ERROR_CLASSES_H
+
+#include "base/error.h"
+#include "render/cpu_kernel.h"
+#include "world/world.h"
+
+struct class_variance {
+    double light_paths; /* lamp, casters, any surfaces, a matte one, eye */
+    double light_cells; /* the same, seen by way of casters */
+    double rest;
+};
+
+/* Measures samples of all pixels of a world, which is lent from the host. */
+bool class_variance_measure(const struct world *world,
+                            const struct host_world *host,
+                            const struct cpu_kernel *paths,
+                            struct class_variance *v, struct error *err);
+
+#endif
