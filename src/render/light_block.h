@@ -9,9 +9,8 @@
  * mirrors gets it from light cells (kernels/light_cells.h) of the block. Blocks
  * double up to a number that depends on the size of the picture, so that none
  * keeps the screen waiting. The light of a block depends on nothing but the
- * world, the picture and the block. A small pilot of the whole picture, which
- * is the same for everybody who renders a part of it, tells whether light paths
- * help at equal time, and how many there should be.
+ * world, the picture and the block. A pilot (light_pilot.h) tells whether light
+ * paths help at equal time, and how many there should be.
  *
  * Units:     samples of each pixel
  * Ownership: light_block_free() frees; a zeroed struct has no block
@@ -21,14 +20,13 @@
 #ifndef GLIM_LIGHT_BLOCK_H
 #define GLIM_LIGHT_BLOCK_H
 
-#include "render/backend.h"
+#include "render/light_pilot.h"
 #include "world/light/light_paths.h"
 
 struct light_block {
     struct light_pilot *pilot; /* in progress: a cancel loses little of it */
-    bool is_decided;           /* of this picture: */
-    double paths;              /* light paths for each sample; 0: none */
-    bool has_cells; /* light cells, for what the eye sees through glass */
+    bool is_decided;           /* the choice is that of this picture */
+    struct light_choice choice;
     struct light_image image;
     struct light_cells cells;
     float *means;            /* of light_image_means() */

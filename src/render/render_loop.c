@@ -495,7 +495,7 @@ static enum pass_result find_light(struct render *r, uint64_t *target)
         first;
     struct backend_picture picture = film_picture(r, &r->job.world);
 
-    if (!(light->paths > 0))
+    if (!(light->choice.paths > 0))
         return PASS_DONE;
     *target = *target < end ? *target : end;
     return light_block_find(light, &picture, first + r->spp_done,

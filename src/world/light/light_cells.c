@@ -13,6 +13,13 @@
 /* Least width of cells by their distance: coordinates have an end. */
 #define WIDTH_MIN 0x1p-15
 
+/* Width of the first light cells of the halves in pixels. */
+#define CELL_WIDE   2.4
+#define CELL_NARROW 0.6
+
+/* Key of the places of grids. */
+#define GRID_KEY 0x5be0cd19u
+
 /* ---- grids ---- */
 
 static float random_float(uint32_t *key)
@@ -41,9 +48,14 @@ static struct light_grid random_grid(const struct camera *c, uint32_t key,
     return g;
 }
 
-bool light_cells_begin(struct light_cells *c, const struct camera *camera,
-                       uint32_t key, const double pixels[2], int thread_count)
+bool light_cells_begin(struct light_cells *c, const struct world *w,
+                       uint64_t begin, const struct pool *pool)
 {
+    int thread_count = pool != NULL ? pool_thread_count(pool) : 1;
+    double finer = pow(1 + (double)begin / 32, -0.25);
+    const double pixels[2] = {CELL_WIDE * finer, CELL_NARROW * finer};
+    uint32_t key = hash_u32(w->settings.seed + GRID_KEY);
+
     if (c->thread_count != thread_count) {
         light_cells_free(c);
         c->lists = alloc_array(2 * (size_t)thread_count, sizeof *c->lists);
@@ -51,9 +63,10 @@ bool light_cells_begin(struct light_cells *c, const struct camera *camera,
             return false;
         c->thread_count = thread_count;
     }
+    key = hash_u32(key ^ (uint32_t)begin) ^ (uint32_t)(begin >> 32);
     for (int h = 0; h < 2; h++)
-        c->grids[h] =
-            random_grid(camera, hash_u32(key ^ (uint32_t)h), pixels[h]);
+        c->grids[h] = random_grid(&w->settings.camera,
+                                  hash_u32(key ^ (uint32_t)h), pixels[h]);
     for (int i = 0; i < 2 * thread_count; i++)
         c->lists[i].count = 0;
     return true;

@@ -41,10 +41,10 @@ struct light_cells {
     int thread_count;
 };
 
-/* Makes empty grids for a camera. Key and seed choose their places; `pixels` is
- * the width of the cells of each half in pixels. */
-bool light_cells_begin(struct light_cells *cells, const struct camera *camera,
-                       uint32_t key, const double pixels[2], int thread_count);
+/* Makes empty grids for the world's camera, for a block of samples whose first
+ * is `begin`: the later, the finer, and each at another place. */
+bool light_cells_begin(struct light_cells *cells, const struct world *world,
+                       uint64_t begin, const struct pool *pool);
 
 /* Adds light at a point of a surface, whose unit normal ng is on its side. The
  * deposit has all but its cell. */

@@ -216,7 +216,7 @@ bool light_image_init(struct light_image *image, int width, int height)
     *image = (struct light_image){.width = width, .height = height};
     for (int h = 0; h < 2; h++)
         image->sums[h] = alloc_array(pixels, 3 * sizeof(struct sum));
-    for (int i = 0; i < 64; i++)
+    for (int i = 0; i < LIGHT_LOCKS; i++)
         pthread_mutex_init(&image->locks[i], NULL);
     return image->sums[0] != NULL && image->sums[1] != NULL;
 }
@@ -232,7 +232,7 @@ void light_image_clear(struct light_image *image)
 
 void light_image_free(struct light_image *image)
 {
-    for (int i = 0; image->sums[0] != NULL && i < 64; i++)
+    for (int i = 0; image->sums[0] != NULL && i < LIGHT_LOCKS; i++)
         pthread_mutex_destroy(&image->locks[i]);
     free(image->sums[0]);
     free(image->sums[1]);
@@ -252,11 +252,11 @@ static void add_light(struct light_image *image, int half, int x, int y,
         !sum_accepts(light.x) || !sum_accepts(light.y) || !sum_accepts(light.z))
         return;
     to = image->sums[half] + 3 * ((size_t)y * (size_t)image->width + (size_t)x);
-    pthread_mutex_lock(&image->locks[y % 64]);
+    pthread_mutex_lock(&image->locks[y % LIGHT_LOCKS]);
     sum_join(&to[0], sum_of(light.x));
     sum_join(&to[1], sum_of(light.y));
     sum_join(&to[2], sum_of(light.z));
-    pthread_mutex_unlock(&image->locks[y % 64]);
+    pthread_mutex_unlock(&image->locks[y % LIGHT_LOCKS]);
 }
 
 void light_image_means(const struct light_image *image, uint64_t count,

@@ -55,11 +55,13 @@ void light_paths_free(struct light_paths *paths);
 
 /* Sums of the light that light paths bring to pixels of a film, whose corner is
  * (x0, y0) in the picture, in two halves that are independent. */
+enum { LIGHT_LOCKS = 64 };
+
 struct light_image {
     int width, height, x0, y0;
-    struct sum *sums[2];       /* 3 for each pixel */
-    pthread_mutex_t locks[64]; /* of rows */
-    _Atomic uint64_t rays;     /* number of rays that were traced */
+    struct sum *sums[2];                /* 3 for each pixel */
+    pthread_mutex_t locks[LIGHT_LOCKS]; /* of rows */
+    _Atomic uint64_t rays;              /* number of rays that were traced */
 };
 
 bool light_image_init(struct light_image *image, int width, int height);
