@@ -53,10 +53,10 @@ bool light_paths_build(struct light_paths *paths, const struct world *w,
                        const struct lights *lights, double sky_mean);
 void light_paths_free(struct light_paths *paths);
 
-/* Sums of the light that light paths bring to pixels of a film, whose corner is
- * (x0, y0) in the picture, in two halves that are independent. */
 enum { LIGHT_LOCKS = 64 };
 
+/* Sums of the light that light paths bring to pixels of a film, whose corner is
+ * (x0, y0) in the picture, in two halves that are independent. */
 struct light_image {
     int width, height, x0, y0;
     struct sum *sums[2];                /* 3 for each pixel */

@@ -171,14 +171,14 @@ static void suns_shine_through_sheets(void **state)
                 .5 / M_PI * 3 * (1 - sheet_reflectance(1)), 9e-3);
 }
 
-/* Two lamps in a globe of glass that light a box: light paths, and paths from
- * the eye with many more samples. */
-static void write_globe(const char *globe)
+/* Two lamps in a globe of glass that light a box of these materials: light
+ * paths, and paths from the eye with many more samples. */
+static void write_globe(const char *globe, const char *box)
 {
-    char *mtl = xformat("newmtl grey\nKd .6 .5 .4\nnewmtl globe\n%s\n"
+    char *mtl = xformat("newmtl grey\nKd .6 .5 .4\n%s\nnewmtl globe\n%s\n"
                         "newmtl lamp\nKd 0 0 0\nKe 30 30 30\n"
                         "newmtl dim\nKd 0 0 0\nKe 2 4 2\n",
-                        globe);
+                        box, globe);
     char text[16384];
     size_t at;
 
@@ -249,14 +249,15 @@ static void check_same_means(void)
 
 static void paths_from_the_eye_agree(void **state)
 {
-    static const char *const globes[] = {
-        "illum 7\nNi 1.5\nTf 1 1 1",
-        "illum 7\nNi 1.5\nTf .9 .8 .9\nTf_distance .5",
-        "illum 7\nNi 1.5\nTf 1 1 1\nPr .25", "illum 4\nNi 1.5\nTf 1 1 1"};
+    static const char *const materials[][2] = {
+        {"illum 7\nNi 1.5\nTf 1 1 1", "Pm 1\nPr .5"},
+        {"illum 7\nNi 1.5\nTf .9 .8 .9\nTf_distance .5", ""},
+        {"illum 7\nNi 1.5\nTf 1 1 1\nPr .4", ""},
+        {"illum 4\nNi 1.5\nTf 1 1 1", ""}};
 
     (void)state;
     for (int i = 0; i < 4; i++) {
-        write_globe(globes[i]);
+        write_globe(materials[i][0], materials[i][1]);
         check_same_means();
     }
 }
@@ -318,7 +319,7 @@ static void sheets_show_what_shines_through_them(void **state)
 static void paths_from_the_eye_agree_behind_glass(void **state)
 {
     (void)state;
-    write_globe("illum 7\nNi 1.5\nTf 1 1 1");
+    write_globe("illum 7\nNi 1.5\nTf 1 1 1", "");
     add_pane();
     check_same_means();
 }
