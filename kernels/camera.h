@@ -49,6 +49,7 @@ static inline struct ray camera_through_lens(struct camera c, struct ray r,
 struct camera_sample {
     struct ray ray;
     struct sampler sampler;
+    uint32_t half_number; /* of the pixel's samples: 1 if the index is odd */
 };
 
 /* The sampler of sample `index` of pixel (x, y) of the whole picture. */
@@ -89,6 +90,7 @@ static inline struct camera_sample camera_sample_begin(const struct settings *s,
     start.ray =
         camera_sample_ray(s, x, y, random_2d(start.sampler, DIMENSION_PIXEL),
                           start.sampler);
+    start.half_number = (uint32_t)index & 1u;
     return start;
 }
 

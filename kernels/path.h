@@ -89,17 +89,16 @@ static inline void path_intersect(const struct world *w, struct path *p,
     hit_closest(w, p->ray, h);
 }
 
-/* Begins a path with the camera ray r. */
-static inline void path_open(struct path *p, struct ray r,
-                             struct sampler sampler)
+static inline void path_open(struct path *p, struct camera_sample start)
 {
-    p->ray = r;
-    p->sampler = sampler;
+    p->ray = start.ray;
+    p->sampler = start.sampler;
+    p->half_number = start.half_number;
     p->beta = v3(1.0f, 1.0f, 1.0f);
     p->scale = 1.0f;
     p->pdf = 0.0f;
-    p->from.p = r.o;
-    p->from.n = r.d;
+    p->from.p = start.ray.o;
+    p->from.n = start.ray.d;
     p->from.transmits = true;
     p->medium = v3(0.0f, 0.0f, 0.0f);
     p->drops = false;
@@ -184,7 +183,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
         return false;
     if (has_cells)
         path_add(p,
-                 light_cells_radiance(w, p->sampler.is_odd, &v, &b,
+                 light_cells_radiance(w, p->half_number, &v, &b,
                                       surface_to_local(&v, v3_neg(p->ray.d)),
                                       random_2d(p->sampler, DIMENSION_CELL)),
                  1.0f);
@@ -225,19 +224,20 @@ static inline bool ray_is_divided(const struct world *w, struct ray r)
     return h.tri != NO_INDEX && coverage_at(w, h) < 1.0f;
 }
 
-/* Returns the radiance along the camera ray r, whose hit is h, or the AOV of
- * the hit. Radiance is capped at the largest float, and the film counts it as
+/* Returns the radiance along a camera ray, whose hit is h, or the AOV of the
+ * hit. Radiance is capped at the largest float, and the film counts it as
  * saturated. *surface is set if the world's samples have first surfaces. */
-static inline struct path_sample
-path_follow(const struct world *w, struct ray r, struct sampler sampler,
-            struct hit h, struct first_surface *surface)
+static inline struct path_sample path_follow(const struct world *w,
+                                             struct camera_sample start,
+                                             struct hit h,
+                                             struct first_surface *surface)
 {
     struct path p;
     uint32_t vertex = 1;
 
     if (HAS(FEATURE_AOV) && w->settings.sample != SAMPLE_LIGHT)
-        return aov_sample(w, r, h);
-    path_open(&p, r, sampler);
+        return aov_sample(w, start.ray, h);
+    path_open(&p, start);
     while (path_extend(w, &p, vertex, &h))
         vertex++;
     p.out.radiance =
@@ -246,7 +246,7 @@ path_follow(const struct world *w, struct ray r, struct sampler sampler,
         first_surface_end(w, &p.surface, vertex, p.out.radiance);
         if (has_coverage(w) && !v3_is_zero(p.surface.seen)) {
             p.out.rays++;
-            if (ray_is_divided(w, r))
+            if (ray_is_divided(w, start.ray))
                 p.surface.seen = v3(0.0f, 0.0f, 0.0f);
         }
         *surface = p.surface;
@@ -254,16 +254,16 @@ path_follow(const struct world *w, struct ray r, struct sampler sampler,
     return p.out;
 }
 
-/* Traces the camera ray r and returns path_follow() of its hit. */
-static inline struct path_sample path_trace(const struct world *w, struct ray r,
-                                            struct sampler sampler,
+/* Traces a camera ray and returns path_follow() of its hit. */
+static inline struct path_sample path_trace(const struct world *w,
+                                            struct camera_sample start,
                                             struct first_surface *surface)
 {
     struct hit h;
 
-    path_set_key(w, sampler, 1, &r);
-    hit_closest(w, r, &h);
-    return path_follow(w, r, sampler, h, surface);
+    path_set_key(w, start.sampler, 1, &start.ray);
+    hit_closest(w, start.ray, &h);
+    return path_follow(w, start, h, surface);
 }
 
 /* Makes the samplers of some samples, and their points within the pixel. */
@@ -305,8 +305,14 @@ static inline void path_samples(const struct world *w,
         path_set_key(w, samplers[i], 1, &rays[i]);
     }
     hits_closest(w, rays, count, hits);
-    for (uint32_t i = 0; i < count; i++)
-        out[i] = path_follow(w, rays[i], samplers[i], hits[i], surfaces + i);
+    for (uint32_t i = 0; i < count; i++) {
+        struct camera_sample start;
+
+        start.ray = rays[i];
+        start.sampler = samplers[i];
+        start.half_number = (uint32_t)all[i].index & 1u;
+        out[i] = path_follow(w, start, hits[i], surfaces + i);
+    }
 }
 
 #endif

@@ -42,6 +42,7 @@ struct path {
     struct path_sample out;
     struct first_surface surface;
     /* FEATURE_LIGHT_PATHS: */
+    uint32_t half_number; /* as in struct camera_sample */
     bool drops;     /* light paths bring light of lamps to surfaces that cast */
     bool is_chain;  /* all vertices so far cast */
     uint32_t casts; /* number of last ones that do */

@@ -73,7 +73,7 @@ __kernel void trace_paths(
 
         struct first_surface surface;
 
-        samples[i] = path_trace(&w, starts[i].ray, starts[i].sampler, &surface);
+        samples[i] = path_trace(&w, starts[i], &surface);
         if (has_first_surface(&w))
             surfaces[i] = surface;
     }

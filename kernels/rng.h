@@ -63,7 +63,6 @@ enum dimension {
 struct sampler {
     uint32_t key; /* hash of the pixel, the seed and the upper 32 bits */
     uint32_t reversed_index; /* lower 32 bits of the sample index, reversed */
-    uint32_t is_odd;         /* 1: of the odd half of the pixel's samples */
 };
 
 /* A number in [0, 1) from the top 24 bits. It is never 1. */
@@ -82,7 +81,6 @@ static inline struct sampler sampler_start(uint32_t x, uint32_t y,
     s.key = hash_u32(s.key ^ seed);
     s.key = hash_u32(s.key ^ (uint32_t)(index >> 32));
     s.reversed_index = reverse_bits((uint32_t)index);
-    s.is_odd = 0;
     return s;
 }
 
@@ -92,8 +90,7 @@ static inline struct sampler sampler_start_half(uint32_t x, uint32_t y,
 {
     struct sampler s = sampler_start(x, y, index >> 1, seed);
 
-    s.is_odd = (uint32_t)index & 1u;
-    s.key = hash_u32(s.key ^ s.is_odd);
+    s.key = hash_u32(s.key ^ ((uint32_t)index & 1u));
     return s;
 }
 
@@ -119,7 +116,6 @@ static inline struct sampler sampler_start_draft(uint32_t x, uint32_t y,
         rank = rank << 2 | (index - 1);
     }
     s.reversed_index = reverse_bits(rank);
-    s.is_odd = 0;
     return s;
 }
 
@@ -139,7 +135,6 @@ sampler_start_draft_half(uint32_t x, uint32_t y, uint32_t index, uint32_t seed)
         rank = rank << 1 | (index - 1u) >> 1;
     }
     s.reversed_index = reverse_bits(rank);
-    s.is_odd = 0;
     return s;
 }
 

@@ -161,7 +161,9 @@ static double path_error(const struct world *w, uint64_t index)
     struct ray r = {v3(0.1f, 0.2f, 0.3f), v3_unit(v3(1, 0.3f, 0.2f)), FLOAT_MAX,
                     0, 0};
 
-    return (double)path_trace(w, r, sampler_start(3, 5, index, 0), NULL)
+    return (double)path_trace(
+               w, (struct camera_sample){r, sampler_start(3, 5, index, 0), 0},
+               NULL)
                .radiance.x -
            1;
 }
@@ -471,7 +473,11 @@ static struct mean mean_of_paths(const struct world *w, uint32_t row)
         struct ray r = {v3(0.7f, 0.8f, 0.9f), v3_unit(v3(-1, -1.1f, -1.2f)),
                         FLOAT_MAX, 0, 0};
         struct vec3 c =
-            path_trace(w, r, sampler_start(i, row, 0, 0), NULL).radiance;
+            path_trace(w,
+                       (struct camera_sample){r, sampler_start(i, row, 0, 0),
+                                              0},
+                       NULL)
+                .radiance;
         double x = ((double)c.x + (double)c.y + (double)c.z) / 3;
 
         sum += x;

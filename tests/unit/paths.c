@@ -5,7 +5,7 @@ struct path_sample trace_path(const struct world *w, struct ray r,
                               struct sampler sampler,
                               struct first_surface *surface)
 {
-    return path_trace(w, r, sampler, surface);
+    return path_trace(w, (struct camera_sample){r, sampler, 0}, surface);
 }
 
 void trace_samples(const struct world *w, const struct sample_id *places,

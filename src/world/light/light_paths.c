@@ -131,14 +131,14 @@ static void add_sources(struct building *b, const struct lights *lights,
  * get that cast, so that no lamp starves. */
 static bool choose_by(struct light_paths *p, struct building *b)
 {
-    const struct sampler s = {LIGHT_PATH_KEY, 0, 0};
+    const struct sampler s = {LIGHT_PATH_KEY, 0};
     double *irradiances = alloc_array(b->count, sizeof *irradiances);
     double power = 0, sum = 0;
 
     if (irradiances == NULL)
         return false;
     for (uint32_t k = 0; k < PLACES; k++) {
-        struct sampler at = {s.key, reverse_bits(k), 0};
+        struct sampler at = {s.key, reverse_bits(k)};
         struct vec3 place =
             tri_point(b->w,
                       triangle_cdf_choose(&p->casters, number_2d(at, 0).x),

@@ -110,7 +110,7 @@ struct search {
 
 static struct vec2 probe_2d(uint32_t i, enum decision decision)
 {
-    struct sampler s = {PORTALS_KEY, reverse_bits(i), 0};
+    struct sampler s = {PORTALS_KEY, reverse_bits(i)};
 
     return random_2d(s, PORTALS_DIMENSION + (uint32_t)decision);
 }

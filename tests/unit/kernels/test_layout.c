@@ -114,7 +114,8 @@
       M(light_grid, facing) M(light_grid, distance_scale)                     \
       M(light_grid, width) M(light_grid, first) M(light_grid, mask)           \
     S(light_cell) M(light_cell, key) M(light_cell, flux) M(light_cell, d)     \
-    S(camera_sample) M(camera_sample, ray) M(camera_sample, sampler)
+    S(camera_sample) M(camera_sample, ray) M(camera_sample, sampler)                           \
+      M(camera_sample, half_number)
 /* clang-format on */
 
 struct fact {
