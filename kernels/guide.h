@@ -4,13 +4,13 @@
  *
  * src/world/light/path_guide.c has traced rays for the sky through windows,
  * which BSDF and light samples rarely find. Each cell of a grid over the scene
- * has tables of how much arrives from each of GUIDE_BINS
- * directions (Jensen 1995, "Importance driven path tracing using the photon
- * map"). At a diffuse surface a direction is sampled from the cell's table with
- * a fixed probability, the table's share, and otherwise from the BSDF or the
- * light. Its density is that of the mixture (Vorba et al. 2014, "On-line
- * learning of parametric mixture models for light transport simulation", 5.2),
- * so that any table is unbiased, and a good one has less variance.
+ * has tables of how much arrives from each of GUIDE_BINS directions (Jensen
+ * 1995, "Importance driven path tracing using the photon map"). At a diffuse
+ * surface a direction is sampled from the cell's table with a fixed
+ * probability, the table's share, and otherwise from the BSDF or the light. Its
+ * density is that of the mixture (Vorba et al. 2014, "On-line learning of
+ * parametric mixture models for light transport simulation", 5.2), so that any
+ * table is unbiased, and a good one has less variance.
  *
  * There are two tables. Light samples are guided to the sky that they can
  * reach; paths are guided to the rest only, the sky behind panes of glass. A

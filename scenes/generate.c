@@ -16,15 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SEGMENTS     8 /* subdivision: 1,280 triangles a sphere */
-#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
-
 static const char *folder;
-
-static struct point at(double x, double y, double z)
-{
-    return (struct point){x, y, z};
-}
 
 /* --- cornell: box data of Cornell University Program of Computer Graphics
  * --- */

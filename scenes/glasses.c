@@ -5,14 +5,6 @@
 
 #include "mesh.h"
 
-#define SEGMENTS     8 /* subdivision: 1,280 triangles a sphere */
-#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
-
-static struct point at(double x, double y, double z)
-{
-    return (struct point){x, y, z};
-}
-
 /* ---- globe ---- */
 
 #define GLOBE_ARC 24
@@ -36,7 +28,12 @@ static void glass_globe(struct mesh *m, struct point middle, double radius,
     mesh_lathe(m, middle, (const double(*)[2])profile, 2 * GLOBE_ARC, 64);
 }
 
-/* A room with a table, whose top is at a height of .76. */
+#define ROOM_MATERIALS                                      \
+    "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n" \
+    "newmtl plaster\nKd .74 .7 .64\nillum 1\n"              \
+    "newmtl wood\nKd .36 .22 .12\nillum 1\n"
+
+/* A room of these with a table, whose top is at a height of .76. */
 static void table_room(struct mesh *m)
 {
     mesh_object(m, "floor", "planks");
@@ -86,14 +83,11 @@ static void make_globe(const char *folder)
     mesh_sphere(&m, at(.2, .8202, .32), .06, SEGMENTS);
     mesh_close(&m);
     mesh_text(folder, "globe", "mtl",
-              "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
-              "newmtl plaster\nKd .74 .7 .64\nillum 1\n"
-              "newmtl wood\nKd .36 .22 .12\nillum 1\n"
-              "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
-              "newmtl lamp\nKd 0 0 0\nKe 260 190 110\nillum 1\n"
-              "newmtl brass\nKd .85 .62 .3\nPm 1\nPr .5\n"
-              "newmtl red\nKd .5 .1 .08\nillum 1\n"
-              "newmtl blue\nKd .1 .18 .4\nillum 1\n");
+              ROOM_MATERIALS "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
+                             "newmtl lamp\nKd 0 0 0\nKe 260 190 110\nillum 1\n"
+                             "newmtl brass\nKd .85 .62 .3\nPm 1\nPr .5\n"
+                             "newmtl red\nKd .5 .1 .08\nillum 1\n"
+                             "newmtl blue\nKd .1 .18 .4\nillum 1\n");
     mesh_text(folder, "globe", "view",
               "eye .55 1.42 2.1\nat -.05 .93 0\nup 0 1 0\nfovy 36\n"
               "background 0 0 0\n"
@@ -151,9 +145,7 @@ static void make_bulb(const char *folder)
     mesh_box(&m, at(.36, .7601, .16), at(.21, .002, .297), -15);
     mesh_close(&m);
     mesh_text(folder, "bulb", "mtl",
-              "newmtl planks\nKd 1 1 1\nmap_Kd planks.png\nillum 1\n"
-              "newmtl plaster\nKd .74 .7 .64\nillum 1\n"
-              "newmtl wood\nKd .36 .22 .12\nillum 1\n"
+              ROOM_MATERIALS
               "newmtl enamel\nKd .2 .42 .32\nillum 1\n"
               "newmtl china\nKd .8 .8 .78\nillum 1\n"
               "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"

@@ -16,9 +16,19 @@
 
 #include <stdio.h>
 
+#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
+
+/* Subdivision of spheres: 1,280 triangles each. */
+#define SEGMENTS 8
+
 struct point {
     double x, y, z;
 };
+
+static inline struct point at(double x, double y, double z)
+{
+    return (struct point){x, y, z};
+}
 
 struct mesh {
     FILE *file;

@@ -6,17 +6,10 @@
 
 #include "surfaces.h"
 
-#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
-
 /* Extension that a material has, as JSON. */
 #define COAT(factor, roughness)                                \
     "\"KHR_materials_clearcoat\":{\"clearcoatFactor\":" factor \
     ",\"clearcoatRoughnessFactor\":" roughness "}"
-
-static struct point at(double x, double y, double z)
-{
-    return (struct point){x, y, z};
-}
 
 /* Adds a material of a colour with these extensions. */
 static uint32_t add_material(struct glb *g, const char *name, const char *color,

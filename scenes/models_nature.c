@@ -6,13 +6,6 @@
 
 #include "surfaces.h"
 
-#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
-
-static struct point at(double x, double y, double z)
-{
-    return (struct point){x, y, z};
-}
-
 /* Returns a pseudorandom number in [0, 1), the same on every machine. */
 static double next_random(uint32_t *state)
 {

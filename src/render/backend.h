@@ -24,9 +24,7 @@ enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 /* Most samples in the mean, with which pixels of any share have that many. */
 #define PASS_MEAN_MAX (PASS_SAMPLES_MAX * SHARE_ONE / SHARE_MAX)
 
-/* Light that the samples of a pass get from light paths, and its arrays. */
-enum { LIGHT_PIXELS, LIGHT_GRIDS, LIGHT_CELLS, LIGHT_ARRAYS };
-
+/* Light that the samples of a pass get from light paths. */
 struct pass_light {
     /* for all samples: 3 numbers for each pixel of the film for samples with
      * even indices, then for those with odd ones */
@@ -37,21 +35,6 @@ struct pass_light {
     size_t cell_count;
     uint64_t version; /* equal ones have the same numbers */
 };
-
-/* Returns the size of an array of the light, and the array. */
-static inline size_t light_array(const struct pass_light *light, int index,
-                                 const void **bytes)
-{
-    const void *const arrays[LIGHT_ARRAYS] = {light->pixels, light->grids,
-                                              light->cells};
-    const size_t sizes[LIGHT_ARRAYS] = {
-        6 * light->pixel_count * sizeof *light->pixels,
-        light->grids != NULL ? 2 * sizeof *light->grids : 0,
-        light->cell_count * sizeof *light->cells};
-
-    *bytes = arrays[index];
-    return sizes[index];
-}
 
 /* One pass over the pixels of a grid (0, stride, 2 stride, ... in both
  * directions). Pixels with fewer samples than their target get up to that

@@ -115,14 +115,14 @@ static int row_pixels(const struct row *r, uint32_t done, int pixel_count)
 static void add_light(const struct job *j, struct row *r, uint32_t count)
 {
     const struct backend_cpu *b = j->backend;
-    size_t pixels = (size_t)b->film->width * (size_t)b->film->height;
+    const struct pass_light *light = j->pass.light;
 
     for (uint32_t i = 0; i < count; i++) {
         const struct sample_id *id = &r->ids[i];
         size_t at = (size_t)((int)id->y - b->y0) * (size_t)b->film->width +
                     (size_t)((int)id->x - b->x0);
         const float *from =
-            j->pass.light->pixels + 3 * (at + (id->index & 1) * pixels);
+            light->pixels + 3 * (at + (id->index & 1) * light->pixel_count);
 
         r->samples[i].radiance =
             v3_add(r->samples[i].radiance, v3(from[0], from[1], from[2]));

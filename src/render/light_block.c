@@ -134,7 +134,8 @@ enum pass_result light_block_find(struct light_block *b,
     struct bvh8_world w = {*p->world, world_tree(p->host)};
     const struct camera *c = &w.world.settings.camera;
     uint64_t begin = block_begin(c, sample), end = light_block_end(c, sample);
-    uint64_t count;
+    uint64_t first = paths_before(b, c, begin);
+    uint64_t count = paths_before(b, c, end) - first;
     struct light_film film = {&b->image,
                               b->choice.has_cells ? &b->cells : NULL};
 
@@ -146,12 +147,11 @@ enum pass_result light_block_find(struct light_block *b,
     if (b->choice.has_cells &&
         !light_cells_begin(&b->cells, &w.world, begin, pool))
         return fail(err, "out of memory for light cells"), PASS_FAILED;
-    count = paths_before(b, c, end) - paths_before(b, c, begin);
     light_image_clear(&b->image);
     b->image.x0 = p->x0;
     b->image.y0 = p->y0;
-    if (!light_paths_trace(&p->host->light_paths, &w, paths_before(b, c, begin),
-                           (uint32_t)count, pool, cancel, film))
+    if (!light_paths_trace(&p->host->light_paths, &w, first, (uint32_t)count,
+                           pool, cancel, film))
         return PASS_CANCELLED;
     if (b->choice.has_cells && !light_cells_end(&b->cells, count, pool))
         return fail(err, "out of memory for light cells"), PASS_FAILED;

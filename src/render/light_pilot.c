@@ -53,7 +53,7 @@ struct pilot_pixel {
 };
 
 /* Worlds of the pilot: paths from the eye alone, beside light paths whose cells
- * are empty, and with their cells. */
+ * are empty, and if it may have cells, with these. */
 enum { WORLD_ALONE, WORLD_BESIDE, WORLD_CELLS, PILOT_WORLDS };
 
 struct light_pilot {
@@ -74,6 +74,7 @@ static void pilot_pixel(void *context, uint32_t pixel, int worker)
     struct sample_id ids[PILOT_SPP];
     struct path_sample samples[PILOT_WORLDS][PILOT_SPP];
     struct first_surface surfaces[SAMPLE_BLOCK];
+    int worlds = p->has_cells ? PILOT_WORLDS : WORLD_CELLS;
 
     (void)worker;
     if (to->is_done)
@@ -81,7 +82,7 @@ static void pilot_pixel(void *context, uint32_t pixel, int worker)
     for (uint32_t i = 0; i < PILOT_SPP; i++)
         ids[i] =
             (struct sample_id){pixel % PILOT_WIDTH, pixel / PILOT_WIDTH, i};
-    for (int i = 0; i < PILOT_WORLDS * PILOT_SPP; i += SAMPLE_BLOCK)
+    for (int i = 0; i < worlds * PILOT_SPP; i += SAMPLE_BLOCK)
         p->kernel->samples(&p->worlds[i / PILOT_SPP].world, ids + i % PILOT_SPP,
                            SAMPLE_BLOCK, samples[i / PILOT_SPP] + i % PILOT_SPP,
                            surfaces);
@@ -93,7 +94,9 @@ static void pilot_pixel(void *context, uint32_t pixel, int worker)
         to->whole_square += whole * whole;
         to->rest += rest;
         to->rest_square += rest * rest;
-        to->cells[i % 2] += color_mean(samples[WORLD_CELLS][i].radiance) - rest;
+        if (p->has_cells)
+            to->cells[i % 2] +=
+                color_mean(samples[WORLD_CELLS][i].radiance) - rest;
         to->rays += samples[WORLD_BESIDE][i].rays;
     }
     to->is_done = true;

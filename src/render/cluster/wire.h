@@ -44,6 +44,24 @@ struct rank_order {
     uint64_t before;
 };
 
+/* The arrays of pass_light that are broadcast. */
+enum { LIGHT_PIXELS, LIGHT_GRIDS, LIGHT_CELLS, LIGHT_ARRAYS };
+
+/* Returns the size of an array of the light, and the array. */
+static inline size_t light_array(const struct pass_light *light, int index,
+                                 const void **bytes)
+{
+    const void *const arrays[LIGHT_ARRAYS] = {light->pixels, light->grids,
+                                              light->cells};
+    const size_t sizes[LIGHT_ARRAYS] = {
+        6 * light->pixel_count * sizeof *light->pixels,
+        light->grids != NULL ? 2 * sizeof *light->grids : 0,
+        light->cell_count * sizeof *light->cells};
+
+    *bytes = arrays[index];
+    return sizes[index];
+}
+
 enum wire_tag { WIRE_ORDER = 1, WIRE_CANCEL, WIRE_ANSWER };
 
 /* Starts MPI, and with ranks above 1 the other ranks: cluster.h. */

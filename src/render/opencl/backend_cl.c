@@ -428,7 +428,7 @@ static bool start_task(struct backend_cl *b, struct progress *p, struct slot *s,
                             .y0 = b->y0,
                             .has_shares = p->pass->shares != NULL};
     if (p->pass->light != NULL)
-        s->task.light_pixels = s->task.width * (uint32_t)b->film.film->height;
+        s->task.light_pixels = (uint32_t)p->pass->light->pixel_count;
     s->begin_ns = clock_ns();
     s->reading.count = 0;
     p->next += s->task.count;
@@ -541,15 +541,14 @@ static bool bind_shares(struct backend_cl *b, const struct pass *pass,
 static bool bind_light(struct backend_cl *b, const struct pass *pass,
                        struct error *err)
 {
-    const struct film *film = b->film.film;
-    size_t pixels = (size_t)film->width * (size_t)film->height;
     const struct pass_light *l = pass->light;
 
     if (l == NULL || (b->light != NULL && b->light_version == l->version))
         return true;
     cl_machine_drop(&b->machine, &b->light);
-    b->light = cl_machine_buffer(&b->machine, l->pixels,
-                                 6 * pixels * sizeof *l->pixels, false, err);
+    b->light =
+        cl_machine_buffer(&b->machine, l->pixels,
+                          6 * l->pixel_count * sizeof *l->pixels, false, err);
     b->light_version = l->version;
     return b->light != NULL &&
            (l->grids == NULL ||

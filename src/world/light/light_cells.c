@@ -67,8 +67,10 @@ bool light_cells_begin(struct light_cells *c, const struct world *w,
     for (int h = 0; h < 2; h++)
         c->grids[h] = random_grid(&w->settings.camera,
                                   hash_u32(key ^ (uint32_t)h), pixels[h]);
-    for (int i = 0; i < 2 * thread_count; i++)
+    for (int i = 0; i < 2 * thread_count; i++) {
         c->lists[i].count = 0;
+        c->lists[i].is_cut = false;
+    }
     return true;
 }
 

@@ -3,6 +3,8 @@
 
 #include "base/memory.h"
 #include "image/color.h"
+#include "render/light_pilot.h"
+#include "world/light/light_cells.h"
 
 #include <stdlib.h>
 
@@ -39,11 +41,10 @@ static void add_pixel(const struct bvh8_world *w,
 
 /* Returns the sum of the pixels' variances, each over the square of its mean,
  * which `means` has. The first step sets them. */
-static double measure_step(struct bvh8_world *w, const struct cpu_kernel *paths,
-                           int step, double *means)
+static double measure_step(const struct bvh8_world *w,
+                           const struct cpu_kernel *paths, bool is_first,
+                           double *means)
 {
-    /* grids without cells: a width of 0 finds none */
-    static const struct light_grid none[2];
     uint32_t width = (uint32_t)w->world.settings.camera.width;
     uint32_t count = width * (uint32_t)w->world.settings.camera.height;
     double *variances = alloc_array(count, sizeof *variances);
@@ -51,16 +52,12 @@ static double measure_step(struct bvh8_world *w, const struct cpu_kernel *paths,
 
     if (variances == NULL)
         return -1;
-    w->world.settings.has_light_paths = step != ALL;
-    w->world.settings.has_light_cells = step == WITHOUT_CELLS;
-    w->world.settings.features |= FEATURE_LIGHT_PATHS;
-    w->world.light_grids = none;
     for (uint32_t i = 0; i < count; i++) {
         double sum, square;
 
         add_pixel(w, paths, i % width, i / width, &sum, &square);
         variances[i] = square - sum * sum;
-        if (step == ALL)
+        if (is_first)
             means[i] = sum;
         mean += means[i] / count;
     }
@@ -76,6 +73,8 @@ bool class_variance_measure(const struct world *world,
                             const struct cpu_kernel *paths,
                             struct class_variance *v, struct error *err)
 {
+    /* grids of a width of 0 have no cells */
+    static const struct light_cells none;
     struct bvh8_world w = {*world, world_tree(host)};
     const struct camera *c = &world->settings.camera;
     double *means =
@@ -84,7 +83,10 @@ bool class_variance_measure(const struct world *world,
     bool ok = means != NULL;
 
     for (int i = 0; ok && i < STEPS; i++) {
-        left[i] = measure_step(&w, paths, i, means);
+        if (i != ALL)
+            w.world =
+                light_pilot_world(world, i == WITHOUT_CELLS ? &none : NULL);
+        left[i] = measure_step(&w, paths, i == ALL, means);
         ok = left[i] >= 0;
     }
     free(means);

@@ -20,11 +20,6 @@
 
 static const char *folder;
 
-static struct point at(double x, double y, double z)
-{
-    return (struct point){x, y, z};
-}
-
 static void write_file(const char *name, const void *data, size_t size_bytes)
 {
     char *path = xformat("%s/%s", folder, name);
