@@ -36,12 +36,13 @@ enum feature {
     /* texture_flag beyond TEXTURE_CLAMP, channels, maps of rare parameters */
     FEATURE_TEXTURE_OPTIONS = 16777216,
     FEATURE_VERTEX_ALPHAS = 33554432,
-    FEATURE_TANGENTS = 67108864,      /* tangents of vertices */
-    FEATURE_COAT_NORMALS = 134217728, /* coats over bumps, or with a map */
-    FEATURE_LIGHT_PATHS = 2097152     /* settings.has_light_paths */
+    FEATURE_TANGENTS = 67108864,       /* tangents of vertices */
+    FEATURE_COAT_NORMALS = 134217728,  /* coats over bumps, or with a map */
+    FEATURE_LIGHT_PATHS = 2097152,     /* settings.has_light_paths */
+    FEATURE_RADIANCE_CELLS = 268435456 /* radiance_cells.h */
 };
 
-#define FEATURES_ALL 268435455u
+#define FEATURES_ALL 536870911u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

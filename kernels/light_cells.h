@@ -6,65 +6,25 @@
  * No light path can be connected to the camera there. Its flux is summed in
  * cells of space instead, which the first matte surface of a path from the eye
  * looks up (photon mapping: Jensen 1996, "Global illumination using photon
- * maps", with cells for the search). Cells are cubes, about as wide as a pixel
- * seen from the eye, in octaves of the distance. Each block of samples
- * (render/light_block.h) has a grid of its own for each half of a pixel's
- * samples, at a random place and of a random octave, and later grids are finer:
- * the mean of all converges to the light (Knaus and Zwicker 2011, "Progressive
- * photon mapping: a probabilistic approach"). A cell is found by hashing its
- * key.
- *
- * What blur leaves is seen in the difference of the halves, as one half has
- * cells four times as wide as the other: where blur grows with the square of
- * the width, half the difference is 15/17 of the mean blur.
+ * maps", with cells for the search). Cells are about as wide as a pixel seen
+ * from the eye. Those of one half are four times as wide as those of the other:
+ * where blur grows with the square of the width, half the difference of the
+ * halves is 15/17 of the mean blur.
  *
  * Units:     normalised scene units; flux, divided by the number of light paths
  */
 #ifndef KERNELS_LIGHT_CELLS_H
 #define KERNELS_LIGHT_CELLS_H
 
-#include "kernels/rng.h"
+#include "kernels/cell_grid.h"
 #include "kernels/surface_point.h"
-
-/* Largest coordinate of a cell. */
-#define LIGHT_CELL_END 131071.0f
-
-/* The cell of a point, and its width. Key 0 is none. */
-struct light_place {
-    uint64_t key;
-    float width;
-};
-
-static inline uint64_t light_coordinate(float x)
-{
-    return (uint64_t)(f_min(f_max(floorf(x), -LIGHT_CELL_END), LIGHT_CELL_END) +
-                      LIGHT_CELL_END + 1.0f);
-}
 
 /* The cell of a point of a surface, whose unit normal ng is on the side of the
  * light. */
-static inline struct light_place light_place(const struct light_grid *g,
-                                             struct vec3 p, struct vec3 ng)
+static inline struct cell_place light_place(const struct light_grid *g,
+                                            struct vec3 p, struct vec3 ng)
 {
-    struct vec3 d = v3_sub(p, g->eye);
-    uint32_t octave = float_bits(v3_length(d) * g->distance_scale) >> 23;
-    struct light_place at = {0, bits_float(octave << 23) * g->width};
-    float scale = 1.0f / at.width;
-
-    if (octave == 0 || octave >= 255 || !(scale <= FLOAT_MAX))
-        return at;
-    at.key = (uint64_t)1 << 63 |
-             (uint64_t)(v3_dot(ng, g->facing) > 0.0f ? 1u : 0u) << 62 |
-             (uint64_t)octave << 54 |
-             light_coordinate(d.x * scale + g->offset.x) << 36 |
-             light_coordinate(d.y * scale + g->offset.y) << 18 |
-             light_coordinate(d.z * scale + g->offset.z);
-    return at;
-}
-
-static inline uint32_t light_slot(const struct light_grid *g, uint64_t key)
-{
-    return hash_u32((uint32_t)key ^ hash_u32((uint32_t)(key >> 32))) & g->mask;
+    return cell_place(g, p, v3_dot(ng, g->facing) > 0.0f ? 1u : 0u);
 }
 
 /* Mean area of the part of a plane with unit normal n that is in a cell of
@@ -90,23 +50,6 @@ static inline float light_cell_area(struct vec3 n)
     return (1.0f - mean + tail) / a;
 }
 
-/* Finds a cell of a half. Returns false if no light path has come there. */
-static inline bool light_cell_find(const struct world *w,
-                                   const struct light_grid *g, uint64_t key,
-                                   struct light_cell *cell)
-{
-    uint32_t slot = light_slot(g, key);
-
-    for (;;) {
-        *cell = w->light_cells[g->first + slot];
-        if (cell->key == key)
-            return true;
-        if (cell->key == 0)
-            return false;
-        slot = (slot + 1u) & g->mask;
-    }
-}
-
 /* Returns the radiance that a matte surface sends to wo of the light of light
  * paths. u chooses a place around the point. */
 static inline struct vec3 light_cells_radiance(const struct world *w,
@@ -117,7 +60,7 @@ static inline struct vec3 light_cells_radiance(const struct world *w,
 {
     struct vec3 none = v3(0.0f, 0.0f, 0.0f), tangent, bitangent, wi, f;
     struct light_grid g = w->light_grids[grid];
-    struct light_place at = light_place(&g, v->p, v->ng);
+    struct cell_place at = light_place(&g, v->p, v->ng);
     struct light_cell cell;
     float pdf, area;
 
@@ -127,14 +70,14 @@ static inline struct vec3 light_cells_radiance(const struct world *w,
         v3_add(v->p, v3_add(v3_scale(tangent, at.width * (u.x - 0.5f)),
                             v3_scale(bitangent, at.width * (u.y - 0.5f)))),
         v->ng);
-    if (at.key == 0 || !light_cell_find(w, &g, at.key, &cell))
+    if (at.key == 0 || !cell_find(w, &g, at.key, &cell))
         return none;
     wi = surface_to_local(v, cell.d);
     if (!surface_sides_agree(v, cell.d, wi.z))
         return none;
     f = bsdf_terms(b, wo, wi, &pdf);
     area = light_cell_area(v->ng) * at.width * at.width;
-    return v3_scale(v3_mul(cell.flux, f),
+    return v3_scale(v3_mul(cell.light, f),
                     bsdf_eta_scale(b, wi) / (fabsf(wi.z) * area));
 }
 

@@ -25,6 +25,7 @@
 #include "kernels/camera.h"
 #include "kernels/light_cells.h"
 #include "kernels/path_lights.h"
+#include "kernels/radiance_cells.h"
 
 /* Samples the next ray from the BSDF, or from the path guide if it has a table
  * here. Returns false if the path is absorbed. */
@@ -104,6 +105,7 @@ static inline void path_open(struct path *p, struct camera_sample start)
     p->drops = false;
     p->is_chain = true;
     p->casts = 0;
+    p->estimates = NULL;
     p->out.radiance = v3(0.0f, 0.0f, 0.0f);
     p->out.rays = 1; /* the camera ray */
     p->out.cut = 0;
@@ -187,6 +189,9 @@ static inline bool path_extend(const struct world *w, struct path *p,
                                       surface_to_local(&v, v3_neg(p->ray.d)),
                                       random_2d(p->sampler, DIMENSION_CELL)),
                  1.0f);
+    if (HAS(FEATURE_RADIANCE_CELLS) && w->settings.has_radiance_cells != 0 &&
+        radiance_meet(w, p, &v, &b, h->tri, h->t))
+        return false;
     if (!bsdf_is_glass(&b))
         surface_lift(w, h->tri, *h, &v);
     wo = surface_to_local(&v, v3_neg(p->ray.d));
@@ -226,11 +231,11 @@ static inline bool ray_is_divided(const struct world *w, struct ray r)
 
 /* Returns the radiance along a camera ray, whose hit is h, or the AOV of the
  * hit. Radiance is capped at the largest float, and the film counts it as
- * saturated. *surface is set if the world's samples have first surfaces. */
-static inline struct path_sample path_follow(const struct world *w,
-                                             struct camera_sample start,
-                                             struct hit h,
-                                             struct first_surface *surface)
+ * saturated. *surface is set if the world's samples have first surfaces, and
+ * *estimates unless it is NULL. */
+static inline struct path_sample
+path_follow(const struct world *w, struct camera_sample start, struct hit h,
+            struct first_surface *surface, struct cell_estimates *estimates)
 {
     struct path p;
     uint32_t vertex = 1;
@@ -238,8 +243,14 @@ static inline struct path_sample path_follow(const struct world *w,
     if (HAS(FEATURE_AOV) && w->settings.sample != SAMPLE_LIGHT)
         return aov_sample(w, start.ray, h);
     path_open(&p, start);
+    if (HAS(FEATURE_RADIANCE_CELLS) && estimates != NULL) {
+        p.estimates = estimates;
+        estimates->count = 0;
+    }
     while (path_extend(w, &p, vertex, &h))
         vertex++;
+    if (HAS(FEATURE_RADIANCE_CELLS) && estimates != NULL)
+        radiance_estimate(&p);
     p.out.radiance =
         v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), p.out.radiance);
     if (has_first_surface(w)) {
@@ -263,7 +274,7 @@ static inline struct path_sample path_trace(const struct world *w,
 
     path_set_key(w, start.sampler, 1, &start.ray);
     hit_closest(w, start.ray, &h);
-    return path_follow(w, start, h, surface);
+    return path_follow(w, start, h, surface, NULL);
 }
 
 /* Makes the samplers of some samples, and their points within the pixel. */
@@ -279,13 +290,15 @@ VECTORISED static void path_points(const struct settings *s,
         points[i] = random_2d(samplers[i], DIMENSION_PIXEL);
 }
 
-/* Computes at most SAMPLE_BLOCK samples, and their first surfaces if the
- * world's samples have some. Samples of one pixel, or of neighbours, take less
+/* Computes at most SAMPLE_BLOCK samples, their first surfaces if the world's
+ * samples have some, and estimates for radiance cells unless that is NULL.
+ * Samples of one pixel, or of neighbours, take less
  * time together. */
 static inline void path_samples(const struct world *w,
                                 const struct sample_id *places, uint32_t count,
                                 struct path_sample *out,
-                                struct first_surface *surfaces)
+                                struct first_surface *surfaces,
+                                struct cell_estimates *estimates)
 {
     struct sample_id all[SAMPLE_BLOCK];
     struct sampler samplers[SAMPLE_BLOCK];
@@ -311,7 +324,8 @@ static inline void path_samples(const struct world *w,
         start.ray = rays[i];
         start.sampler = samplers[i];
         start.half_number = (uint32_t)all[i].index & 1u;
-        out[i] = path_follow(w, start, hits[i], surfaces + i);
+        out[i] = path_follow(w, start, hits[i], surfaces + i,
+                             estimates != NULL ? estimates + i : NULL);
     }
 }
 

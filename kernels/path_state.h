@@ -41,8 +41,9 @@ struct path {
     struct vec3 medium;     /* absorption along the ray; FEATURE_ATTENUATION */
     struct path_sample out;
     struct first_surface surface;
+    struct cell_estimates *estimates; /* NULL: none; FEATURE_RADIANCE_CELLS */
+    uint32_t half_number; /* as in struct camera_sample; of these two: */
     /* FEATURE_LIGHT_PATHS: */
-    uint32_t half_number; /* as in struct camera_sample */
     bool drops;     /* light paths bring light of lamps to surfaces that cast */
     bool is_chain;  /* all vertices so far cast */
     uint32_t casts; /* number of last ones that do */

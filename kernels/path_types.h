@@ -18,6 +18,21 @@ struct sample_id {
     uint64_t index;
 };
 
+/* Vertices of a path that give radiance_cells.h estimates. */
+#define CELL_ESTIMATES_MAX 8
+
+/* The radiance that a surface reflects, divided by its color. */
+struct cell_estimate {
+    uint64_t key; /* of its cell */
+    struct vec3 radiance;
+    struct vec3 weight; /* of the radiance in that of the path */
+};
+
+struct cell_estimates {
+    uint32_t count;
+    struct cell_estimate at[CELL_ESTIMATES_MAX];
+};
+
 struct path_sample {
     struct vec3 radiance;
     uint32_t rays; /* closest-hit and any-hit queries */

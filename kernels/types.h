@@ -311,24 +311,29 @@ struct guide_cell {
     uint32_t sky;     /* directions for light samples of the sky */
 };
 
-/* A grid of light_cells.h. */
+/* Grids of light cells of the two halves, and of radiance cells of both. */
+#define CELL_GRIDS 4
+
+/* A grid of cell_grid.h. */
 struct light_grid {
     struct vec3 eye;
     struct vec3 offset;   /* of the corner of a cell, in cells */
-    struct vec3 facing;   /* the two sides of sheets are in different cells */
+    struct vec3 facing;   /* a unit vector, of light_place() */
     float distance_scale; /* from 1 to 2 */
     float width;          /* of cells where the scaled distance is 1 */
     uint32_t first;       /* slot of the grid */
     uint32_t mask;        /* number of slots - 1; a power of two of them */
 };
 
-/* A cell of light_cells.h. */
+/* A cell of light_cells.h or of radiance_cells.h. */
 struct light_cell {
     uint64_t key; /* 0: an empty slot */
-    /* by the number of light paths, times the cosine of the shading normal over
-     * that of the face */
-    struct vec3 flux;
-    struct vec3 d; /* to where a part of it came from, chosen by flux */
+    /* flux by the number of light paths, times the cosine of the shading normal
+     * over that of the face; or radiance by the color of the surface */
+    struct vec3 light;
+    /* to where a part of the flux came from, chosen by flux; or in x the number
+     * of estimates of the radiance */
+    struct vec3 d;
 };
 
 /* Estimators of direct light. Pictures use DIRECT_MIS, the others are for
@@ -379,6 +384,7 @@ struct settings {
     uint32_t has_light_paths;
     uint32_t has_light_cells; /* light_cells.h: paths that begin with surfaces
                                  that cast leave that light out as well */
+    uint32_t has_radiance_cells; /* radiance_cells.h: paths may end at them */
     float sky_level; /* of sky_below(): light paths bring what exceeds it */
     /* probability that a light sample is of light from infinity: of the sky or
      * of a directional light */
@@ -440,8 +446,8 @@ struct world {
     GLOBAL const struct point_light *point_lights;
     GLOBAL const struct directional_light *directional_lights;
     GLOBAL const float *profiles; /* of point lights, row by row */
-    GLOBAL const struct light_grid *light_grids; /* of the two halves */
-    GLOBAL const struct light_cell *light_cells; /* of both grids */
+    GLOBAL const struct light_grid *light_grids; /* CELL_GRIDS, or NULL */
+    GLOBAL const struct light_cell *light_cells; /* of all grids */
 };
 
 struct ray {

@@ -218,6 +218,7 @@ uint32_t engine_features(const struct engine *e)
 {
     return world_features(&e->world) |
            (e->options.wants_filter ? (uint32_t)FEATURE_FILTER : 0) |
+           (e->options.is_exact ? 0 : (uint32_t)FEATURE_RADIANCE_CELLS) |
            (e->world.light_paths.sources != NULL ? (uint32_t)FEATURE_LIGHT_PATHS
                                                  : 0);
 }
@@ -283,7 +284,8 @@ bool engine_prepare(struct engine *e, const struct view *view,
     job->world.settings.features = engine_features(e);
     if (!engine_uses_device(e))
         return true;
-    if (!e->options.drops_tree || e->world.light_paths.sources != NULL)
+    if (!e->options.drops_tree || !e->options.is_exact ||
+        e->world.light_paths.sources != NULL)
         return world_ensure_tree(&e->world, &job->world, NULL, err);
     world_drop_tree(&e->world);
     return true;

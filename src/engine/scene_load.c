@@ -104,7 +104,8 @@ static void add_pixel(const struct probe_job *j, uint32_t x, uint32_t y,
 
     for (uint32_t i = 0; i < PROBE_SAMPLES; i++)
         places[i] = (struct sample_id){x, y, i};
-    j->kernel->samples(&j->w.world, places, PROBE_SAMPLES, samples, surfaces);
+    j->kernel->samples(&j->w.world, places, PROBE_SAMPLES, samples, surfaces,
+                       NULL);
     for (int i = 0; i < PROBE_SAMPLES; i++) {
         struct vec3 c = j->counts_seen
                             ? samples[i].radiance

@@ -225,7 +225,7 @@ static void add_row(struct material_ball *b, uint32_t y)
         for (uint32_t i = 0; i < SAMPLE_BLOCK; i++)
             ids[i] = (struct sample_id){x + i, y, b->spp};
         b->kernel->samples(&b->studio.world, ids, SAMPLE_BLOCK, samples,
-                           surfaces);
+                           surfaces, NULL);
         for (uint32_t i = 0; i < SAMPLE_BLOCK; i++)
             sums[i] = v3_add(sums[i], samples[i].radiance);
     }

@@ -24,12 +24,12 @@ enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 /* Most samples in the mean, with which pixels of any share have that many. */
 #define PASS_MEAN_MAX (PASS_SAMPLES_MAX * SHARE_ONE / SHARE_MAX)
 
-/* Light that the samples of a pass get from light paths. */
+/* Light that the samples of a pass share: light_block.h. */
 struct pass_light {
     /* for all samples: 3 numbers for each pixel of the film for samples with
      * even indices, then for those with odd ones */
     const float *pixels;
-    size_t pixel_count;             /* of the film */
+    size_t pixel_count;             /* of the film; 0: no such light */
     const struct light_grid *grids; /* world.light_grids; NULL: none */
     const struct light_cell *cells;
     size_t cell_count;

@@ -140,9 +140,9 @@ static bool render_samples(const struct job *j, int x, int y, int pixel_count,
     for (; done < r->count && !cancel_requested(j->cancel); done += n) {
         n = r->count - done < SAMPLE_BLOCK ? r->count - done : SAMPLE_BLOCK;
         b->kernel->samples(&b->world.world, r->ids + done, n, r->samples + done,
-                           r->surfaces + done);
+                           r->surfaces + done, NULL);
     }
-    if (j->pass.light != NULL)
+    if (j->pass.light != NULL && j->pass.light->pixel_count > 0)
         add_light(j, r, done);
     film_add_row(b->film,
                  (struct film_pixels){x, y, j->pass.stride,

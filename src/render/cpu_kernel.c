@@ -33,9 +33,10 @@ __attribute__((flatten))
 #endif
 static void
 samples(const struct world *w, const struct sample_id *places, uint32_t count,
-        struct path_sample *out, struct first_surface *surfaces)
+        struct path_sample *out, struct first_surface *surfaces,
+        struct cell_estimates *estimates)
 {
-    path_samples(w, places, count, out, surfaces);
+    path_samples(w, places, count, out, surfaces, estimates);
 }
 
 const struct cpu_kernel PATHS = {PATHS_NAME, FEATURES, samples};

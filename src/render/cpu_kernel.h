@@ -25,7 +25,8 @@ struct cpu_kernel {
      * bvh8_world. */
     void (*samples)(const struct world *w, const struct sample_id *places,
                     uint32_t count, struct path_sample *out,
-                    struct first_surface *surfaces);
+                    struct first_surface *surfaces,
+                    struct cell_estimates *estimates);
 };
 
 #endif

@@ -11,7 +11,7 @@
 #define GLIM_FEATURE_SETS_H
 
 /* Walls and lamps. */
-#define FEATURES_lamps FEATURE_EMITTERS
+#define FEATURES_lamps (FEATURE_EMITTERS | FEATURE_RADIANCE_CELLS)
 
 /* With images on them. */
 #define FEATURES_images \

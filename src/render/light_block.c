@@ -6,6 +6,7 @@
 
 #include "base/machine.h"
 #include "base/memory.h"
+#include "render/radiance_training.h"
 
 /* ---- the choice ---- */
 
@@ -20,6 +21,16 @@ static bool fits_memory(const struct film *f)
 
     return pixels * (FILM_PIXEL_BYTES + LIGHT_PIXEL_BYTES) <
            cgroup_quota_memory("").size_bytes / 2;
+}
+
+/* True if radiance cells may help. They would add light beyond a limit of
+ * bounces. */
+static bool may_train(const struct backend_picture *picture)
+{
+    const struct settings *s = &picture->world->settings;
+
+    return s->has_light_cells != 0 && s->max_vertices >= CELL_VERTICES_MIN &&
+           world_tree(picture->host) != NULL;
 }
 
 enum pass_result light_block_decide(struct light_block *b,
@@ -43,6 +54,7 @@ enum pass_result light_block_decide(struct light_block *b,
     }
     if (result == PASS_DONE) {
         b->is_decided = true;
+        b->may_train = may_train(picture);
         light_pilot_free(b->pilot);
         b->pilot = NULL;
     }
@@ -52,10 +64,18 @@ enum pass_result light_block_decide(struct light_block *b,
 struct world light_block_world(const struct light_block *b,
                                const struct world *world)
 {
-    return b->choice.paths > 0
-               ? light_pilot_world(world,
-                                   b->choice.has_cells ? &b->cells : NULL)
-               : *world;
+    struct world w = *world;
+
+    if (b->choice.paths > 0)
+        w = light_pilot_world(world, b->choice.has_cells ? &b->cells : NULL);
+    if (b->has_radiance)
+        radiance_training_lend(&w, &b->cells);
+    return w;
+}
+
+bool light_block_is_needed(const struct light_block *b)
+{
+    return b->choice.paths > 0 || b->may_train;
 }
 
 /* ---- blocks ---- */
@@ -108,8 +128,7 @@ static uint64_t paths_before(const struct light_block *b,
     return sample == 0 ? 0 : first + each * (sample - 1);
 }
 
-static bool resize(struct light_block *b, const struct film *f,
-                   struct error *err)
+static bool resize(struct light_block *b, const struct film *f)
 {
     size_t pixels = (size_t)f->width * (size_t)f->height;
 
@@ -119,10 +138,111 @@ static bool resize(struct light_block *b, const struct film *f,
     light_image_free(&b->image);
     free(b->means);
     b->means = alloc_array(pixels, 6 * sizeof *b->means);
-    return (light_image_init(&b->image, f->width, f->height) &&
-            b->means != NULL) ||
-           fail(err, "out of memory for light paths to %dx%d pixels", f->width,
-                f->height);
+    return light_image_init(&b->image, f->width, f->height) && b->means != NULL;
+}
+
+/* Samples of a block, of each pixel. */
+struct range {
+    uint64_t begin, end;
+};
+
+/* Traces the light paths of a block, and takes their number. */
+static enum pass_result trace_paths(struct light_block *b,
+                                    const struct backend_picture *p,
+                                    struct range samples, struct pool *pool,
+                                    const struct cancel *cancel,
+                                    uint64_t *count)
+{
+    struct bvh8_world w = {*p->world, world_tree(p->host)};
+    const struct camera *c = &w.world.settings.camera;
+    uint64_t first = paths_before(b, c, samples.begin);
+    struct light_film film = {&b->image,
+                              b->choice.has_cells ? &b->cells : NULL};
+
+    *count = paths_before(b, c, samples.end) - first;
+    if (!resize(b, p->film))
+        return PASS_FAILED;
+    light_image_clear(&b->image);
+    b->image.x0 = p->x0;
+    b->image.y0 = p->y0;
+    if (!light_paths_trace(&p->host->light_paths, &w, first, (uint32_t)*count,
+                           pool, cancel, film))
+        return PASS_CANCELLED;
+    light_image_means(&b->image, *count, b->means);
+    b->light.pixels = b->means;
+    b->light.pixel_count = (size_t)p->film->width * (size_t)p->film->height;
+    return PASS_DONE;
+}
+
+/* True if a block has radiance cells, if any block has. */
+static bool is_trained(const struct camera *c, struct range samples)
+{
+    return (double)samples.begin * (double)c->width * (double)c->height >=
+           RADIANCE_SAMPLES_MIN;
+}
+
+/* Trains the radiance cells of a block. */
+static bool train(struct light_block *b, const struct backend_picture *p,
+                  struct range samples, struct pool *pool,
+                  const struct cancel *cancel)
+{
+    struct bvh8_world w = {*p->world, world_tree(p->host)};
+    const struct camera *c = &w.world.settings.camera;
+    uint64_t first = radiance_training_before(c, samples.begin);
+    uint64_t end = radiance_training_before(c, samples.end);
+
+    if (!is_trained(c, samples))
+        return true;
+    if (b->choice.paths > 0)
+        w.world = light_pilot_world(p->world, NULL);
+    return radiance_training_run(&b->cells, &w, first, (uint32_t)(end - first),
+                                 pool, cancel);
+}
+
+/* Decides on radiance cells before the first block that may have some. */
+static enum pass_result decide_radiance(struct light_block *b,
+                                        const struct backend_picture *p,
+                                        struct range samples, struct pool *pool,
+                                        const struct cancel *cancel)
+{
+    enum pass_result result;
+
+    if (!b->may_train || b->has_radiance ||
+        !is_trained(&p->world->settings.camera, samples))
+        return PASS_DONE;
+    result = radiance_training_pays(p, b->choice.paths > 0, pool, cancel,
+                                    &b->has_radiance);
+    b->has_radiance = b->has_radiance && result == PASS_DONE;
+    b->may_train = b->has_radiance || result != PASS_DONE;
+    return result;
+}
+
+static enum pass_result find(struct light_block *b,
+                             const struct backend_picture *p,
+                             struct range samples, struct pool *pool,
+                             const struct cancel *cancel)
+{
+    bool has_cells = b->choice.has_cells || b->has_radiance;
+    enum pass_result result = PASS_DONE;
+    uint64_t path_count = 1;
+
+    b->light = (struct pass_light){.version = samples.end};
+    if (has_cells &&
+        !light_cells_begin(&b->cells, p->world, samples.begin, 1, pool))
+        return PASS_FAILED;
+    if (b->choice.paths > 0)
+        result = trace_paths(b, p, samples, pool, cancel, &path_count);
+    if (result == PASS_DONE && b->has_radiance &&
+        !train(b, p, samples, pool, cancel))
+        result = PASS_CANCELLED;
+    if (result != PASS_DONE || !has_cells)
+        return result;
+    if (!light_cells_end(&b->cells, path_count, pool))
+        return PASS_FAILED;
+    b->light.grids = b->cells.grids;
+    b->light.cells = b->cells.cells;
+    b->light.cell_count = b->cells.slot_count;
+    return PASS_DONE;
 }
 
 enum pass_result light_block_find(struct light_block *b,
@@ -131,42 +251,22 @@ enum pass_result light_block_find(struct light_block *b,
                                   const struct cancel *cancel,
                                   struct error *err)
 {
-    struct bvh8_world w = {*p->world, world_tree(p->host)};
-    const struct camera *c = &w.world.settings.camera;
-    uint64_t begin = block_begin(c, sample), end = light_block_end(c, sample);
-    uint64_t first = paths_before(b, c, begin);
-    uint64_t count = paths_before(b, c, end) - first;
-    struct light_film film = {&b->image,
-                              b->choice.has_cells ? &b->cells : NULL};
+    const struct camera *c = &p->world->settings.camera;
+    struct range samples = {block_begin(c, sample), light_block_end(c, sample)};
+    enum pass_result result;
 
-    if (b->end == end)
+    if (b->end == samples.end)
         return PASS_DONE;
     b->end = 0;
-    if (!resize(b, p->film, err))
-        return PASS_FAILED;
-    if (b->choice.has_cells &&
-        !light_cells_begin(&b->cells, &w.world, begin, pool))
-        return fail(err, "out of memory for light cells"), PASS_FAILED;
-    light_image_clear(&b->image);
-    b->image.x0 = p->x0;
-    b->image.y0 = p->y0;
-    if (!light_paths_trace(&p->host->light_paths, &w, first, (uint32_t)count,
-                           pool, cancel, film))
-        return PASS_CANCELLED;
-    if (b->choice.has_cells && !light_cells_end(&b->cells, count, pool))
-        return fail(err, "out of memory for light cells"), PASS_FAILED;
-    light_image_means(&b->image, count, b->means);
-    b->light = (struct pass_light){.pixels = b->means,
-                                   .pixel_count = (size_t)p->film->width *
-                                                  (size_t)p->film->height,
-                                   .version = end};
-    if (b->choice.has_cells) {
-        b->light.grids = b->cells.grids;
-        b->light.cells = b->cells.cells;
-        b->light.cell_count = b->cells.slot_count;
-    }
-    b->end = end;
-    return PASS_DONE;
+    result = decide_radiance(b, p, samples, pool, cancel);
+    if (result == PASS_DONE)
+        result = find(b, p, samples, pool, cancel);
+    if (result == PASS_DONE)
+        b->end = samples.end;
+    if (result == PASS_FAILED)
+        fail(err, "out of memory for the light of %dx%d pixels", p->film->width,
+             p->film->height);
+    return result;
 }
 
 void light_block_reset(struct light_block *b)
@@ -174,6 +274,8 @@ void light_block_reset(struct light_block *b)
     light_pilot_free(b->pilot);
     b->pilot = NULL;
     b->is_decided = false;
+    b->may_train = false;
+    b->has_radiance = false;
     b->end = 0;
 }
 

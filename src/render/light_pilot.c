@@ -27,10 +27,6 @@
 #define PATHS_MIN (1.0 / 64)
 #define PATHS_MAX 4.0
 
-/* Least limit of vertices for light cells: light that comes to them by paths
- * near the limit is longer than paths from the eye are. */
-#define CELL_VERTICES_MIN 32
-
 /* Share of the light that light paths find, below which paths from the eye have
  * missed some of it, and do not know their own noise. */
 #define FOUND_MIN 0.7
@@ -85,7 +81,7 @@ static void pilot_pixel(void *context, uint32_t pixel, int worker)
     for (int i = 0; i < worlds * PILOT_SPP; i += SAMPLE_BLOCK)
         p->kernel->samples(&p->worlds[i / PILOT_SPP].world, ids + i % PILOT_SPP,
                            SAMPLE_BLOCK, samples[i / PILOT_SPP] + i % PILOT_SPP,
-                           surfaces);
+                           surfaces, NULL);
     for (uint32_t i = 0; i < PILOT_SPP; i++) {
         double whole = color_mean(samples[WORLD_ALONE][i].radiance);
         double rest = color_mean(samples[WORLD_BESIDE][i].radiance);
@@ -243,9 +239,9 @@ static enum pass_result pilot_light(struct light_pilot *p, struct pool *pool,
     struct light_film film = {&p->image, p->has_cells ? &p->cells : NULL};
 
     light_image_clear(&p->image);
-    if (!light_cells_begin(&p->none, &w->world, 0, pool) ||
+    if (!light_cells_begin(&p->none, &w->world, 0, 1, pool) ||
         !light_cells_end(&p->none, 1, pool) ||
-        !light_cells_begin(&p->cells, &w->world, 0, pool))
+        !light_cells_begin(&p->cells, &w->world, 0, 1, pool))
         return PASS_FAILED;
     if (!light_paths_trace(p->paths, w, 0, PILOT_PATHS, pool, cancel, film))
         return PASS_CANCELLED;

@@ -16,6 +16,10 @@
 
 #include "render/backend.h"
 
+/* Least limit of vertices for cells: light that comes to them by paths near the
+ * limit is longer than paths from the eye are. */
+#define CELL_VERTICES_MIN 32
+
 struct light_choice {
     double paths;   /* light paths for each sample; 0: none */
     bool has_cells; /* light cells, for what the eye sees through glass */

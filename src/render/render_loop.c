@@ -484,8 +484,15 @@ static struct backend_picture film_picture(struct render *r,
                                     r->job.crop.x, r->job.crop.y};
 }
 
-/* Finds the light of light paths for the next pass, which ends with its block.
- */
+static enum pass_result begin_film(struct render *r)
+{
+    struct world world = light_block_world(&r->films.light, &r->job.world);
+
+    return begin(r, &world, &r->films.film, r->job.crop.x, r->job.crop.y);
+}
+
+/* Finds the light that samples of the next pass share, which ends with its
+ * block. */
 static enum pass_result find_light(struct render *r, uint64_t *target)
 {
     struct light_block *light = &r->films.light;
@@ -494,12 +501,18 @@ static enum pass_result find_light(struct render *r, uint64_t *target)
         light_block_end(&r->job.world.settings.camera, first + r->spp_done) -
         first;
     struct backend_picture picture = film_picture(r, &r->job.world);
+    bool had_radiance = light->has_radiance;
+    enum pass_result result;
 
-    if (!(light->choice.paths > 0))
+    if (!light_block_is_needed(light))
         return PASS_DONE;
     *target = *target < end ? *target : end;
-    return light_block_find(light, &picture, first + r->spp_done,
-                            r->backend->pool, &r->cancel, &r->error);
+    result = light_block_find(light, &picture, first + r->spp_done,
+                              r->backend->pool, &r->cancel, &r->error);
+    if (light->has_radiance == had_radiance)
+        return result;
+    r->begun_film = NULL; /* the world has changed */
+    return result == PASS_DONE ? begin_film(r) : result;
 }
 
 static enum pass_result run_film_pass(struct render *r)
@@ -523,14 +536,12 @@ static enum pass_result run_film(struct render *r)
 {
     struct backend_picture picture = film_picture(r, &r->job.world);
     enum pass_result result = PASS_DONE;
-    struct world world;
 
     if (r->backend->takes_light)
         result = light_block_decide(&r->films.light, &picture, r->backend->pool,
                                     &r->cancel, &r->error);
-    world = light_block_world(&r->films.light, &r->job.world);
     if (result == PASS_DONE)
-        result = begin(r, &world, &r->films.film, r->job.crop.x, r->job.crop.y);
+        result = begin_film(r);
     if (result == PASS_DONE) /* a halt may have come between pass and error */
         result = estimate_pass(r);
     while (result == PASS_DONE && render_run_limit(r) == RENDER_LIMIT_NONE) {

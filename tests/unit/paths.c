@@ -12,5 +12,5 @@ void trace_samples(const struct world *w, const struct sample_id *places,
                    uint32_t count, struct path_sample *out,
                    struct first_surface *surfaces)
 {
-    path_samples(w, places, count, out, surfaces);
+    path_samples(w, places, count, out, surfaces, NULL);
 }

@@ -193,6 +193,8 @@ static bool cut_light(const struct band *b, struct pass_light *light,
     size_t at = (size_t)b->range.y * (size_t)b->film.width;
 
     *light = *whole;
+    if (whole->pixel_count == 0)
+        return true;
     *pixels = alloc_array(count, 6 * sizeof **pixels);
     if (*pixels == NULL)
         return fail(err, "out of memory for light paths");

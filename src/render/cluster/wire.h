@@ -55,7 +55,7 @@ static inline size_t light_array(const struct pass_light *light, int index,
                                               light->cells};
     const size_t sizes[LIGHT_ARRAYS] = {
         6 * light->pixel_count * sizeof *light->pixels,
-        light->grids != NULL ? 2 * sizeof *light->grids : 0,
+        light->grids != NULL ? CELL_GRIDS * sizeof *light->grids : 0,
         light->cell_count * sizeof *light->cells};
 
     *bytes = arrays[index];

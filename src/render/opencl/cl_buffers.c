@@ -50,7 +50,7 @@ bool cl_world_set_cells(struct cl_world *c, const struct cl_machine *m,
                         const struct pass_light *l, struct error *err)
 {
     return upload(&c->buffers[CL_ARRAYS + WORLD_LIST_light_grids], m, l->grids,
-                  2 * sizeof *l->grids, false, err) &&
+                  CELL_GRIDS * sizeof *l->grids, false, err) &&
            upload(&c->buffers[CL_ARRAYS + WORLD_LIST_light_cells], m, l->cells,
                   l->cell_count * sizeof *l->cells, false, err);
 }

@@ -558,7 +558,7 @@ static void deposit(const struct tracing *t, const struct light_path *p,
     float by_normals = v3_dot(p->ray.d, v->n) / v3_dot(p->ray.d, v->ng);
     const struct light_deposit d = {.path = p->number,
                                     .vertex = vertex,
-                                    .flux = v3_scale(p->flux, by_normals),
+                                    .light = v3_scale(p->flux, by_normals),
                                     .d = v3_neg(p->ray.d)};
 
     light_cells_add(t->film.cells, p->worker, p->half, v->p, v->ng, &d);

@@ -29,7 +29,7 @@ static void add_pixel(const struct bvh8_world *w,
     for (uint32_t first = 0; first < SPP; first += SAMPLE_BLOCK) {
         for (uint32_t i = 0; i < SAMPLE_BLOCK; i++)
             ids[i] = (struct sample_id){x, y, first + i};
-        paths->samples(&w->world, ids, SAMPLE_BLOCK, samples, surfaces);
+        paths->samples(&w->world, ids, SAMPLE_BLOCK, samples, surfaces, NULL);
         for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
             double light = color_mean(samples[i].radiance);
 

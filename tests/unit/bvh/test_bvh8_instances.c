@@ -39,8 +39,8 @@ static void compare_samples(const struct cpu_kernel *kernel,
         struct path_sample a = {.rays = 0}, b = {.rays = 0};
         struct first_surface surface;
 
-        full->samples(&t->w.world, &id, 1, &a, &surface);
-        part->samples(&copies->world, &id, 1, &b, &surface);
+        full->samples(&t->w.world, &id, 1, &a, &surface, NULL);
+        part->samples(&copies->world, &id, 1, &b, &surface, NULL);
         assert_memory_equal(&a, &b, sizeof a);
         light += (double)a.radiance.x;
     }

@@ -86,7 +86,7 @@
       M(settings, max_vertices) M(settings, seed) M(settings, features)       \
       M(settings, direct) M(settings, order) M(settings, sample)              \
       M(settings, has_light_paths) M(settings, has_light_cells)                   \
-      M(settings, sky_level)                                                  \
+      M(settings, has_radiance_cells) M(settings, sky_level)                  \
       M(settings, sky_share) M(settings, light_share)                         \
       M(settings, sky_power) M(settings, point_light_count)                   \
       M(settings, sphere_count) M(settings, directional_light_count)          \
@@ -113,7 +113,7 @@
     S(light_grid) M(light_grid, eye) M(light_grid, offset)                    \
       M(light_grid, facing) M(light_grid, distance_scale)                     \
       M(light_grid, width) M(light_grid, first) M(light_grid, mask)           \
-    S(light_cell) M(light_cell, key) M(light_cell, flux) M(light_cell, d)     \
+    S(light_cell) M(light_cell, key) M(light_cell, light) M(light_cell, d)     \
     S(camera_sample) M(camera_sample, ray) M(camera_sample, sampler)                           \
       M(camera_sample, half_number)
 /* clang-format on */

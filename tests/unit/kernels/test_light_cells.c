@@ -58,7 +58,7 @@ static void cells_are_apart(void **state)
                            .distance_scale = 1.5f,
                            .width = .01f};
     struct vec3 up = v3(0, 1, 0), p = v3(1, 2, 3);
-    struct light_place at = light_place(&g, p, up);
+    struct cell_place at = light_place(&g, p, up);
 
     (void)state;
     assert_true(at.key != 0);

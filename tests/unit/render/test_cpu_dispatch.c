@@ -44,7 +44,7 @@ static void chosen_builds_have_the_needed_features(void **state)
             if (strcmp(p->name, whole->name) == 0)
                 assert_ptr_equal(cpu_kernel_fit(whole, p->features), p);
         assert_int_equal(cpu_kernel_fit(whole, FEATURE_EMITTERS)->features,
-                         FEATURE_EMITTERS);
+                         FEATURE_EMITTERS | FEATURE_RADIANCE_CELLS);
         assert_ptr_equal(cpu_kernel_fit(whole, FEATURE_AOV), whole);
     }
 }

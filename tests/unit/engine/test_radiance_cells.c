@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+/* test_radiance_cells.c - pictures of paths that end at radiance cells: closed
+ * forms, and paths that all go on */
+#include "tests/unit/check.h"
+
+#include <math.h>
+
+#include "base/clock.h"
+#include "session/session.h"
+#include "tests/unit/files.h"
+#include "tests/unit/folder.h"
+
+#define SIDE  48
+#define SPP   64
+#define SEEDS 4
+
+/* Part of the light by which the blur of cells may change the mean of a quarter
+ * of the picture. */
+#define BLUR_MAX 0.004
+
+struct result {
+    double quarters[4]; /* means of all channels */
+    double rays;        /* of a sample */
+};
+
+/* Renders s.obj. `is_exact`: without cells. */
+static struct result render(bool is_exact, uint32_t spp, uint32_t seed)
+{
+    static struct session s;
+    static float rgb[3 * SIDE * SIDE];
+    struct options o;
+    struct render_progress p;
+    struct result r = {.rays = 0};
+    struct error err = {""};
+
+    options_init(&o);
+    o.scene_path = "s.obj";
+    o.width_px = o.height_px = SIDE;
+    o.thread_count = 2;
+    o.seed = seed;
+    o.batch = true;
+    o.gi = is_exact ? GI_EXACT : GI_CELLS;
+    check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
+    check_or_say(session_restart(&s, (struct render_limits){.spp = spp}, &err),
+                 err.text);
+    render_wait(s.engine.render, -1);
+    film_linear(render_film(s.engine.render), rgb);
+    p = render_progress(s.engine.render);
+    session_close(&s);
+    r.rays = (double)p.rays / (double)p.samples;
+    for (int i = 0; i < SIDE * SIDE; i++)
+        for (int c = 0; c < 3; c++)
+            r.quarters[i % SIDE / (SIDE / 2) + i / SIDE / (SIDE / 2) * 2] +=
+                (double)rgb[3 * i + c] / (3 * SIDE * SIDE / 4);
+    return r;
+}
+
+static const char box[] = "v -1 -1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 -1 -1\n"
+                          "v -1 1 -1\nv -1 1 1\nv 1 1 1\nv 1 1 -1\n"
+                          "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 4 3 7 8\n"
+                          "f 1 4 8 5\nf 2 6 7 3\n";
+
+static void write_scene(const char *materials, const char *more)
+{
+    char text[8192];
+
+    snprintf(text, sizeof text, "mtllib s.mtl\nusemtl wall\n%s%s", box, more);
+    put("s.obj", text);
+    put("s.mtl", materials);
+    put("s.view", "eye -.8 .3 .9\nat 0 -.3 -1\nfovy 60\nbackground 0 0 0\n");
+}
+
+/* In a closed box whose walls all emit 1 and reflect `albedo`, radiance is 1 /
+ * (1 - albedo) everywhere, and no blur changes it. */
+static void boxes_are_even(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        double albedo = k ? .8 : .5;
+        char text[256];
+        struct result cells, exact;
+
+        snprintf(text, sizeof text, "newmtl wall\nKd %g %g %g\nKe 1 1 1\n",
+                 albedo, albedo, albedo);
+        write_scene(text, "");
+        cells = render(false, SPP, 1);
+        exact = render(true, SPP, 1);
+        print_message("rays %g, %g without\n", cells.rays, exact.rays);
+        assert_true(cells.rays < .9 * exact.rays);
+        for (int i = 0; i < 4; i++)
+            check_close(cells.quarters[i] * (1 - albedo), 1, .01);
+    }
+}
+
+/* Checks that paths to cells have the same means as paths that go on, within
+ * four standard errors of what the seeds show, and the blur. */
+static void check_same_means(void)
+{
+    double sums[2][4] = {{0}}, squares[2][4] = {{0}}, rays[2] = {0, 0};
+
+    for (uint32_t seed = 1; seed <= SEEDS; seed++)
+        for (int k = 0; k < 2; k++) {
+            struct result r = render(k == 1, k == 1 ? 2 * SPP : SPP, seed);
+
+            rays[k] += r.rays;
+            for (int i = 0; i < 4; i++) {
+                sums[k][i] += r.quarters[i] / SEEDS;
+                squares[k][i] += r.quarters[i] * r.quarters[i] / SEEDS;
+            }
+        }
+    assert_true(rays[0] < .9 * rays[1]);
+    for (int i = 0; i < 4; i++) {
+        double error = 0;
+
+        for (int k = 0; k < 2; k++)
+            error +=
+                fmax(squares[k][i] - sums[k][i] * sums[k][i], 0) / (SEEDS - 1);
+        print_message("%g by cells, %g without, error %g\n", sums[0][i],
+                      sums[1][i], sqrt(error));
+        check_close(sums[0][i], sums[1][i],
+                    4 * sqrt(error) + BLUR_MAX * sums[1][i]);
+    }
+}
+
+/* A lamp behind a screen. */
+static void rooms_agree(void **state)
+{
+    (void)state;
+    write_scene(
+        "newmtl wall\nKd .8 .6 .4\nnewmtl lamp\nKe 30 30 30\nKd 0 0 0\n",
+        "v .2 -1 -1\nv .2 .5 -1\nv .2 .5 1\nv .2 -1 1\nf -4 -3 -2 -1\n"
+        "usemtl lamp\nv .4 .9 -.3\nv .8 .9 -.3\nv .8 .9 .3\n"
+        "v .4 .9 .3\nf -4 -3 -2 -1\n");
+    check_same_means();
+}
+
+/* A flat lamp close below the ceiling: what it lights above is far brighter
+ * than the ceiling around it, and hidden. */
+static void gaps_stay_dark(void **state)
+{
+    (void)state;
+    write_scene(
+        "newmtl wall\nKd .7 .7 .7\nnewmtl lamp\nKe 9 9 9\nKd .8 .8 .8\n",
+        "usemtl lamp\nv -.3 .98 -.3\nv .3 .98 -.3\nv .3 .98 .3\n"
+        "v -.3 .98 .3\nf -4 -3 -2 -1\n");
+    check_same_means();
+}
+
+/* A mirror throws the light of a lamp at the ceiling, which light paths bring:
+ * cells leave it out. */
+static void mirrors_agree(void **state)
+{
+    (void)state;
+    write_scene("newmtl wall\nKd .7 .7 .7\nnewmtl lamp\nKe 90 90 90\nKd 0 0 0\n"
+                "newmtl mirror\nKd .9 .9 .9\nPm 1\nPr 0\n",
+                "usemtl mirror\nv -.8 -.98 -.8\nv -.8 -.98 .8\nv .8 -.98 .8\n"
+                "v .8 -.98 -.8\nf -4 -3 -2 -1\n"
+                "v -.2 -.6 -.2\nv .2 -.6 -.2\nv .2 -.6 .2\nv -.2 -.6 .2\n"
+                "f -4 -3 -2 -1\nusemtl lamp\nv -.1 -.7 -.1\nv .1 -.7 -.1\n"
+                "v .1 -.7 .1\nv -.1 -.7 .1\nf -4 -3 -2 -1\n");
+    check_same_means();
+}
+
+/* Walls of colors without a channel, whose paths do not know that channel's
+ * light, and plastic. */
+static void colors_agree(void **state)
+{
+    (void)state;
+    write_scene("newmtl wall\nKd .8 0 0\nnewmtl coated\nKd .5 .6 .7\n"
+                "Ks .05 .05 .05\nPr .3\nillum 2\nnewmtl lamp\nKe 9 9 9\n"
+                "Kd 0 0 0\n",
+                "usemtl coated\nv -.99 -.9 -.99\nv -.99 -.9 .99\n"
+                "v .99 -.9 .99\nv .99 -.9 -.99\nf -4 -3 -2 -1\n"
+                "v -.99 -.9 -.9\nv .99 -.9 -.9\nv .99 .9 -.9\nv -.99 .9 -.9\n"
+                "f -4 -3 -2 -1\nusemtl lamp\nv -.3 .9 -.3\nv .3 .9 -.3\n"
+                "v .3 .9 .3\nv -.3 .9 .3\nf -4 -3 -2 -1\n");
+    check_same_means();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(boxes_are_even), cmocka_unit_test(rooms_agree),
+        cmocka_unit_test(gaps_stay_dark), cmocka_unit_test(mirrors_agree),
+        cmocka_unit_test(colors_agree),
+    };
+
+    return cmocka_run_group_tests_name("radiance_cells", tests, enter_folder,
+                                       remove_folder);
+}
