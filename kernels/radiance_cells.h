@@ -141,9 +141,9 @@ static inline bool radiance_end(const struct world *w, struct path *p,
 /* Gives the cell of a vertex an estimate, or ends the path there. Both are done
  * at the same vertices: others of a cell, in a gap behind a lamp, may be much
  * brighter. Returns true if the path ends. */
-static inline bool radiance_meet(const struct world *w, struct path *p,
-                                 const struct surface_point *v,
-                                 const struct bsdf *b, uint32_t tri, float way)
+APART static bool radiance_meet(const struct world *w, struct path *p,
+                                const struct surface_point *v,
+                                const struct bsdf *b, uint32_t tri, float way)
 {
     struct light_grid g = w->light_grids[RADIANCE_GRID + p->half_number];
     struct cell_place at;

@@ -93,6 +93,7 @@ struct backend_picture {
     const struct world *world;
     struct film *film;
     int x0, y0;
+    bool goes_on; /* the picture of the last begin(), in another world */
 };
 
 struct backend {

@@ -283,18 +283,15 @@ static enum pass_result load(struct render *r)
 }
 
 /* Begins the film in the backend, unless it continues with it after a halt. */
-static enum pass_result begin(struct render *r, const struct world *world,
-                              struct film *film, int x0, int y0)
+static enum pass_result begin(struct render *r,
+                              const struct backend_picture *picture)
 {
-    if (r->begun_film == film)
+    if (r->begun_film == picture->film && !picture->goes_on)
         return PASS_DONE;
     r->begun_film = NULL;
-    if (!r->backend->begin(r->backend,
-                           &(struct backend_picture){r->job.host, world, film,
-                                                     x0, y0},
-                           &r->error))
+    if (!r->backend->begin(r->backend, picture, &r->error))
         return PASS_FAILED;
-    r->begun_film = film;
+    r->begun_film = picture->film;
     return PASS_DONE;
 }
 
@@ -312,7 +309,10 @@ static enum pass_result run_draft(struct render *r)
     struct world world = render_films_draft_world(&r->films, &r->job);
     uint64_t spp = render_films_draft_spp(&r->job);
     uint64_t *spp_done = &r->draft_spp_done;
-    enum pass_result result = begin(r, &world, &r->films.draft, 0, 0);
+    enum pass_result result =
+        begin(r, &(struct backend_picture){.host = r->job.host,
+                                           .world = &world,
+                                           .film = &r->films.draft});
 
     while (result == PASS_DONE && *spp_done < spp)
         result =
@@ -480,15 +480,21 @@ static uint64_t next_target(const struct render *r)
 static struct backend_picture film_picture(struct render *r,
                                            const struct world *world)
 {
-    return (struct backend_picture){r->job.host, world, &r->films.film,
-                                    r->job.crop.x, r->job.crop.y};
+    return (struct backend_picture){.host = r->job.host,
+                                    .world = world,
+                                    .film = &r->films.film,
+                                    .x0 = r->job.crop.x,
+                                    .y0 = r->job.crop.y};
 }
 
-static enum pass_result begin_film(struct render *r)
+/* Begins the film, or goes on with it after its world has changed. */
+static enum pass_result begin_film(struct render *r, bool goes_on)
 {
     struct world world = light_block_world(&r->films.light, &r->job.world);
+    struct backend_picture picture = film_picture(r, &world);
 
-    return begin(r, &world, &r->films.film, r->job.crop.x, r->job.crop.y);
+    picture.goes_on = goes_on;
+    return begin(r, &picture);
 }
 
 /* Finds the light that samples of the next pass share, which ends with its
@@ -509,10 +515,10 @@ static enum pass_result find_light(struct render *r, uint64_t *target)
     *target = *target < end ? *target : end;
     result = light_block_find(light, &picture, first + r->spp_done,
                               r->backend->pool, &r->cancel, &r->error);
-    if (light->has_radiance == had_radiance)
-        return result;
-    r->begun_film = NULL; /* the world has changed */
-    return result == PASS_DONE ? begin_film(r) : result;
+    if (light->has_radiance != had_radiance &&
+        begin_film(r, true) == PASS_FAILED)
+        return PASS_FAILED;
+    return result;
 }
 
 static enum pass_result run_film_pass(struct render *r)
@@ -541,7 +547,7 @@ static enum pass_result run_film(struct render *r)
         result = light_block_decide(&r->films.light, &picture, r->backend->pool,
                                     &r->cancel, &r->error);
     if (result == PASS_DONE)
-        result = begin_film(r);
+        result = begin_film(r, false);
     if (result == PASS_DONE) /* a halt may have come between pass and error */
         result = estimate_pass(r);
     while (result == PASS_DONE && render_run_limit(r) == RENDER_LIMIT_NONE) {

@@ -448,7 +448,7 @@ static bool begin(struct backend *base, const struct backend_picture *picture,
     c->ranks.picture = *picture;
     c->ranks.picture.world = &c->ranks.world;
     c->is_announced = false;
-    for (int rank = 0; rank < wire_size(); rank++)
+    for (int rank = 0; rank < wire_size() && !picture->goes_on; rank++)
         rank_tally_begin(&c->ranks.tallies[rank]);
     return begin_local(c, err);
 }

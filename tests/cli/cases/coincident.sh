@@ -64,7 +64,7 @@ awk 'BEGIN {
 tail -c +28 one.gltf >>materials.gltf
 
 # Processor time, unless a sanitizer takes more.
-limit_memory 8000000 && ulimit -t 4
+limit_memory 8000000 && ulimit -t 8
 for pair in 'face.obj faces.obj' 'one.gltf many.gltf'; do
     for file in $pair; do
         glim -b -t 1 -w 24 -h 18 -s 4 -o "$file.pfm" "$file" 2>/dev/null

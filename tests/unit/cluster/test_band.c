@@ -90,8 +90,11 @@ static void render_whole(struct film *f, const struct pass *pass)
     struct error err;
 
     assert_true(backend->begin(backend,
-                               &(struct backend_picture){&mesh.host,
-                                                         &mesh.world, f, 11, 7},
+                               &(struct backend_picture){.host = &mesh.host,
+                                                         .world = &mesh.world,
+                                                         .film = f,
+                                                         .x0 = 11,
+                                                         .y0 = 7},
                                &err));
     assert_true(backend->pass(backend, pass, &never, &err) == PASS_DONE);
 }
@@ -110,8 +113,10 @@ static void render_range(struct band *band, const struct film *f,
     check_or_say(band_init(band, WIDTH, range, true, &err), err.text);
     band_take(band, f, range);
     assert_true(band_render(band, backend,
-                            &(struct backend_picture){&mesh.host, &mesh.world,
-                                                      NULL, 11, 7},
+                            &(struct backend_picture){.host = &mesh.host,
+                                                      .world = &mesh.world,
+                                                      .x0 = 11,
+                                                      .y0 = 7},
                             f->first_sample, cancel, &err) == result);
 }
 
