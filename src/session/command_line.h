@@ -54,7 +54,7 @@ enum backend_choice {
     BACKEND_AUTO /* a GPU through OpenCL if there is one, else the CPU */
 };
 
-/* Light that is seen through glass: light_cells.h. */
+/* Light from cells of space: light_cells.h, radiance_cells.h. */
 enum gi_kind { GI_CELLS, GI_EXACT };
 
 /* First word of the command line. */

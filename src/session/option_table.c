@@ -605,8 +605,8 @@ static const struct option_rule rules[] = {
     {"no-adaptive", NULL, NULL, "the same number of samples in each pixel",
      SCENES, FLAG(no_adaptive), CLEARS(adaptive)},
     {"gi", "KIND", "cells or exact",
-     "exact: no cells for light that lamps send through glass to what is seen "
-     "through glass, which blur it (default: cells)",
+     "exact: no cells of space, in which light after two bounces, and what is "
+     "seen through glass, is blurred (default: cells)",
      SCENES, WORDS(gi, gi_kinds, 2)},
     {"d", "BOUNCES", "a number of bounces",
      "most bounces of a path, 0 to 999 (default: from the view file, or "

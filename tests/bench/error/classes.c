@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "image/color.h"
 #include "render/light_pilot.h"
+#include "render/radiance_training.h"
 #include "world/light/light_cells.h"
 
 #include <stdlib.h>
@@ -14,7 +15,10 @@
 /* Light of a pixel that is dark counts as this part of the picture's mean. */
 #define DARK 0.1
 
-enum { ALL, WITHOUT_PATHS, WITHOUT_CELLS, STEPS };
+/* Training paths of the radiance cells. */
+#define TRAINING 262144
+
+enum { ALL, WITHOUT_PATHS, WITHOUT_CELLS, RADIANCE, STEPS };
 
 /* Adds up the samples of a pixel. */
 static void add_pixel(const struct bvh8_world *w,
@@ -68,6 +72,22 @@ static double measure_step(const struct bvh8_world *w,
     return all;
 }
 
+/* Trains radiance cells for a world, and lends them to it. */
+static bool add_radiance(struct light_cells *cells, struct bvh8_world *w)
+{
+    static const struct cancel never;
+    struct error err;
+    struct pool *pool = pool_create(1, &err);
+    bool ok = pool != NULL && light_cells_begin(cells, &w->world, 0, 1, pool) &&
+              radiance_training_run(cells, w, 0, TRAINING, pool, &never) &&
+              light_cells_end(cells, 1, pool);
+
+    pool_destroy(pool);
+    if (ok)
+        radiance_training_lend(&w->world, cells);
+    return ok;
+}
+
 bool class_variance_measure(const struct world *world,
                             const struct host_world *host,
                             const struct cpu_kernel *paths,
@@ -75,6 +95,7 @@ bool class_variance_measure(const struct world *world,
 {
     /* grids of a width of 0 have no cells */
     static const struct light_cells none;
+    struct light_cells cells = {.cells = NULL};
     struct bvh8_world w = {*world, world_tree(host)};
     const struct camera *c = &world->settings.camera;
     double *means =
@@ -83,17 +104,20 @@ bool class_variance_measure(const struct world *world,
     bool ok = means != NULL;
 
     for (int i = 0; ok && i < STEPS; i++) {
-        if (i != ALL)
+        if (i == WITHOUT_PATHS || i == WITHOUT_CELLS)
             w.world =
                 light_pilot_world(world, i == WITHOUT_CELLS ? &none : NULL);
+        ok = i != RADIANCE || add_radiance(&cells, &w);
         left[i] = measure_step(&w, paths, i == ALL, means);
-        ok = left[i] >= 0;
+        ok = ok && left[i] >= 0;
     }
+    light_cells_free(&cells);
     free(means);
     if (!ok)
         return fail(err, "out of memory for the classes of paths");
     *v = (struct class_variance){left[ALL] - left[WITHOUT_PATHS],
                                  left[WITHOUT_PATHS] - left[WITHOUT_CELLS],
-                                 left[WITHOUT_CELLS]};
+                                 left[WITHOUT_CELLS] - left[RADIANCE],
+                                 left[RADIANCE]};
     return true;
 }

@@ -2,10 +2,10 @@
 /*
  * classes.h - variance of a sample by the class of its paths
  *
- * Paths from the eye are traced three times with the same random numbers: all
- * of them, without those that light paths make, and without those whose light
- * light cells have. The variance that each step takes away is that of its
- * class.
+ * Paths from the eye are traced four times with the same random numbers: all of
+ * them, without those that light paths make, without those whose light light
+ * cells have, and with those that end at radiance cells. The variance that each
+ * step takes away is that of its class.
  *
  * Units:     variance relative to the square of the pixel's mean, mean of all
  *            pixels
@@ -20,8 +20,9 @@
 #include "world/world.h"
 
 struct class_variance {
-    double light_paths; /* lamp, casters, any surfaces, a matte one, eye */
-    double light_cells; /* the same, seen by way of casters */
+    double light_paths;    /* lamp, casters, any surfaces, a matte one, eye */
+    double light_cells;    /* the same, seen by way of casters */
+    double radiance_cells; /* light of two matte surfaces and more */
     double rest;
 };
 

@@ -57,8 +57,8 @@ enum extra {
     UNGUIDED,
     ADAPTIVE,
     FILTERED,
-    WITHOUT_LIGHT_CELLS,
-    WITHOUT_LIGHT_PATHS
+    WITHOUT_CELLS,
+    WITHOUT_LIGHT_PATHS /* nor cells */
 };
 
 /* All techniques that are on by default, or all except the one of this name, or
@@ -91,8 +91,8 @@ static const struct technique {
      NEED_LIGHT_SAMPLES, GUIDED},
     {"without the guide", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_GUIDE,
      UNGUIDED},
-    {"without light cells", &paths_whole, DIRECT_MIS, SKY_WITH_MIS,
-     NEED_LIGHT_PATHS, WITHOUT_LIGHT_CELLS},
+    {"without cells", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_NOTHING,
+     WITHOUT_CELLS},
     {"without light paths", &paths_whole, DIRECT_MIS, SKY_WITH_MIS,
      NEED_LIGHT_PATHS, WITHOUT_LIGHT_PATHS},
     {"with adaptive sampling", &paths_whole, DIRECT_MIS, SKY_WITH_MIS,
@@ -293,7 +293,8 @@ static bool measure_round(struct measurement *m, int technique, int round,
         sky_table_lend(&m->whole_sky, &world);
     if (t->extra == FILTERED)
         world.settings.features |= FEATURE_FILTER;
-    world.settings.has_light_cells = t->extra != WITHOUT_LIGHT_CELLS;
+    world.settings.has_light_cells =
+        t->extra != WITHOUT_CELLS && t->extra != WITHOUT_LIGHT_PATHS;
     if (t->extra == UNGUIDED || technique == FIRST_INTEGRATOR)
         path_guide_lend(&(struct path_guide){.cells = NULL}, &world);
     world.settings.direct = t->direct;
@@ -313,11 +314,12 @@ static bool print_classes(const struct measurement *m, struct error *err)
                     err) ||
         !class_variance_measure(&world, &e->world, &paths_whole, &v, err))
         return false;
-    all = v.light_paths + v.light_cells + v.rest;
+    all = v.light_paths + v.light_cells + v.radiance_cells + v.rest;
     printf("variance of a sample of paths from the eye: %.3g; light paths take "
-           "%.1f %%, light cells %.1f %%, %.1f %% is left\n",
+           "%.1f %%, light cells %.1f %%, radiance cells %.1f %%, %.1f %% is "
+           "left\n",
            all, 100 * v.light_paths / all, 100 * v.light_cells / all,
-           100 * v.rest / all);
+           100 * v.radiance_cells / all, 100 * v.rest / all);
     return true;
 }
 
