@@ -57,16 +57,16 @@ static inline struct cell_place cell_place(const struct light_grid *g,
     return at;
 }
 
-static inline uint32_t cell_slot(const struct light_grid *g, uint64_t key)
+static inline uint32_t cell_hash(uint64_t key)
 {
-    return hash_u32((uint32_t)key ^ hash_u32((uint32_t)(key >> 32))) & g->mask;
+    return hash_u32((uint32_t)key ^ hash_u32((uint32_t)(key >> 32)));
 }
 
 /* Finds a cell of a grid. Returns false if it is empty. */
 static inline bool cell_find(const struct world *w, const struct light_grid *g,
                              uint64_t key, struct light_cell *cell)
 {
-    uint32_t slot = cell_slot(g, key);
+    uint32_t slot = cell_hash(key) & g->mask;
 
     for (;;) {
         *cell = w->light_cells[g->first + slot];

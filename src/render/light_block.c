@@ -13,13 +13,16 @@
 /* Bytes of a pixel: sums and means of two halves. */
 #define LIGHT_PIXEL_BYTES (6 * (sizeof(struct sum) + sizeof(float)))
 
-/* True if half of the memory holds the film and the light of light paths. A
- * picture too large for that is rendered without. */
+/* Most bytes of estimates and radiance cells. */
+#define RADIANCE_BYTES ((uint64_t)128 << 20)
+
+/* True if half of the memory holds the film and the light of a block. A picture
+ * too large for that is rendered without. */
 static bool fits_memory(const struct film *f)
 {
     uint64_t pixels = (uint64_t)f->width * (uint64_t)f->height;
 
-    return pixels * (FILM_PIXEL_BYTES + LIGHT_PIXEL_BYTES) <
+    return pixels * (FILM_PIXEL_BYTES + LIGHT_PIXEL_BYTES) + RADIANCE_BYTES <
            cgroup_quota_memory("").size_bytes / 2;
 }
 
@@ -30,7 +33,7 @@ static bool may_train(const struct backend_picture *picture)
     const struct settings *s = &picture->world->settings;
 
     return s->has_light_cells != 0 && s->max_vertices >= CELL_VERTICES_MIN &&
-           world_tree(picture->host) != NULL;
+           world_tree(picture->host) != NULL && fits_memory(picture->film);
 }
 
 enum pass_result light_block_decide(struct light_block *b,
@@ -237,8 +240,8 @@ static enum pass_result find(struct light_block *b,
         result = PASS_CANCELLED;
     if (result != PASS_DONE || !has_cells)
         return result;
-    if (!light_cells_end(&b->cells, path_count, pool))
-        return PASS_FAILED;
+    if (!light_cells_end(&b->cells, path_count, pool, cancel))
+        return cancel_requested(cancel) ? PASS_CANCELLED : PASS_FAILED;
     b->light.grids = b->cells.grids;
     b->light.cells = b->cells.cells;
     b->light.cell_count = b->cells.slot_count;

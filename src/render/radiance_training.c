@@ -165,8 +165,8 @@ static enum pass_result pilot_run(struct pilot *p, struct light_cells *cells,
     if (!radiance_training_run(cells, &p->without, 0, PILOT_TRAINING, pool,
                                cancel))
         return PASS_CANCELLED;
-    if (!light_cells_end(cells, 1, pool))
-        return PASS_FAILED;
+    if (!light_cells_end(cells, 1, pool, cancel))
+        return cancel_requested(cancel) ? PASS_CANCELLED : PASS_FAILED;
     p->without.world.light_cells = cells->cells;
     p->with = p->without;
     radiance_training_lend(&p->with.world, cells);

@@ -143,31 +143,70 @@ static int compare(const void *a, const void *b)
     return x->vertex < y->vertex ? -1 : x->vertex > y->vertex;
 }
 
-/* The deposits of each grid, sorted. */
+/* Deposits are divided by the hash of their cell, so that sorting is parallel
+ * and ends soon after a cancel. */
+#define BUCKETS 64
+
+static uint32_t bucket_of(uint64_t key)
+{
+    return cell_hash(key) / (UINT32_MAX / BUCKETS + 1);
+}
+
+/* The deposits of each grid, bucket by bucket. */
 struct sorting {
     struct light_cells *cells;
     struct light_deposits grids[CELL_GRIDS];
-    size_t unique[CELL_GRIDS]; /* cells */
+    size_t ends[CELL_GRIDS][BUCKETS];   /* of the buckets */
+    size_t unique[CELL_GRIDS][BUCKETS]; /* cells */
+    uint64_t path_count;
 };
 
-static void sort_grid(void *context, uint32_t grid, int worker)
+static const struct light_deposits *list_of(const struct sorting *s, int thread,
+                                            uint32_t grid)
+{
+    return &s->cells->lists[CELL_GRIDS * thread + (int)grid];
+}
+
+/* Divides the deposits of a grid into buckets. */
+static void divide_grid(void *context, uint32_t grid, int worker)
 {
     struct sorting *s = context;
-    struct light_deposits *to = &s->grids[grid];
+    size_t next[BUCKETS] = {0}, sum = 0;
 
     (void)worker;
-    for (int i = 0; i < s->cells->thread_count; i++) {
-        const struct light_deposits *from =
-            &s->cells->lists[CELL_GRIDS * i + (int)grid];
-
-        if (from->count > 0)
-            memcpy(to->items + to->count, from->items,
-                   from->count * sizeof *from->items);
-        to->count += from->count;
+    for (int i = 0; i < s->cells->thread_count; i++)
+        for (size_t k = 0; k < list_of(s, i, grid)->count; k++)
+            next[bucket_of(list_of(s, i, grid)->items[k].key)]++;
+    for (int i = 0; i < BUCKETS; i++) {
+        sum += next[i];
+        s->ends[grid][i] = sum;
+        next[i] = sum - next[i];
     }
-    qsort(to->items, to->count, sizeof *to->items, compare);
-    for (size_t i = 0; i < to->count; i++)
-        s->unique[grid] += i == 0 || to->items[i].key != to->items[i - 1].key;
+    for (int i = 0; i < s->cells->thread_count; i++) {
+        const struct light_deposits *from = list_of(s, i, grid);
+
+        for (size_t k = 0; k < from->count; k++) {
+            uint32_t bucket = bucket_of(from->items[k].key);
+
+            s->grids[grid].items[next[bucket]++] = from->items[k];
+        }
+    }
+    s->grids[grid].count = sum;
+}
+
+static void sort_bucket(void *context, uint32_t item, int worker)
+{
+    struct sorting *s = context;
+    uint32_t grid = item / BUCKETS, bucket = item % BUCKETS;
+    size_t begin = bucket > 0 ? s->ends[grid][bucket - 1] : 0;
+    size_t count = s->ends[grid][bucket] - begin;
+    struct light_deposit *items = s->grids[grid].items + begin;
+
+    (void)worker;
+    if (count > 1)
+        qsort(items, count, sizeof *items, compare);
+    for (size_t i = 0; i < count; i++)
+        s->unique[grid][bucket] += i == 0 || items[i].key != items[i - 1].key;
 }
 
 static struct vec3 sum_light(const struct light_deposit *d, size_t count,
@@ -213,21 +252,24 @@ static struct light_cell sum_cell(const struct light_deposit *d, size_t count,
                                .d = choose_direction(d, count)};
 }
 
-static void fill_grid(struct sorting *s, int grid, uint64_t path_count)
+static void fill_grid(void *context, uint32_t grid, int worker)
 {
+    struct sorting *s = context;
     const struct light_deposits *from = &s->grids[grid];
     const struct light_grid *g = &s->cells->grids[grid];
     struct light_cell *slots = s->cells->cells + g->first;
 
+    (void)worker;
     for (size_t i = 0, end; i < from->count; i = end) {
-        uint32_t slot = cell_slot(g, from->items[i].key);
+        uint32_t slot = cell_hash(from->items[i].key) & g->mask;
 
         for (end = i + 1;
              end < from->count && from->items[end].key == from->items[i].key;)
             end++;
         while (slots[slot].key != 0)
             slot = (slot + 1u) & g->mask;
-        slots[slot] = sum_cell(from->items + i, end - i, grid, path_count);
+        slots[slot] =
+            sum_cell(from->items + i, end - i, (int)grid, s->path_count);
     }
 }
 
@@ -239,8 +281,11 @@ static bool make_slots(struct sorting *s)
     c->slot_count = 0;
     for (int g = 0; g < CELL_GRIDS; g++) {
         uint32_t slots = 2;
+        size_t unique = 0;
 
-        while (slots < 2 * s->unique[g])
+        for (int i = 0; i < BUCKETS; i++)
+            unique += s->unique[g][i];
+        while (slots < 2 * unique)
             slots *= 2;
         c->grids[g].first = (uint32_t)c->slot_count;
         c->grids[g].mask = slots - 1;
@@ -251,31 +296,40 @@ static bool make_slots(struct sorting *s)
     return c->cells != NULL;
 }
 
-bool light_cells_end(struct light_cells *c, uint64_t path_count,
-                     struct pool *pool)
+/* Makes room for the deposits of each grid. Returns false if memory is or was
+ * out. */
+static bool make_room(struct sorting *s)
 {
-    struct sorting s = {.cells = c};
     bool ok = true;
 
-    for (int g = 0; g < CELL_GRIDS; g++) {
+    for (uint32_t g = 0; g < CELL_GRIDS; g++) {
         size_t count = 0;
 
-        for (int i = 0; i < c->thread_count; i++) {
-            count += c->lists[CELL_GRIDS * i + g].count;
-            ok = ok && !c->lists[CELL_GRIDS * i + g].is_cut;
+        for (int i = 0; i < s->cells->thread_count; i++) {
+            count += list_of(s, i, g)->count;
+            ok = ok && !list_of(s, i, g)->is_cut;
         }
-        s.grids[g].items = alloc_array(count, sizeof *s.grids[g].items);
-        ok = ok && s.grids[g].items != NULL;
+        s->grids[g].items = alloc_array(count, sizeof *s->grids[g].items);
+        ok = ok && s->grids[g].items != NULL;
     }
+    return ok;
+}
+
+bool light_cells_end(struct light_cells *c, uint64_t path_count,
+                     struct pool *pool, const struct cancel *cancel)
+{
+    struct sorting s = {.cells = c, .path_count = path_count};
+    bool ok = make_room(&s);
+
     if (ok) {
-        pool_each(pool, CELL_GRIDS, sort_grid, &s);
-        ok = make_slots(&s);
+        pool_each(pool, CELL_GRIDS, divide_grid, &s);
+        ok = pool_run(pool, CELL_GRIDS * BUCKETS, sort_bucket, &s, cancel) &&
+             make_slots(&s);
     }
-    for (int g = 0; g < CELL_GRIDS; g++) {
-        if (ok)
-            fill_grid(&s, g, path_count);
+    if (ok)
+        pool_each(pool, CELL_GRIDS, fill_grid, &s);
+    for (int g = 0; g < CELL_GRIDS; g++)
         free(s.grids[g].items);
-    }
     return ok;
 }
 

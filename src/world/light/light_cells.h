@@ -59,9 +59,10 @@ void light_cells_estimate(struct light_cells *cells, int thread, int half,
                           uint32_t path,
                           const struct cell_estimates *estimates);
 
-/* Sums the cells, for the flux of this number of paths of each half. */
+/* Sums the cells, for the flux of this number of light paths of each half.
+ * Returns false after a cancel, too. */
 bool light_cells_end(struct light_cells *cells, uint64_t path_count,
-                     struct pool *pool);
+                     struct pool *pool, const struct cancel *cancel);
 
 void light_cells_free(struct light_cells *cells);
 

@@ -80,7 +80,7 @@ static bool add_radiance(struct light_cells *cells, struct bvh8_world *w)
     struct pool *pool = pool_create(1, &err);
     bool ok = pool != NULL && light_cells_begin(cells, &w->world, 0, 1, pool) &&
               radiance_training_run(cells, w, 0, TRAINING, pool, &never) &&
-              light_cells_end(cells, 1, pool);
+              light_cells_end(cells, 1, pool, &never);
 
     pool_destroy(pool);
     if (ok)
