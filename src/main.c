@@ -63,11 +63,12 @@ static void fill_standard_files(void)
 }
 
 /* Prints the error. Mistakes in the command line, which all ranks of a cluster
- * have, are printed by rank 0. */
+ * have, are printed by rank 0. It alone fails: mpirun ends all when one does,
+ * and its line would be lost. */
 static int complain(enum exit_status status, const struct error *err)
 {
     if (status == EXIT_USAGE && cluster_rank() > 0)
-        return status;
+        return EXIT_DONE;
     print_line(stderr, "glim: %s", err->text);
     return status;
 }
