@@ -7,11 +7,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/clock.h"
-#include "session/session.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/files.h"
 #include "tests/unit/folder.h"
+#include "tests/unit/square.h"
 
 #define SIDE 16
 
@@ -35,26 +34,15 @@ static struct means render_part(struct rect crop, bool is_alone, uint32_t spp,
     int pixels = crop.width * crop.height;
     static struct session s;
     static float rgb[3 * SIDE * SIDE];
-    struct options o;
+    struct options o = square_options(SIDE, seed);
     struct means m = {{0, 0, 0}};
-    struct error err = {""};
 
-    options_init(&o);
-    o.scene_path = "s.obj";
-    o.width_px = o.height_px = SIDE;
-    o.thread_count = 2;
-    o.seed = seed;
-    o.batch = true;
     o.has_crop = true;
     o.crop = crop;
-    check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
+    square_open(&s, &o);
     if (is_alone)
         light_paths_free(&s.engine.world.light_paths);
-    check_or_say(session_restart(&s, (struct render_limits){.spp = spp}, &err),
-                 err.text);
-    render_wait(s.engine.render, -1);
-    film_linear(render_film(s.engine.render), rgb);
-    session_close(&s);
+    square_render(&s, spp, rgb);
     for (int i = 0; i < pixels; i++)
         for (int c = 0; c < 3; c++)
             m.all[c] += (double)rgb[3 * i + c] / pixels;

@@ -5,10 +5,9 @@
 
 #include <math.h>
 
-#include "base/clock.h"
-#include "session/session.h"
 #include "tests/unit/files.h"
 #include "tests/unit/folder.h"
+#include "tests/unit/square.h"
 
 #define SIDE  48
 #define SEEDS 4
@@ -27,25 +26,13 @@ static struct result render(bool is_exact, uint32_t spp, uint32_t seed)
 {
     static struct session s;
     static float rgb[3 * SIDE * SIDE];
-    struct options o;
+    struct options o = square_options(SIDE, seed);
     struct render_progress p;
     struct result r = {.rays = 0};
-    struct error err = {""};
 
-    options_init(&o);
-    o.scene_path = "s.obj";
-    o.width_px = o.height_px = SIDE;
-    o.thread_count = 2;
-    o.seed = seed;
-    o.batch = true;
     o.gi = is_exact ? GI_EXACT : GI_CELLS;
-    check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
-    check_or_say(session_restart(&s, (struct render_limits){.spp = spp}, &err),
-                 err.text);
-    render_wait(s.engine.render, -1);
-    film_linear(render_film(s.engine.render), rgb);
-    p = render_progress(s.engine.render);
-    session_close(&s);
+    square_open(&s, &o);
+    p = square_render(&s, spp, rgb);
     r.rays = (double)p.rays / (double)p.samples;
     for (int i = 0; i < SIDE * SIDE; i++)
         for (int c = 0; c < 3; c++)
