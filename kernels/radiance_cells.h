@@ -77,8 +77,8 @@ static inline struct cell_place radiance_place(const struct light_grid *g,
     return at;
 }
 
-/* True if the path's ray comes from a wide bounce, a long way before a cell of
- * this width. */
+/* True if the path's ray comes a long way to a cell of this width, from a wide
+ * bounce, or from the camera or a delta lobe, whose density is 0. */
 static inline bool radiance_is_far(const struct path *p, float way, float width)
 {
     float least = RADIANCE_WAY_MIN * width;
@@ -139,8 +139,9 @@ static inline bool radiance_end(const struct world *w, struct path *p,
 }
 
 /* Gives the cell of a vertex an estimate, or ends the path there. Both are done
- * at the same vertices: others of a cell, in a gap behind a lamp, may be much
- * brighter. Returns true if the path ends. */
+ * after the same bounces, as other vertices of a cell, in a gap behind a lamp,
+ * may be much brighter; diffuse surfaces that the eye sees, directly or in a
+ * mirror, give estimates as well. Returns true if the path ends. */
 APART static bool radiance_meet(const struct world *w, struct path *p,
                                 const struct surface_point *v,
                                 const struct bsdf *b, uint32_t tri, float way)

@@ -16,13 +16,13 @@
 /* Most bytes of estimates and radiance cells. */
 #define RADIANCE_BYTES ((uint64_t)128 << 20)
 
-/* True if half of the memory holds the film and the light of a block. A picture
- * too large for that is rendered without. */
-static bool fits_memory(const struct film *f)
+/* True if half of the memory holds the film, the light of light paths and so
+ * many bytes more. A picture too large for that is rendered without. */
+static bool fits_memory(const struct film *f, uint64_t more_bytes)
 {
     uint64_t pixels = (uint64_t)f->width * (uint64_t)f->height;
 
-    return pixels * (FILM_PIXEL_BYTES + LIGHT_PIXEL_BYTES) + RADIANCE_BYTES <
+    return pixels * (FILM_PIXEL_BYTES + LIGHT_PIXEL_BYTES) + more_bytes <
            cgroup_quota_memory("").size_bytes / 2;
 }
 
@@ -33,7 +33,8 @@ static bool may_train(const struct backend_picture *picture)
     const struct settings *s = &picture->world->settings;
 
     return s->has_light_cells != 0 && s->max_vertices >= CELL_VERTICES_MIN &&
-           world_tree(picture->host) != NULL && fits_memory(picture->film);
+           world_tree(picture->host) != NULL &&
+           fits_memory(picture->film, RADIANCE_BYTES);
 }
 
 enum pass_result light_block_decide(struct light_block *b,
@@ -48,7 +49,7 @@ enum pass_result light_block_decide(struct light_block *b,
         return PASS_DONE;
     b->choice = (struct light_choice){.paths = 0};
     if (picture->host->light_paths.sources != NULL &&
-        world_tree(picture->host) != NULL && fits_memory(picture->film)) {
+        world_tree(picture->host) != NULL && fits_memory(picture->film, 0)) {
         if (b->pilot == NULL)
             b->pilot = light_pilot_begin(picture);
         if (b->pilot == NULL)

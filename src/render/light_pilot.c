@@ -10,13 +10,10 @@
 #include "render/projection.h"
 #include "world/light/light_paths.h"
 
-/* Size of the pilot, its samples, a multiple of SAMPLE_BLOCK, and its light
+/* Samples of a pixel of the pilot, a multiple of SAMPLE_BLOCK, and its light
  * paths of each half. */
-#define PILOT_WIDTH  24
-#define PILOT_HEIGHT 14
-#define PILOT_PIXELS (PILOT_WIDTH * PILOT_HEIGHT)
-#define PILOT_SPP    16
-#define PILOT_PATHS  2048
+#define PILOT_SPP   16
+#define PILOT_PATHS 2048
 
 /* Time of a ray of a light path in those of samples; measured 1 to 2. */
 #define LIGHT_RAY_COST 1.5
@@ -196,6 +193,16 @@ struct world light_pilot_world(const struct world *world,
     return w;
 }
 
+struct camera light_pilot_camera(const struct camera *c)
+{
+    struct projection_part part = {.width = (int)c->width,
+                                   .height = (int)c->height,
+                                   .shown_width = PILOT_WIDTH,
+                                   .shown_height = PILOT_HEIGHT};
+
+    return projection_camera(c, &part);
+}
+
 void light_pilot_free(struct light_pilot *p)
 {
     if (p == NULL)
@@ -209,16 +216,12 @@ void light_pilot_free(struct light_pilot *p)
 struct light_pilot *light_pilot_begin(const struct backend_picture *picture)
 {
     struct light_pilot *p = alloc_array(1, sizeof *p);
-    struct projection_part part = {.shown_width = PILOT_WIDTH,
-                                   .shown_height = PILOT_HEIGHT};
     struct bvh8_world w = {*picture->world, world_tree(picture->host)};
     struct camera *c = &w.world.settings.camera;
 
     if (p == NULL)
         return NULL;
-    part.width = (int)c->width;
-    part.height = (int)c->height;
-    *c = projection_camera(c, &part);
+    *c = light_pilot_camera(c);
     if (!light_image_init(&p->image, PILOT_WIDTH, PILOT_HEIGHT)) {
         light_pilot_free(p);
         return NULL;

@@ -20,6 +20,14 @@
  * limit is longer than paths from the eye are. */
 #define CELL_VERTICES_MIN 32
 
+/* Size of the small picture of a pilot. */
+#define PILOT_WIDTH  24
+#define PILOT_HEIGHT 14
+#define PILOT_PIXELS (PILOT_WIDTH * PILOT_HEIGHT)
+
+/* Returns the camera of a pilot for the picture of a camera. */
+struct camera light_pilot_camera(const struct camera *camera);
+
 struct light_choice {
     double paths;   /* light paths for each sample; 0: none */
     bool has_cells; /* light cells, for what the eye sees through glass */

@@ -5,7 +5,6 @@
 
 #include "render/cpu_dispatch.h"
 #include "render/light_pilot.h"
-#include "render/projection.h"
 #include "kernels/rng.h"
 
 /* Training paths for each sample, and most for all samples of a number. Fewer
@@ -96,10 +95,7 @@ bool radiance_training_run(struct light_cells *cells,
 
 /* ---- the pilot ---- */
 
-/* Size of the pilot, and its training paths. */
-#define PILOT_WIDTH    24
-#define PILOT_HEIGHT   14
-#define PILOT_PIXELS   (PILOT_WIDTH * PILOT_HEIGHT)
+/* Training paths of the pilot. */
 #define PILOT_TRAINING 2048
 
 /* Width of its cells in those of pictures: they have so few estimates. */
@@ -145,12 +141,8 @@ static struct bvh8_world pilot_world(const struct backend_picture *picture,
 {
     struct bvh8_world w = {*picture->world, world_tree(picture->host)};
     struct camera *c = &w.world.settings.camera;
-    struct projection_part part = {.width = (int)c->width,
-                                   .height = (int)c->height,
-                                   .shown_width = PILOT_WIDTH,
-                                   .shown_height = PILOT_HEIGHT};
 
-    *c = projection_camera(c, &part);
+    *c = light_pilot_camera(c);
     if (has_light_paths)
         w.world = light_pilot_world(&w.world, cells);
     return w;
