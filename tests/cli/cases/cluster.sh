@@ -71,6 +71,9 @@ glim $b -s 300 -w 96 -o one.png box.obj 2>/dev/null
 timeout -s KILL 1.5 mpirun --oversubscribe -n 4 "$mpi" $b -w 96 -s 300 \
     --checkpoint c.film --checkpoint-interval 0.1 -o many.png box.obj \
     >/dev/null 2>&1
+while pgrep -f -- "$mpi.* --checkpoint c.film" >/dev/null; do
+    sleep 0.1 # ranks outlive mpirun until they notice that it is gone
+done
 ranks 2 $b -s 300 -w 96 --checkpoint c.film --resume c.film -o many.png box.obj
 same many.png one.png
 
