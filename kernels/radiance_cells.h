@@ -36,6 +36,10 @@
  * the surface. */
 #define RADIANCE_SPECULAR_MAX 0.1f
 
+/* Least cosine between a surface's normal and a ray that ends at its cell:
+ * others see into gaps, to which most of the cell is blind. */
+#define RADIANCE_COS_MIN 0.35f
+
 /* Density per solid angle of a ray's direction, from which on a bounce is not
  * wide: that of a lobe with a GGX roughness of about .28. */
 #define RADIANCE_PDF_MAX 1.0f
@@ -153,6 +157,8 @@ APART static bool radiance_meet(const struct world *w, struct path *p,
         return false;
     if (HAS(FEATURE_LIGHT_PATHS) && w->settings.has_light_paths != 0 &&
         !p->drops)
+        return false;
+    if (fabsf(v3_dot(p->ray.d, v->ng)) < RADIANCE_COS_MIN)
         return false;
     at = radiance_place(&g, v->p, v->ng, tri_material(w, tri, v->instance));
     if (at.key == 0 || !radiance_is_far(p, way, at.width))
