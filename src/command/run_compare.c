@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "base/print.h"
 #include "command/difference.h"
+#include "command/flip.h"
 #include "command/reference_info.h"
 #include "film/image_write.h"
 #include "image/image_read.h"
@@ -85,7 +86,7 @@ static void print_error(const char *label, double measured, double own,
         print_line(stdout, "%-18s %.4g", label, shown);
 }
 
-static void print_errors(const struct picture_error *e,
+static void print_errors(const struct picture_error *e, double flip,
                          const struct reference_info *own)
 {
     print_error("RMSE", e->mse, own->mse, true);
@@ -97,6 +98,7 @@ static void print_errors(const struct picture_error *e,
         print_line(stdout, "%-18s %+.3g %%", "bias", 100 * e->bias);
     else
         print_line(stdout, "%-18s unknown, as the reference is black", "bias");
+    print_line(stdout, "%-18s %.4g", "FLIP", flip);
     print_line(stdout, "%-18s %.4g", "99.9th percentile", e->percentile);
     print_line(stdout, "%-18s %+.4g at pixel %d,%d, %s", "largest", e->largest,
                e->largest_x, e->largest_y, channels[e->largest_channel]);
@@ -219,12 +221,14 @@ static bool compare(const struct options *o, const struct picture_pair *p,
     struct reference_info own = reference_info_read(o->reference_path);
     struct picture_error e = picture_error_of(p);
     struct tile_test test = {0};
-    bool ok = tile_test_init(&test, p, o->tile_count, o->false_alarms, err);
+    double flip = 0;
+    bool ok = flip_mean(p, &flip, err) &&
+              tile_test_init(&test, p, o->tile_count, o->false_alarms, err);
 
     if (ok) {
         print_line(stdout, "%s against %s, %dx%d pixels", o->picture_path,
                    o->reference_path, p->width, p->height);
-        print_errors(&e, &own);
+        print_errors(&e, flip, &own);
         ok = write_output(p, &test, o->output_path, err);
     }
     if (ok) {
