@@ -36,8 +36,9 @@
  * the surface. */
 #define RADIANCE_SPECULAR_MAX 0.1f
 
-/* Least cosine between a surface's normal and a ray that ends at its cell:
- * others see into gaps, to which most of the cell is blind. */
+/* Least cosine between a surface's normal and a ray that ends at its cell.
+ * Rays that graze a surface see into gaps, such as that behind a lamp, which
+ * other rays to the cell do not. */
 #define RADIANCE_COS_MIN 0.35f
 
 /* Density per solid angle of a ray's direction, from which on a bounce is not

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/geometry.h"
 #include "base/memory.h"
 #include "kernels/vec.h"
 
@@ -84,10 +85,15 @@ static float color_distance(struct vec3 a, struct vec3 b)
                 COLOR_EXPONENT);
 }
 
-static float color_difference(struct vec3 a, struct vec3 b)
+/* The largest distance: that of green and blue. */
+static float color_distance_max(void)
 {
-    float most = color_distance(to_lab(v3(0.0f, 1.0f, 0.0f)),
-                                to_lab(v3(0.0f, 0.0f, 1.0f)));
+    return color_distance(to_lab(v3(0.0f, 1.0f, 0.0f)),
+                          to_lab(v3(0.0f, 0.0f, 1.0f)));
+}
+
+static float color_difference(struct vec3 a, struct vec3 b, float most)
+{
     float limit = LIMIT * most, d = color_distance(a, b);
 
     if (d < limit)
@@ -126,11 +132,6 @@ struct plane {
     float *values, *between, *result;
 };
 
-static int inside(int i, int count)
-{
-    return i < 0 ? 0 : i < count ? i : count - 1;
-}
-
 /* Filters along columns, beyond whose ends the last pixel goes on. Columns of
  * the result are rows of the plane. */
 static void filter_columns(const float *from, float *to, int width, int height,
@@ -143,7 +144,7 @@ static void filter_columns(const float *from, float *to, int width, int height,
 
             for (int i = -RADIUS; i <= RADIUS; i++) {
                 const float *row =
-                    from + (ptrdiff_t)inside(y + i, height) * width;
+                    from + (ptrdiff_t)index_clamp(y + i, height) * width;
 
                 for (int x = 0; x < count; x++)
                     sums[x] += f->weights[i + RADIUS] * row[begin + x];
@@ -162,14 +163,14 @@ static void filter_both(const struct plane *p, const struct filter *x,
 
 /* ---- pictures ---- */
 
-/* A picture as the eye sees it; contrast of features. */
+/* A pixel as the eye sees it. */
 struct look {
-    float color[3]; /* opponents */
-    float edge, point;
+    float color[3];    /* opponents after the filters of the eye */
+    float edge, point; /* contrast of features */
 };
 
-/* Gaussians of the contrast sensitivity, of a channel each: heights and widths.
- * Those of a channel sum to 1. */
+/* Gaussians of the contrast sensitivity: channel, height and width. Gaussians
+ * of a channel stand together, and sum to 1. */
 static const struct {
     int channel;
     float a, b;
@@ -204,7 +205,8 @@ static void see_colors(struct look *looks, const float *rgb,
         sums[eye[k].channel] += integrals[k];
     }
     for (int k = 0; k < 4; k++) {
-        set_channel(p, rgb, eye[k].channel);
+        if (k == 0 || eye[k].channel != eye[k - 1].channel)
+            set_channel(p, rgb, eye[k].channel);
         filter_both(p, &filters[k], &filters[k]);
         for (size_t i = 0; i < (size_t)p->width * (size_t)p->height; i++)
             looks[i].color[eye[k].channel] +=
@@ -239,12 +241,12 @@ static struct vec3 seen_lab(const struct look *l)
         shown(opponents_rgb(v3(l->color[0], l->color[1], l->color[2]))));
 }
 
-static double difference(const struct look *a, const struct look *b)
+static double difference(const struct look *a, const struct look *b, float most)
 {
     float feature = f_max(fabsf(a->edge - b->edge), fabsf(a->point - b->point));
     float part = powf(feature / sqrtf(2.0f), FEATURE_EXPONENT);
 
-    return (double)powf(color_difference(seen_lab(a), seen_lab(b)),
+    return (double)powf(color_difference(seen_lab(a), seen_lab(b), most),
                         1.0f - f_min(part, 1.0f));
 }
 
@@ -254,6 +256,7 @@ bool flip_mean(const struct picture_pair *pair, double *flip, struct error *err)
     struct look *looks = alloc_array(2 * count, sizeof *looks);
     float *values = alloc_array(3 * count, sizeof *values);
     bool ok = looks != NULL && values != NULL;
+    float most = color_distance_max();
     double sum = 0;
 
     for (int k = 0; ok && k < 2; k++) {
@@ -265,7 +268,7 @@ bool flip_mean(const struct picture_pair *pair, double *flip, struct error *err)
         see_features(looks + (size_t)k * count, rgb, &p);
     }
     for (size_t i = 0; ok && i < count; i++)
-        sum += difference(&looks[i], &looks[count + i]);
+        sum += difference(&looks[i], &looks[count + i], most);
     *flip = sum / (double)count;
     free(looks);
     free(values);

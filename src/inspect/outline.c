@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/geometry.h"
 #include "base/memory.h"
 #include "world/bvh/bvh8_traverse.h"
 #include "kernels/camera.h"
@@ -76,8 +77,8 @@ void outline_find(struct outline *o, const struct bvh8_world *w,
 static bool mask_at(const struct outline *o, const struct frame *frame, int x,
                     int y)
 {
-    x = x < 0 ? 0 : x >= frame->width ? frame->width - 1 : x;
-    y = y < 0 ? 0 : y >= frame->height ? frame->height - 1 : y;
+    x = index_clamp(x, frame->width);
+    y = index_clamp(y, frame->height);
     return o->mask[(size_t)y * (size_t)o->height / (size_t)frame->height *
                        (size_t)o->width +
                    (size_t)x * (size_t)o->width / (size_t)frame->width];

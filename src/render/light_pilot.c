@@ -239,17 +239,16 @@ static enum pass_result pilot_light(struct light_pilot *p, struct pool *pool,
                                     const struct cancel *cancel)
 {
     const struct bvh8_world *w = &p->worlds[WORLD_ALONE];
-    static const struct cancel never;
     struct light_film film = {&p->image, p->has_cells ? &p->cells : NULL};
 
     light_image_clear(&p->image);
     if (!light_cells_begin(&p->none, &w->world, 0, 1, pool) ||
-        !light_cells_end(&p->none, 1, pool, &never) ||
         !light_cells_begin(&p->cells, &w->world, 0, 1, pool))
         return PASS_FAILED;
     if (!light_paths_trace(p->paths, w, 0, PILOT_PATHS, pool, cancel, film))
         return PASS_CANCELLED;
-    if (!light_cells_end(&p->cells, PILOT_PATHS, pool, cancel))
+    if (!light_cells_end(&p->none, PILOT_PATHS, pool, cancel) ||
+        !light_cells_end(&p->cells, PILOT_PATHS, pool, cancel))
         return cancel_requested(cancel) ? PASS_CANCELLED : PASS_FAILED;
     p->worlds[WORLD_BESIDE].world =
         light_pilot_world(&w->world, p->has_cells ? &p->none : NULL);

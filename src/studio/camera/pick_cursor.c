@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "base/clock.h"
+#include "base/geometry.h"
 
 #define TEXT_BYTES 256
 
@@ -137,11 +138,6 @@ void pick_cursor_hide(struct pick_cursor *cursor)
     live_render_clear_message(cursor->control);
 }
 
-static int clamped(int x, int count)
-{
-    return x < 0 ? 0 : x >= count ? count - 1 : x;
-}
-
 void pick_cursor_move(struct pick_cursor *cursor, int right, int down)
 {
     struct screen *screen = cursor->screen;
@@ -156,9 +152,9 @@ void pick_cursor_move(struct pick_cursor *cursor, int right, int down)
     cursor->held_ns = now_ns;
     cells = 1 + cursor->held_count / HELD_CELLS;
     screen->cursor_col =
-        clamped(screen->cursor_col + cells * right, screen->fit.cols);
+        index_clamp(screen->cursor_col + cells * right, screen->fit.cols);
     screen->cursor_row =
-        clamped(screen->cursor_row + cells * down, screen->fit.rows);
+        index_clamp(screen->cursor_row + cells * down, screen->fit.rows);
     set_shown(cursor, true);
 }
 

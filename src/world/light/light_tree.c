@@ -5,6 +5,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/geometry.h"
 #include "base/memory.h"
 
 #include "kernels/hit.h"
@@ -109,7 +110,7 @@ static int bin_of(const struct split *s, const struct emitter *e)
 {
     int bin = (int)((center_of(e, s->axis) - s->lo) * s->scale);
 
-    return bin < 0 ? 0 : bin >= BIN_COUNT ? BIN_COUNT - 1 : bin;
+    return index_clamp(bin, BIN_COUNT);
 }
 
 /* Finds the cheapest of BIN_COUNT - 1 planes on one axis, and sets *best if it

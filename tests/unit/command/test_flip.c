@@ -12,7 +12,7 @@
 
 static float pictures[2][3 * WIDTH * HEIGHT];
 
-/* Sets a channel of a picture to a part of 255. */
+/* Sets a channel of a pixel to value / 255. */
 static void set(int picture, int x, int y, int channel, int value)
 {
     pictures[picture][3 * (y * WIDTH + x) + channel] = (float)value / 255.0f;
