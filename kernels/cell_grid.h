@@ -37,13 +37,19 @@ static inline uint64_t cell_coordinate(float x)
                       1.0f);
 }
 
-/* The cell of a point of a surface. Surfaces at one point with different `side`
- * numbers, which are below 8, have different cells. */
+/* The octave of the distance of a point from the eye. */
+static inline uint32_t cell_octave(const struct light_grid *g, struct vec3 p)
+{
+    return float_bits(v3_length(v3_sub(p, g->eye)) * g->distance_scale) >> 23;
+}
+
+/* The cell of an octave at a point of a surface. Surfaces at one point with
+ * different `side` numbers, which are below 8, have different cells. */
 static inline struct cell_place cell_place(const struct light_grid *g,
-                                           struct vec3 p, uint32_t side)
+                                           struct vec3 p, uint32_t octave,
+                                           uint32_t side)
 {
     struct vec3 d = v3_sub(p, g->eye);
-    uint32_t octave = float_bits(v3_length(d) * g->distance_scale) >> 23;
     struct cell_place at = {0, bits_float(octave << 23) * g->width};
     float scale = 1.0f / at.width;
 

@@ -6,10 +6,12 @@
  * No light path can be connected to the camera there. Its flux is summed in
  * cells of space instead, which the first matte surface of a path from the eye
  * looks up (photon mapping: Jensen 1996, "Global illumination using photon
- * maps", with cells for the search). Cells are about as wide as a pixel seen
- * from the eye. Those of one half are four times as wide as those of the other:
- * where blur grows with the square of the width, half the difference of the
- * halves is 15/17 of the mean blur.
+ * maps", with cells for the search). The finest cells are about as wide as a
+ * pixel seen from the eye. Eight cells are a cell of the next level, so that
+ * where there is little light cells are wide and not noisy. Those of one half
+ * are four times as wide as those of the other: where blur grows with the
+ * square of the width, half the difference of the halves is 15/17 of the mean
+ * blur.
  *
  * Units:     normalised scene units; flux, divided by the number of light paths
  */
@@ -19,12 +21,61 @@
 #include "kernels/cell_grid.h"
 #include "kernels/surface_point.h"
 
-/* The cell of a point of a surface, whose unit normal ng is on the side of the
- * light. */
-static inline struct cell_place light_place(const struct light_grid *g,
-                                            struct vec3 p, struct vec3 ng)
+/* Levels of cells, each twice as wide as those of the level before. */
+#define CELL_LEVELS 4u
+
+/* Moves bit `bit` of each coordinate in a key of cell_grid.h to the bits of its
+ * level. */
+static inline uint64_t light_bits(uint64_t key, uint32_t bit)
 {
-    return cell_place(g, p, v3_dot(ng, g->facing) > 0.0f ? 1u : 0u);
+    return ((key >> (36u + bit) & 1u) << 2 | (key >> (18u + bit) & 1u) << 1 |
+            (key >> bit & 1u))
+           << 3u * bit;
+}
+
+/* The finest cell of an octave at a point of a surface, whose unit normal ng is
+ * on the side of the light. Keys of cells that are one at a higher level differ
+ * in their last bits, 3 for each level. */
+static inline struct cell_place light_place(const struct light_grid *g,
+                                            struct vec3 p, struct vec3 ng,
+                                            uint32_t octave)
+{
+    uint32_t facing = v3_dot(ng, g->facing) > 0.0f ? 1u : 0u;
+    struct cell_place at = cell_place(g, p, octave, facing);
+    const uint64_t rest = 0x7fff; /* of a coordinate */
+
+    if (at.key != 0)
+        at.key = (at.key & (rest << 39 | ~(uint64_t)0 << 54)) |
+                 (at.key & rest << 21) << 3 | (at.key & rest << 3) << 6 |
+                 light_bits(at.key, 0u) | light_bits(at.key, 1u) |
+                 light_bits(at.key, 2u);
+    return at;
+}
+
+/* The cell of a level which has a finest cell. */
+static inline uint64_t light_cell_above(uint64_t key, uint32_t level)
+{
+    const uint64_t place = ((uint64_t)1 << 54) - 1;
+
+    return (uint64_t)level << 62 | (key & ~place) | (key & place) >> 3u * level;
+}
+
+/* Chooses the level of a half's cell at a point: the finest at which the other
+ * half has enough deposits there. By its own it would take the finer the
+ * brighter they are by chance. */
+static inline uint32_t light_level(const struct world *w, uint32_t half_number,
+                                   const struct surface_point *v)
+{
+    struct light_grid g = w->light_grids[1u - half_number];
+    uint64_t key = light_place(&g, v->p, v->ng, cell_octave(&g, v->p)).key;
+    struct light_cell cell;
+    uint32_t level = 0;
+
+    while (level < CELL_LEVELS - 1u &&
+           !(cell_find(w, &g, light_cell_above(key, level), &cell) &&
+             v3_length(cell.d) >= g.count_min))
+        level++;
+    return level;
 }
 
 /* Mean area of the part of a plane with unit normal n that is in a cell of
@@ -51,29 +102,37 @@ static inline float light_cell_area(struct vec3 n)
 }
 
 /* Returns the radiance that a matte surface sends to wo of the light of light
- * paths. u chooses a place around the point. */
+ * paths of a half. u chooses a place around the point. */
 static inline struct vec3 light_cells_radiance(const struct world *w,
-                                               uint32_t grid,
+                                               uint32_t half_number,
                                                const struct surface_point *v,
                                                const struct bsdf *b,
                                                struct vec3 wo, struct vec2 u)
 {
-    struct vec3 none = v3(0.0f, 0.0f, 0.0f), tangent, bitangent, wi, f;
-    struct light_grid g = w->light_grids[grid];
-    struct cell_place at = light_place(&g, v->p, v->ng);
+    struct vec3 none = v3(0.0f, 0.0f, 0.0f), tangent, bitangent, from, wi, f;
+    struct light_grid g = w->light_grids[half_number];
+    uint32_t octave = cell_octave(&g, v->p), level;
+    struct cell_place at = light_place(&g, v->p, v->ng, octave);
     struct light_cell cell;
     float pdf, area;
 
-    frame_around(v->ng, &tangent, &bitangent);
-    at = light_place(
-        &g,
-        v3_add(v->p, v3_add(v3_scale(tangent, at.width * (u.x - 0.5f)),
-                            v3_scale(bitangent, at.width * (u.y - 0.5f)))),
-        v->ng);
-    if (at.key == 0 || !cell_find(w, &g, at.key, &cell))
+    if (at.key == 0)
         return none;
-    wi = surface_to_local(v, cell.d);
-    if (!surface_sides_agree(v, cell.d, wi.z))
+    level = light_level(w, half_number, v);
+    at.width *= (float)(1u << level);
+    frame_around(v->ng, &tangent, &bitangent);
+    at.key =
+        light_place(
+            &g,
+            v3_add(v->p, v3_add(v3_scale(tangent, at.width * (u.x - 0.5f)),
+                                v3_scale(bitangent, at.width * (u.y - 0.5f)))),
+            v->ng, octave)
+            .key;
+    if (!cell_find(w, &g, light_cell_above(at.key, level), &cell))
+        return none;
+    from = v3_unit(cell.d);
+    wi = surface_to_local(v, from);
+    if (!surface_sides_agree(v, from, wi.z))
         return none;
     f = bsdf_terms(b, wo, wi, &pdf);
     area = light_cell_area(v->ng) * at.width * at.width;

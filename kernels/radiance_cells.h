@@ -75,7 +75,8 @@ static inline struct cell_place radiance_place(const struct light_grid *g,
                                                struct vec3 p, struct vec3 ng,
                                                uint32_t material)
 {
-    struct cell_place at = cell_place(g, p, guide_facing(ng));
+    struct cell_place at =
+        cell_place(g, p, cell_octave(g, p), guide_facing(ng));
 
     if (at.key != 0)
         at.key ^= (uint64_t)hash_u32(material) << 1;

@@ -321,6 +321,7 @@ struct light_grid {
     struct vec3 facing;   /* a unit vector, of light_place() */
     float distance_scale; /* from 1 to 2 */
     float width;          /* of cells where the scaled distance is 1 */
+    float count_min;      /* see light_level() */
     uint32_t first;       /* slot of the grid */
     uint32_t mask;        /* number of slots - 1; a power of two of them */
 };
@@ -331,8 +332,8 @@ struct light_cell {
     /* flux by the number of light paths, times the cosine of the shading normal
      * over that of the face; or radiance by the color of the surface */
     struct vec3 light;
-    /* to where a part of the flux came from, chosen by flux; or in x the number
-     * of estimates of the radiance */
+    /* as long as the number of deposits: to where the flux of one came from,
+     * chosen by flux; or along x, of estimates of the radiance */
     struct vec3 d;
 };
 

@@ -14,9 +14,17 @@
 /* Least width of cells by their distance: coordinates have an end. */
 #define WIDTH_MIN 0x1p-15
 
-/* Width of the first light cells of the halves in pixels. */
+/* Width of the first light cells of the halves in pixels, the finest. */
 #define CELL_WIDE   2.4
 #define CELL_NARROW 0.6
+
+/* Number of deposits in each of the first narrow cells at which no wider ones
+ * are needed. */
+#define LIGHT_COUNT_MIN 0.9
+
+/* Distance in widths of a cell within which it gets light that is seen in it
+ * from a point. */
+#define CELL_REACH 2.5f
 
 /* Width of the first radiance cells of the halves by their distance. In rooms
  * .03 to .12 are within 20 % of the least error. */
@@ -83,9 +91,13 @@ bool light_cells_begin(struct light_cells *c, const struct world *w,
         c->thread_count = thread_count;
     }
     key = hash_u32(key ^ (uint32_t)begin) ^ (uint32_t)(begin >> 32);
-    for (int g = 0; g < CELL_GRIDS; g++)
+    for (int g = 0; g < CELL_GRIDS; g++) {
         c->grids[g] =
             random_grid(camera, hash_u32(key ^ (uint32_t)g), widths[g]);
+        c->grids[g].count_min =
+            (float)(LIGHT_COUNT_MIN *
+                    pow(widths[g] / (CELL_NARROW * pixel), 2));
+    }
     for (int i = 0; i < CELL_GRIDS * thread_count; i++) {
         c->lists[i].count = 0;
         c->lists[i].is_cut = false;
@@ -110,13 +122,29 @@ static void add(struct light_cells *c, int thread, int grid,
     list->items[list->count++] = *deposit;
 }
 
+/* Adds light to the cells of its octave, and to those of the next ones that
+ * reach as far. */
 void light_cells_add(struct light_cells *c, int thread, int half, struct vec3 p,
                      struct vec3 ng, const struct light_deposit *deposit)
 {
+    const struct light_grid *g = &c->grids[half];
+    uint32_t octave = cell_octave(g, p);
+    float reach = CELL_REACH * (float)(1u << (CELL_LEVELS - 1)) * g->width *
+                  g->distance_scale;
+    float distance = v3_length(v3_sub(p, g->eye)) * g->distance_scale;
+    float begin = bits_float(octave << 23);
     struct light_deposit d = *deposit;
 
-    d.key = light_place(&c->grids[half], p, ng).key;
+    d.key = light_place(g, p, ng, octave).key;
     add(c, thread, half, &d);
+    if (distance - begin <= 0.5f * begin * reach) {
+        d.key = light_place(g, p, ng, octave - 1u).key;
+        add(c, thread, half, &d);
+    }
+    if (2.0f * begin - distance <= 2.0f * begin * reach) {
+        d.key = light_place(g, p, ng, octave + 1u).key;
+        add(c, thread, half, &d);
+    }
 }
 
 void light_cells_estimate(struct light_cells *c, int thread, int half,
@@ -143,13 +171,25 @@ static int compare(const void *a, const void *b)
     return x->vertex < y->vertex ? -1 : x->vertex > y->vertex;
 }
 
-/* Deposits are divided by the hash of their cell, so that sorting is parallel
- * and ends soon after a cancel. */
+static uint32_t level_count(uint32_t grid)
+{
+    return grid < RADIANCE_GRID ? CELL_LEVELS : 1;
+}
+
+/* The key of a deposit's cell of a level. */
+static uint64_t key_at(uint64_t key, uint32_t grid, uint32_t level)
+{
+    return grid < RADIANCE_GRID ? light_cell_above(key, level) : key;
+}
+
+/* Deposits are divided by the hash of their widest cell, so that sorting is
+ * parallel and ends soon after a cancel. */
 #define BUCKETS 64
 
-static uint32_t bucket_of(uint64_t key)
+static uint32_t bucket_of(uint64_t key, uint32_t grid)
 {
-    return cell_hash(key) / (UINT32_MAX / BUCKETS + 1);
+    return cell_hash(key_at(key, grid, level_count(grid) - 1)) /
+           (UINT32_MAX / BUCKETS + 1);
 }
 
 /* The deposits of each grid, bucket by bucket. */
@@ -176,7 +216,7 @@ static void divide_grid(void *context, uint32_t grid, int worker)
     (void)worker;
     for (int i = 0; i < s->cells->thread_count; i++)
         for (size_t k = 0; k < list_of(s, i, grid)->count; k++)
-            next[bucket_of(list_of(s, i, grid)->items[k].key)]++;
+            next[bucket_of(list_of(s, i, grid)->items[k].key, grid)]++;
     for (int i = 0; i < BUCKETS; i++) {
         sum += next[i];
         s->ends[grid][i] = sum;
@@ -186,7 +226,7 @@ static void divide_grid(void *context, uint32_t grid, int worker)
         const struct light_deposits *from = list_of(s, i, grid);
 
         for (size_t k = 0; k < from->count; k++) {
-            uint32_t bucket = bucket_of(from->items[k].key);
+            uint32_t bucket = bucket_of(from->items[k].key, grid);
 
             s->grids[grid].items[next[bucket]++] = from->items[k];
         }
@@ -205,8 +245,11 @@ static void sort_bucket(void *context, uint32_t item, int worker)
     (void)worker;
     if (count > 1)
         qsort(items, count, sizeof *items, compare);
-    for (size_t i = 0; i < count; i++)
-        s->unique[grid][bucket] += i == 0 || items[i].key != items[i - 1].key;
+    for (uint32_t level = 0; level < level_count(grid); level++)
+        for (size_t i = 0; i < count; i++)
+            s->unique[grid][bucket] +=
+                i == 0 || key_at(items[i].key, grid, level) !=
+                              key_at(items[i - 1].key, grid, level);
 }
 
 static struct vec3 sum_light(const struct light_deposit *d, size_t count,
@@ -239,38 +282,45 @@ static struct vec3 choose_direction(const struct light_deposit *d, size_t count)
 
 /* Returns a cell of `count` deposits. */
 static struct light_cell sum_cell(const struct light_deposit *d, size_t count,
-                                  int grid, uint64_t path_count)
+                                  uint32_t grid, uint64_t path_count)
 {
-    if (grid >= (int)RADIANCE_GRID)
-        return (struct light_cell){.key = d->key,
-                                   .light =
-                                       sum_light(d, count, 1 / (double)count),
-                                   .d = v3((float)count, 0, 0)};
-    return (struct light_cell){.key = d->key,
-                               .light =
-                                   sum_light(d, count, 1 / (double)path_count),
-                               .d = choose_direction(d, count)};
+    struct light_cell cell = {.d = v3((float)count, 0, 0)};
+
+    if (grid < RADIANCE_GRID)
+        cell.d = v3_scale(choose_direction(d, count), (float)count);
+    cell.light =
+        sum_light(d, count,
+                  1 / (double)(grid < RADIANCE_GRID ? path_count : count));
+    return cell;
+}
+
+static void fill_level(struct sorting *s, uint32_t grid, uint32_t level)
+{
+    const struct light_deposits *from = &s->grids[grid];
+    const struct light_grid *g = &s->cells->grids[grid];
+    struct light_cell *slots = s->cells->cells + g->first;
+
+    for (size_t i = 0, end; i < from->count; i = end) {
+        uint64_t key = key_at(from->items[i].key, grid, level);
+        uint32_t slot = cell_hash(key) & g->mask;
+
+        for (end = i + 1; end < from->count &&
+                          key_at(from->items[end].key, grid, level) == key;)
+            end++;
+        while (slots[slot].key != 0)
+            slot = (slot + 1u) & g->mask;
+        slots[slot] = sum_cell(from->items + i, end - i, grid, s->path_count);
+        slots[slot].key = key;
+    }
 }
 
 static void fill_grid(void *context, uint32_t grid, int worker)
 {
     struct sorting *s = context;
-    const struct light_deposits *from = &s->grids[grid];
-    const struct light_grid *g = &s->cells->grids[grid];
-    struct light_cell *slots = s->cells->cells + g->first;
 
     (void)worker;
-    for (size_t i = 0, end; i < from->count; i = end) {
-        uint32_t slot = cell_hash(from->items[i].key) & g->mask;
-
-        for (end = i + 1;
-             end < from->count && from->items[end].key == from->items[i].key;)
-            end++;
-        while (slots[slot].key != 0)
-            slot = (slot + 1u) & g->mask;
-        slots[slot] =
-            sum_cell(from->items + i, end - i, (int)grid, s->path_count);
-    }
+    for (uint32_t level = 0; level < level_count(grid); level++)
+        fill_level(s, grid, level);
 }
 
 /* Gives each grid twice as many slots as it has cells, or more. */
