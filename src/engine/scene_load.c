@@ -73,10 +73,14 @@ static float *light_of_paths(struct probe_job *j, const struct host_world *host,
     double sky_mean =
         host->sky_table.mean * color_mean(j->w.world.settings.sky.color);
 
-    if (light_paths_build(&paths, &j->w.world, &host->lights, sky_mean) &&
-        paths.sources != NULL && light_image_init(&image, j->width, height) &&
-        light_paths_trace(&paths, &j->w, 0, PROBE_PATHS, pool, &never,
-                          (struct light_film){&image, NULL}))
+    bool ok = light_paths_build(&paths, &j->w.world, &host->lights, sky_mean) &&
+              paths.sources != NULL &&
+              light_image_init(&image, j->width, height);
+
+    if (ok)
+        light_paths_aim(&paths, &j->w, pool);
+    if (ok && light_paths_trace(&paths, &j->w, 0, PROBE_PATHS, pool, &never,
+                                (struct light_film){&image, NULL}))
         means = alloc_array(pixels, 6 * sizeof *means);
     if (means != NULL) {
         light_image_means(&image, PROBE_PATHS, means);

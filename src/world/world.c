@@ -398,10 +398,24 @@ static struct sky make_sky(const struct host_world *host,
     return sky;
 }
 
+static bool aim_light_paths(struct host_world *host, struct bvh8_world w,
+                            struct error *err)
+{
+    struct pool *pool = world_pool(host);
+    bool ok = world_ensure_tree(host, &w.world, pool, err);
+
+    sky_table_lend(&host->sky_table, &w.world);
+    if (ok)
+        light_paths_aim(&host->light_paths, &w, pool);
+    pool_destroy(pool);
+    return ok;
+}
+
 /* Builds the tables of light paths unless they are current. Versions grow, so
  * that equal sums have equal parts. */
-static bool find_light_paths(struct host_world *host, const struct world *w,
-                             double sky_mean, struct error *err)
+static bool find_light_paths(struct host_world *host,
+                             const struct bvh8_world *w, double sky_mean,
+                             struct error *err)
 {
     uint64_t version =
         host->versions[WORLD_SHAPE] + host->versions[WORLD_TRIS] +
@@ -412,8 +426,11 @@ static bool find_light_paths(struct host_world *host, const struct world *w,
         host->light_paths_sky == sky_mean)
         return true;
     light_paths_free(&host->light_paths);
-    if (!light_paths_build(&host->light_paths, w, &host->lights, sky_mean))
+    if (!light_paths_build(&host->light_paths, &w->world, &host->lights,
+                           sky_mean))
         return fail(err, "out of memory for light paths");
+    if (host->light_paths.sources != NULL && !aim_light_paths(host, *w, err))
+        return false;
     host->light_paths_version = version;
     host->light_paths_sky = sky_mean;
     return true;
@@ -435,7 +452,7 @@ bool world_guide(struct host_world *host, const struct scene *scene,
     lights_lend(&host->lights, &w.world);
     if (host->sky_texels != NULL)
         sky *= host->sky_table.mean;
-    if (!find_light_paths(host, &w.world, sky, err))
+    if (!find_light_paths(host, &w, sky, err))
         return false;
     if (path_guide_is_current(guide, sky))
         return true;

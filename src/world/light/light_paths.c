@@ -57,22 +57,6 @@ static uint32_t lamp_count(const struct world *w)
     return w->settings.point_light_count + w->settings.directional_light_count;
 }
 
-/* Returns true if the world has surfaces that cast, all of which are listed. */
-static bool has_casters(const struct world *w)
-{
-    bool may = false, found = false;
-
-    if (!all_are_listed(w))
-        return false;
-    for (uint32_t i = 0; i < w->settings.material_count && !may; i++)
-        may = w->materials[i].role == ROLE_CASTS;
-    for (uint32_t i = 0; may && i < plain_tri_count(w) && !found; i++)
-        found = w->materials[w->tris[i].material].role == ROLE_CASTS;
-    for (uint32_t i = 0; may && i < w->settings.instance_count && !found; i++)
-        found = w->materials[w->instances[i].material].role == ROLE_CASTS;
-    return found;
-}
-
 /* Irradiance of a place that faces the source, about. */
 static double irradiance_at(const struct world *w, const struct light_source *s,
                             double power, struct vec3 place)
@@ -140,9 +124,9 @@ static bool choose_by(struct light_paths *p, struct building *b)
     for (uint32_t k = 0; k < PLACES; k++) {
         struct sampler at = {s.key, reverse_bits(k)};
         struct vec3 place =
-            tri_point(b->w,
-                      triangle_cdf_choose(&p->casters, number_2d(at, 0).x),
-                      number_2d(at, 1));
+            casters_choose(&p->casters, b->w, (double)number_2d(at, 0).x,
+                           number_2d(at, 1))
+                .p;
 
         for (uint32_t i = 0; i < b->count; i++)
             irradiances[i] +=
@@ -173,7 +157,9 @@ bool light_paths_build(struct light_paths *p, const struct world *w,
 
     *p = (struct light_paths){.reach = beyond_scene(w),
                               .spots = {.level = INFINITY}};
-    if (!has_casters(w))
+    if (!casters_build(&p->casters, w))
+        return false;
+    if (!(triangle_cdf_total(&p->casters.list) > 0))
         return true;
     if (!sky_spots_build(&p->spots, w, sky_mean))
         return false;
@@ -183,12 +169,8 @@ bool light_paths_build(struct light_paths *p, const struct world *w,
     b.sources = p->sources = alloc_array(count, sizeof *p->sources);
     b.powers = alloc_array(count, sizeof *b.powers);
     ok = b.sources != NULL && b.powers != NULL &&
-         triangle_cdf_init(&p->choice, count) &&
-         triangle_cdf_init(&p->casters, listed_tri_count(w));
-    for (uint32_t i = 0; ok && i < listed_tri_count(w); i++)
-        if (w->materials[tri_material_number(w, i)].role == ROLE_CASTS)
-            triangle_cdf_add(&p->casters, i, tri_area(w, i));
-    if (ok && triangle_cdf_total(&p->casters) > 0) {
+         triangle_cdf_init(&p->choice, count);
+    if (ok) {
         add_sources(&b, lights, &p->spots);
         ok = choose_by(p, &b);
     }
@@ -202,7 +184,7 @@ void light_paths_free(struct light_paths *p)
 {
     free(p->sources);
     triangle_cdf_free(&p->choice);
-    triangle_cdf_free(&p->casters);
+    casters_free(&p->casters);
     sky_spots_free(&p->spots);
     *p = (struct light_paths){.sources = NULL};
 }
@@ -239,24 +221,28 @@ void light_image_free(struct light_image *image)
     *image = (struct light_image){.width = 0};
 }
 
-/* Adds light to a pixel of the picture. Light that no sum accepts is left
+static bool has_pixel(const struct light_image *image, int x, int y)
+{
+    return x >= image->x0 && y >= image->y0 && x - image->x0 < image->width &&
+           y - image->y0 < image->height;
+}
+
+/* Adds light to a pixel that the image has. Light that no sum accepts is left
  * out. */
 static void add_light(struct light_image *image, int half, int x, int y,
                       struct vec3 light)
 {
-    struct sum *to;
+    size_t row = (size_t)(y - image->y0);
+    struct sum *to = image->sums[half] +
+                     3 * (row * (size_t)image->width + (size_t)(x - image->x0));
 
-    x -= image->x0;
-    y -= image->y0;
-    if (x < 0 || y < 0 || x >= image->width || y >= image->height ||
-        !sum_accepts(light.x) || !sum_accepts(light.y) || !sum_accepts(light.z))
+    if (!sum_accepts(light.x) || !sum_accepts(light.y) || !sum_accepts(light.z))
         return;
-    to = image->sums[half] + 3 * ((size_t)y * (size_t)image->width + (size_t)x);
-    pthread_mutex_lock(&image->locks[y % LIGHT_LOCKS]);
+    pthread_mutex_lock(&image->locks[row % LIGHT_LOCKS]);
     sum_join(&to[0], sum_of(light.x));
     sum_join(&to[1], sum_of(light.y));
     sum_join(&to[2], sum_of(light.z));
-    pthread_mutex_unlock(&image->locks[y % LIGHT_LOCKS]);
+    pthread_mutex_unlock(&image->locks[row % LIGHT_LOCKS]);
 }
 
 void light_image_means(const struct light_image *image, uint64_t count,
@@ -359,36 +345,82 @@ static bool leave_sky(const struct light_paths *paths, const struct world *w,
     return true;
 }
 
-/* Begins a path: chooses a lamp and a point that casts. Returns false if the
- * lamp gives it no light. */
+/* Begins a path: chooses a lamp, from which it goes to a point that casts.
+ * Returns false if the lamp gives that no light. */
 static bool path_leave(const struct light_paths *paths, const struct world *w,
-                       struct light_path *p)
+                       struct caster_point to, struct light_path *p)
 {
     struct vec2 choice = number_2d(p->sampler, NUMBER_CHOICE);
     struct vec2 u = number_2d(p->sampler, NUMBER_LAMP);
     const struct light_source *s =
         &paths->sources[triangle_cdf_choose(&paths->choice, choice.x)];
-    struct vec3 to;
-    float cosine, area = (float)triangle_cdf_total(&paths->casters);
+    float cosine;
     bool ok;
 
-    p->aim = triangle_cdf_choose(&paths->casters, choice.y);
-    to = tri_point(w, p->aim, number_2d(p->sampler, NUMBER_CASTER));
+    p->aim = to.tri;
     if (s->kind == SOURCE_TRIANGLE)
-        ok = leave_triangle(w, s->number, to, u, p);
+        ok = leave_triangle(w, s->number, to.p, u, p);
     else if (s->kind == SOURCE_POINT)
-        ok = leave_point(w, s->number, to, u, p);
+        ok = leave_point(w, s->number, to.p, u, p);
     else if (s->kind == SOURCE_SKY)
-        ok =
-            leave_sky(paths, w, number_2d(p->sampler, NUMBER_SPOT).x, to, u, p);
+        ok = leave_sky(paths, w, number_2d(p->sampler, NUMBER_SPOT).x, to.p, u,
+                       p);
     else
-        ok = leave_directional(paths, w, s->number, to, u, p);
+        ok = leave_directional(paths, w, s->number, to.p, u, p);
     if (!ok || (s->kind == SOURCE_TRIANGLE && s->number == p->aim))
         return false;
     cosine = fabsf(v3_dot(tri_placed(w, p->aim).t.ng, p->ray.d));
-    p->flux = v3_scale(p->flux, cosine * area / s->probability);
+    p->flux = v3_scale(p->flux, cosine * to.area / s->probability);
     p->medium = v3(0.0f, 0.0f, 0.0f);
     return v3_max_component(p->flux) > 0.0f;
+}
+
+/* ---- the aim ---- */
+
+/* Key and number of the paths that find the light of each cluster. */
+#define AIM_KEY   0x1f83d9abu
+#define AIM_PATHS 16u
+
+struct aiming {
+    const struct light_paths *paths;
+    const struct bvh8_world *w;
+    double *light; /* of each cluster */
+};
+
+static void find_light(void *context, uint32_t cluster, int worker)
+{
+    const struct aiming *a = context;
+    const struct world *w = &a->w->world;
+
+    (void)worker;
+    for (uint32_t i = 0; i < AIM_PATHS; i++) {
+        struct light_path p = {.ray.t_max = FLOAT_MAX};
+        struct caster_point to;
+        struct hit h;
+
+        p.sampler.key = hash_u32(AIM_KEY + cluster);
+        p.sampler.reversed_index = reverse_bits(i);
+        to = casters_choose_in(&a->paths->casters, w, cluster,
+                               (double)number_2d(p.sampler, NUMBER_CHOICE).y,
+                               number_2d(p.sampler, NUMBER_CASTER));
+        if (path_leave(a->paths, w, to, &p) && hit_closest(w, p.ray, &h) &&
+            h.tri == p.aim)
+            a->light[cluster] += color_mean(p.flux) / AIM_PATHS;
+    }
+}
+
+void light_paths_aim(struct light_paths *paths, const struct bvh8_world *w,
+                     struct pool *pool)
+{
+    struct casters *c = &paths->casters;
+    struct aiming a = {paths, w,
+                       alloc_array(c->cluster_count, sizeof *a.light)};
+
+    if (a.light != NULL && triangle_cdf_total(&paths->choice) > 0) {
+        pool_each(pool, c->cluster_count, find_light, &a);
+        casters_weigh(c, a.light);
+    }
+    free(a.light);
 }
 
 /* ---- the way to the eye ---- */
@@ -461,7 +493,8 @@ static void connect(const struct tracing *t, struct light_path *p,
     if (!see(&w->settings.camera, point,
              number_2d(p->sampler,
                        NUMBER_VERTEX + NUMBER_STRIDE * vertex + NUMBER_LENS),
-             &view))
+             &view) ||
+        !has_pixel(t->film.image, (int)view.x, (int)view.y))
         return;
     r.o = view.eye;
     r.d = v3_unit(v3_sub(point, view.eye));
@@ -616,12 +649,16 @@ static void trace_block(void *context, uint32_t item, int worker)
         for (int half = 0; half < 2; half++) {
             uint64_t number = t->first + i;
             struct light_path p = {.number = i, .half = half, .worker = worker};
+            struct caster_point to;
 
             p.sampler.key = hash_u32(w->settings.seed + LIGHT_PATH_KEY);
             p.sampler.key = hash_u32(p.sampler.key ^ (uint32_t)half);
             p.sampler.key = hash_u32(p.sampler.key ^ (uint32_t)(number >> 32));
             p.sampler.reversed_index = reverse_bits((uint32_t)number);
-            if (path_leave(t->paths, w, &p))
+            to = casters_choose(&t->paths->casters, w,
+                                (double)number_2d(p.sampler, NUMBER_CHOICE).y,
+                                number_2d(p.sampler, NUMBER_CASTER));
+            if (path_leave(t->paths, w, to, &p))
                 follow(t, &p);
             rays += p.rays;
         }

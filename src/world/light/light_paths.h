@@ -26,6 +26,7 @@
 
 #include "base/thread_pool.h"
 #include "world/bvh/bvh8.h"
+#include "world/light/casters.h"
 #include "world/light/light_cells.h"
 #include "world/light/lights.h"
 #include "world/light/sky_spots.h"
@@ -41,8 +42,8 @@ struct light_source {
 
 struct light_paths {
     struct light_source *sources;
-    struct triangle_cdf choice;  /* of numbers of sources */
-    struct triangle_cdf casters; /* by area */
+    struct triangle_cdf choice; /* of numbers of sources */
+    struct casters casters;
     struct sky_spots spots;
     float reach; /* a distance at which rays begin outside of the scene */
 };
@@ -52,6 +53,11 @@ struct light_paths {
 bool light_paths_build(struct light_paths *paths, const struct world *w,
                        const struct lights *lights, double sky_mean);
 void light_paths_free(struct light_paths *paths);
+
+/* Aims the light paths of a world, with its tree, where the light of its lamps
+ * arrives. The pool may be NULL. */
+void light_paths_aim(struct light_paths *paths, const struct bvh8_world *w,
+                     struct pool *pool);
 
 enum { LIGHT_LOCKS = 64 };
 

@@ -34,9 +34,8 @@ void triangle_cdf_add(struct triangle_cdf *l, uint32_t tri, double weight)
     l->sums[l->count++] = total + weight;
 }
 
-uint32_t triangle_cdf_choose(const struct triangle_cdf *l, float u)
+uint32_t triangle_cdf_index(const struct triangle_cdf *l, double sum)
 {
-    double sum = (double)u * triangle_cdf_total(l);
     uint32_t low = 0, high = l->count - 1;
 
     while (low < high) {
@@ -47,7 +46,12 @@ uint32_t triangle_cdf_choose(const struct triangle_cdf *l, float u)
         else
             high = middle;
     }
-    return l->tris[low];
+    return low;
+}
+
+uint32_t triangle_cdf_choose(const struct triangle_cdf *l, float u)
+{
+    return l->tris[triangle_cdf_index(l, (double)u * triangle_cdf_total(l))];
 }
 
 void triangle_cdf_free(struct triangle_cdf *l)

@@ -33,6 +33,10 @@ double triangle_cdf_total(const struct triangle_cdf *list);
 /* Samples a triangle by u in [0, 1). The list is not empty. */
 uint32_t triangle_cdf_choose(const struct triangle_cdf *list, float u);
 
+/* Returns the index of the first triangle to which the weights have more than
+ * this sum, or of the last. */
+uint32_t triangle_cdf_index(const struct triangle_cdf *list, double sum);
+
 void triangle_cdf_free(struct triangle_cdf *list);
 
 /* The number of triangles that lists have: all, or the first of a scene with
