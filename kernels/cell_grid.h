@@ -43,6 +43,12 @@ static inline uint32_t cell_octave(const struct light_grid *g, struct vec3 p)
     return float_bits(v3_length(v3_sub(p, g->eye)) * g->distance_scale) >> 23;
 }
 
+/* The width of the cells of an octave. */
+static inline float cell_width(const struct light_grid *g, uint32_t octave)
+{
+    return bits_float(octave << 23) * g->width;
+}
+
 /* The cell of an octave at a point of a surface. Surfaces at one point with
  * different `side` numbers, which are below 8, have different cells. */
 static inline struct cell_place cell_place(const struct light_grid *g,
@@ -50,7 +56,7 @@ static inline struct cell_place cell_place(const struct light_grid *g,
                                            uint32_t side)
 {
     struct vec3 d = v3_sub(p, g->eye);
-    struct cell_place at = {0, bits_float(octave << 23) * g->width};
+    struct cell_place at = {0, cell_width(g, octave)};
     float scale = 1.0f / at.width;
 
     if (octave == 0 || octave >= 255 || !(scale <= FLOAT_MAX))

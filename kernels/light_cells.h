@@ -111,31 +111,27 @@ static inline struct vec3 light_cells_radiance(const struct world *w,
 {
     struct vec3 none = v3(0.0f, 0.0f, 0.0f), tangent, bitangent, from, wi, f;
     struct light_grid g = w->light_grids[half_number];
-    uint32_t octave = cell_octave(&g, v->p), level;
-    struct cell_place at = light_place(&g, v->p, v->ng, octave);
+    uint32_t octave = cell_octave(&g, v->p);
+    uint32_t level = light_level(w, half_number, v);
+    float width = cell_width(&g, octave) * (float)(1u << level), pdf, area;
+    struct cell_place at;
     struct light_cell cell;
-    float pdf, area;
 
-    if (at.key == 0)
-        return none;
-    level = light_level(w, half_number, v);
-    at.width *= (float)(1u << level);
     frame_around(v->ng, &tangent, &bitangent);
-    at.key =
-        light_place(
-            &g,
-            v3_add(v->p, v3_add(v3_scale(tangent, at.width * (u.x - 0.5f)),
-                                v3_scale(bitangent, at.width * (u.y - 0.5f)))),
-            v->ng, octave)
-            .key;
-    if (!cell_find(w, &g, light_cell_above(at.key, level), &cell))
+    at = light_place(&g,
+                     v3_add(v->p,
+                            v3_add(v3_scale(tangent, width * (u.x - 0.5f)),
+                                   v3_scale(bitangent, width * (u.y - 0.5f)))),
+                     v->ng, octave);
+    if (at.key == 0 ||
+        !cell_find(w, &g, light_cell_above(at.key, level), &cell))
         return none;
     from = v3_unit(cell.d);
     wi = surface_to_local(v, from);
     if (!surface_sides_agree(v, from, wi.z))
         return none;
     f = bsdf_terms(b, wo, wi, &pdf);
-    area = light_cell_area(v->ng) * at.width * at.width;
+    area = light_cell_area(v->ng) * width * width;
     return v3_scale(v3_mul(cell.light, f),
                     bsdf_eta_scale(b, wi) / (fabsf(wi.z) * area));
 }

@@ -112,7 +112,8 @@
       M(task, y0) M(task, has_shares) M(task, light_pixels)                            \
     S(light_grid) M(light_grid, eye) M(light_grid, offset)                    \
       M(light_grid, facing) M(light_grid, distance_scale)                     \
-      M(light_grid, width) M(light_grid, count_min) M(light_grid, first) M(light_grid, mask)           \
+      M(light_grid, width) M(light_grid, count_min)                           \
+      M(light_grid, first) M(light_grid, mask)                                \
     S(light_cell) M(light_cell, key) M(light_cell, light) M(light_cell, d)     \
     S(camera_sample) M(camera_sample, ray) M(camera_sample, sampler)                           \
       M(camera_sample, half_number)
