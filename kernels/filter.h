@@ -34,6 +34,12 @@
  * product of light and albedo would have as well. Features without noise have a
  * distance without limit unless they are equal, so edges stay as they are.
  *
+ * Before the levels, light of a half that is lone, more than all of both halves
+ * of the 5x5 pixels around it, is limited by filter_lone_factor(). That is what
+ * one sample in many hundreds leaves, of a glint of the sun in glass for
+ * example; averages would spread it over the picture. Where light is really
+ * there, the pixel's other half has it as well.
+ *
  * Units: light scaled by a power of two so that its greatest number is about
  *        2^FILTER_TOP; features divided by the differences that are edges
  */
@@ -76,6 +82,20 @@
 #define FILTER_ALBEDO_SCALE 7.0710678f /* 1 / (sqrt(2) * .1) */
 #define FILTER_NORMAL_SCALE 1.7677670f /* 1 / (sqrt(2) * .4) */
 #define FILTER_DEPTH_SCALE  5.0f       /* 1 / .2 */
+
+/* Samples of a half in which one may have more light than all around. */
+#define FILTER_LONE_SAMPLES 8.0f
+
+/* Returns the factor of the light of a half with this number of samples.
+ * `others` is the sum of the pixel's other half and of both halves of the 24
+ * pixels around. */
+static inline float filter_lone_factor(float light, float others, float samples)
+{
+    float most =
+        others * f_max(FILTER_LONE_SAMPLES / f_max(samples, 1.0f), 1.0f);
+
+    return light > most ? most / light : 1.0f;
+}
 
 /* Returns the variance of both halves of a pixel from the sum of samples *
  * (a - b)^2 over 5x5 pixels and the channels. `samples` of a pixel are relative

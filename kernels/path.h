@@ -104,7 +104,7 @@ static inline void path_open(struct path *p, struct camera_sample start)
     p->medium = v3(0.0f, 0.0f, 0.0f);
     p->drops = false;
     p->is_chain = true;
-    p->casts = 0;
+    p->casts = false;
     p->estimates = NULL;
     p->out.radiance = v3(0.0f, 0.0f, 0.0f);
     p->out.rays = 1; /* the camera ray */
@@ -124,10 +124,8 @@ static inline bool path_meet_role(const struct world *w, struct path *p,
         has_cells = vertex > 1 && w->settings.has_light_cells != 0;
         p->drops = vertex == 1 || has_cells;
     }
-    p->casts = m->role == ROLE_CASTS ? p->casts + 1 : 0;
-    p->is_chain = p->is_chain && p->casts > 0;
-    if (p->casts > LIGHT_PATH_CASTS_MAX && !p->is_chain)
-        p->drops = false;
+    p->casts = m->role == ROLE_CASTS;
+    p->is_chain = p->is_chain && p->casts;
     return has_cells;
 }
 

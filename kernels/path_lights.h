@@ -65,7 +65,7 @@ static inline bool path_begins_matte(const struct path *p)
 /* True if light paths bring the light of a lamp that the ray meets. */
 static inline bool path_drops(const struct path *p)
 {
-    return path_begins_matte(p) && p->casts > 0;
+    return path_begins_matte(p) && p->casts;
 }
 
 static inline void path_add_sky(const struct world *w, struct path *p)

@@ -22,11 +22,6 @@
 /* Number of vertices whose random numbers are computed together. */
 #define VERTICES_AHEAD 2u
 
-/* Largest number of surfaces that cast in a row in light paths. Where normals
- * are interpolated, the flux of a light path varies at each of them, the more
- * the longer it is caught in glass. */
-#define LIGHT_PATH_CASTS_MAX 16u
-
 /* State of a path between two vertices. */
 struct path {
     struct ray ray;
@@ -44,9 +39,9 @@ struct path {
     struct cell_estimates *estimates; /* NULL: none; FEATURE_RADIANCE_CELLS */
     uint32_t half_number; /* as in struct camera_sample; of these two: */
     /* FEATURE_LIGHT_PATHS: */
-    bool drops;     /* light paths bring light of lamps to surfaces that cast */
-    bool is_chain;  /* all vertices so far cast */
-    uint32_t casts; /* number of last ones that do */
+    bool drops;    /* light paths bring light of lamps to surfaces that cast */
+    bool is_chain; /* all vertices so far cast */
+    bool casts;    /* the last one does */
 };
 
 /* Caps a factor at the largest float, because an infinite factor times a black

@@ -188,6 +188,13 @@ VECTORISED static void divide(const float *restrict albedo, int width,
     }
 }
 
+VECTORISED static void scale_by(const float *restrict factors, int width,
+                                float *restrict light)
+{
+    for (int x = 0; x < width; x++)
+        light[x] *= factors[x];
+}
+
 /* Returns the largest of numbers that are not negative, compared as integers.
  */
 VECTORISED static float largest(const float *x, int count, float least)
@@ -221,19 +228,11 @@ static void divide_light(void *context, uint32_t item, int worker)
     struct job *j = context;
     const struct filter_planes *p = &j->filter->planes;
     ptrdiff_t at = (int)item * p->pitch;
-    float *to[2][3];
-    float max = 0;
 
     (void)worker;
-    for (int h = 0; h < 2; h++)
-        for (int c = 0; c < 3; c++)
-            to[h][c] = p->halves[0].light[h][c] + at;
-    for (int c = 0; c < 3; c++) {
-        divide(p->features.means[c] + at, p->width, to[0][c], to[1][c]);
-        for (int h = 0; h < 2; h++)
-            max = largest(to[h][c], p->width, max);
-    }
-    j->filter->row_max[item] = max;
+    for (int c = 0; c < 3; c++)
+        divide(p->features.means[c] + at, p->width,
+               p->halves[0].light[0][c] + at, p->halves[0].light[1][c] + at);
 }
 
 /* Loads a row of the features and of the first component, one after the other,
@@ -360,6 +359,85 @@ static void fill_gaps(void *context, uint32_t item, int worker)
         for (int x = 0; x < f->planes.width; x++)
             if (!(f->count[h][at + x] > 0.0f))
                 fill_pixel(f, h, x, (int)item);
+}
+
+/* Sums the channels of a row, to planes that are free until the first level. */
+static void sum_channels(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter_planes *p = &j->filter->planes;
+    ptrdiff_t at = (int)item * p->pitch;
+
+    (void)worker;
+    for (int h = 0; h < 2; h++) {
+        float *const *light = p->halves[0].light[h];
+        float *to = p->halves[1].light[h][0];
+
+        for (int x = 0; x < p->width; x++)
+            to[at + x] =
+                light[0][at + x] + light[1][at + x] + light[2][at + x];
+        filter_extend(p, to, whole_row(p, (int)item));
+    }
+}
+
+/* Sums the light of the 24 pixels around each pixel of a row. */
+VECTORISED static void sum_around(const float *light, ptrdiff_t pitch,
+                                  int width, float *restrict sums)
+{
+    for (int x = 0; x < width; x++)
+        sums[x] = 0.0f;
+    for (int dy = -2; dy <= 2; dy++)
+        for (int x = 0; dy != 0 && x < width; x++) {
+            const float *row = light + dy * pitch + x;
+
+            sums[x] += row[-2] + row[-1] + row[0] + row[1] + row[2];
+        }
+    for (int x = 0; x < width; x++)
+        sums[x] += light[x - 2] + light[x - 1] + light[x + 1] + light[x + 2];
+}
+
+/* Computes the factors of both halves of a row's pixels, in place of the sums
+ * of the 24 pixels around them. */
+VECTORISED static void lone_factors(const float *const light[2],
+                                    const float *const count[2], int width,
+                                    float *restrict a, float *restrict b)
+{
+    const float *first = light[0], *second = light[1];
+
+    for (int x = 0; x < width; x++) {
+        float around = a[x] + b[x];
+
+        a[x] = filter_lone_factor(first[x], around + second[x], count[0][x]);
+        b[x] = filter_lone_factor(second[x], around + first[x], count[1][x]);
+    }
+}
+
+/* Limits the lone light of a row, and notes the most that remains. */
+static void limit_lone_light(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter *f = j->filter;
+    const struct filter_planes *p = &f->planes;
+    ptrdiff_t at = (int)item * p->pitch;
+    const float *const light[2] = {p->halves[1].light[0][0] + at,
+                                   p->halves[1].light[1][0] + at};
+    const float *const count[2] = {f->count[0] + at, f->count[1] + at};
+    float *factors[2] = {p->halves[1].light[0][1] + at,
+                         p->halves[1].light[1][1] + at};
+    float max = 0;
+
+    (void)worker;
+    for (int h = 0; h < 2; h++)
+        sum_around(light[h], p->pitch, p->width, factors[h]);
+    lone_factors(light, count, p->width, factors[0], factors[1]);
+    for (int h = 0; h < 2; h++)
+        for (int c = 0; c < 3; c++) {
+            float *to = p->halves[0].light[h][c] + at;
+
+            scale_by(factors[h], p->width, to);
+            max = largest(to, p->width, max);
+        }
+    f->row_max[item] = max;
 }
 
 /* Returns the power of two that scales the light for the levels. */
@@ -564,6 +642,8 @@ static void run_component(struct job *j, enum filter_form form,
         pool_each(pool, rows, load_light, j);
     pool_each(pool, rows, divide_light, j);
     pool_each(pool, rows, fill_gaps, j);
+    pool_each(pool, rows, sum_channels, j);
+    pool_each(pool, rows, limit_lone_light, j);
     j->light_scale = light_scale(j->filter);
     pool_each(pool, rows, scale_light, j);
     pool_each(pool, filter_tile_count(p), run_variance, j);

@@ -263,7 +263,6 @@ struct light_path {
     uint32_t number; /* among those that are traced */
     uint32_t rays;   /* number of rays that were traced for it */
     int half, worker;
-    uint32_t casts;   /* number of last vertices that cast */
     struct vec3 flux; /* over the density of the path so far */
     struct vec3 medium;
     uint32_t aim; /* triangle that it has to hit first */
@@ -620,9 +619,6 @@ static void follow(const struct tracing *t, struct light_path *p)
         if (vertex == 1 && !v.is_outside)
             p->medium = m.attenuation;
         p->flux = attenuated(p->flux, p->medium, h.t);
-        p->casts = m.role == ROLE_CASTS ? p->casts + 1 : 0;
-        if (p->casts > LIGHT_PATH_CASTS_MAX)
-            return;
         if (m.role == ROLE_MATTE) {
             connect(t, p, &m, h, vertex);
             if (t->film.cells != NULL)
