@@ -374,8 +374,7 @@ static void sum_channels(void *context, uint32_t item, int worker)
         float *to = p->halves[1].light[h][0];
 
         for (int x = 0; x < p->width; x++)
-            to[at + x] =
-                light[0][at + x] + light[1][at + x] + light[2][at + x];
+            to[at + x] = light[0][at + x] + light[1][at + x] + light[2][at + x];
         filter_extend(p, to, whole_row(p, (int)item));
     }
 }

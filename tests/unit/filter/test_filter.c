@@ -343,6 +343,71 @@ static void edges_of_light_survive(void **state)
     picture_free(&p);
 }
 
+static void set_grey(struct picture *p, int h, int i, float light)
+{
+    for (int c = 0; c < 3; c++)
+        p->light[0][h][i][c] = light;
+}
+
+/* A picture of 16x16 pixels with light 1, but for one half of a pixel. */
+static float *lone_picture(float light, float samples, struct picture *p)
+{
+    picture_init(p, 16, 16);
+    p->count[0] = p->count[1] = samples;
+    for (int i = 0; i < 16 * 16; i++)
+        for (int h = 0; h < 2; h++)
+            set_grey(p, h, i, h == 1 && i == 16 * 7 + 9 ? light : 1.0f);
+    return filtered_well(p);
+}
+
+/* Returns true if a half with this light gives another picture than one with
+ * the limit. */
+static bool goes_beyond(float light, float limit, float samples)
+{
+    struct picture p, q;
+    float *a = lone_picture(light, samples, &p);
+    float *b = lone_picture(limit, samples, &q);
+    bool differs = false;
+
+    for (int i = 0; i < 3 * 16 * 16; i++)
+        differs = differs || fabsf(a[i] - b[i]) > 1e-5f * b[i];
+    free(a);
+    free(b);
+    picture_free(&p);
+    picture_free(&q);
+    return differs;
+}
+
+/* The other half of a pixel and both halves of 24 around it have a light of 49
+ * in all. A half of eight samples or more has no more than that, one of two not
+ * four times as much. */
+static void lone_light_is_limited(void **state)
+{
+    (void)state;
+    assert_false(goes_beyond(1e20f, 49.0f, 8));
+    assert_false(goes_beyond(60.0f, 49.0f, 512));
+    assert_true(goes_beyond(48.0f, 49.0f, 512));
+    assert_false(goes_beyond(1e20f, 196.0f, 2));
+    assert_true(goes_beyond(190.0f, 196.0f, 2));
+}
+
+/* What both halves of a pixel have is light, however much. */
+static void light_of_both_halves_stays(void **state)
+{
+    struct picture p;
+    float *rgb;
+
+    (void)state;
+    picture_init(&p, 16, 16);
+    p.count[0] = p.count[1] = 64;
+    set_grey(&p, 0, 16 * 7 + 9, 1e9f);
+    set_grey(&p, 1, 16 * 7 + 9, 1e9f);
+    rgb = filtered_well(&p);
+    check_close(rgb[3 * (16 * 7 + 9)], 1e9, 1e5);
+    free(rgb);
+    picture_free(&p);
+}
+
 /* Noise in features, if they say how much it is, does not stop the filter. */
 static void noise_of_features_is_no_edge(void **state)
 {
@@ -878,6 +943,8 @@ int main(void)
         cmocka_unit_test(even_light_is_averaged),
         cmocka_unit_test(edges_of_features_survive),
         cmocka_unit_test(edges_of_light_survive),
+        cmocka_unit_test(lone_light_is_limited),
+        cmocka_unit_test(light_of_both_halves_stays),
         cmocka_unit_test(noise_of_features_is_no_edge),
         cmocka_unit_test(chance_between_surfaces_falls),
         cmocka_unit_test(result_is_the_definition),
