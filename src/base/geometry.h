@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * geometry.h - angles, places in a row, vectors of three doubles, affine maps
+ * geometry.h - angles, vectors of three doubles, affine maps
  *
  * Cameras and files are computed in double; kernels/vec.h has the floats of
  * samples.
@@ -21,12 +21,6 @@ static inline double angle_rad(double degrees)
 static inline double angle_deg(double radians)
 {
     return radians * 180 / M_PI;
-}
-
-/* The nearest index of a row of `count` items. */
-static inline int index_clamp(int i, int count)
-{
-    return i < 0 ? 0 : i >= count ? count - 1 : i;
 }
 
 static inline double vec3d_dot(const double a[3], const double b[3])

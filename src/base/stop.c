@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/min_max.h"
 #include "base/thread_pool.h"
 
 #define MS_NS UINT64_C(1000000)
@@ -36,18 +37,13 @@ static _Atomic uint64_t allow_ns, release_ns; /* the latest of each */
 static void (*_Atomic lasts[LASTS_MAX])(void);
 static atomic_int last_count;
 
-static uint64_t later(uint64_t a, uint64_t b)
-{
-    return a > b ? a : b;
-}
-
 /* Returns true if the program has had its time to end by itself. */
 static bool is_over(void)
 {
     bool is_held = atomic_load(&holds) > 0;
     uint64_t since_ns =
-        later(atomic_load(&asked_ns),
-              is_held ? atomic_load(&allow_ns) : atomic_load(&release_ns));
+        u64_max(atomic_load(&asked_ns),
+                is_held ? atomic_load(&allow_ns) : atomic_load(&release_ns));
 
     if (atomic_load(&is_impatient))
         return true;

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/geometry.h"
 #include "base/memory.h"
+#include "base/min_max.h"
 #include "kernels/vec.h"
 
 #define PIXELS_PER_DEGREE 67.0206433f

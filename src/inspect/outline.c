@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/geometry.h"
 #include "base/memory.h"
+#include "base/min_max.h"
 #include "world/bvh/bvh8_traverse.h"
 #include "kernels/camera.h"
 

@@ -7,6 +7,7 @@
 
 #include "base/geometry.h"
 #include "base/memory.h"
+#include "base/min_max.h"
 #include "read/weld.h"
 #include "kernels/vec.h"
 
@@ -66,11 +67,6 @@ struct fan {
     size_t capacity, order_capacity;
     uint32_t count;
 };
-
-static uint32_t least(uint32_t a, uint32_t b)
-{
-    return a < b ? a : b;
-}
 
 static uint32_t blocks_of(uint32_t count, uint32_t size)
 {
@@ -151,7 +147,7 @@ static void prepare(void *context, uint32_t item, int worker)
         return;
     }
     begin = (item - 1) * BLOCK_TRIS;
-    end = begin + least(BLOCK_TRIS, m->scene->tri_count - begin);
+    end = begin + u32_min(BLOCK_TRIS, m->scene->tri_count - begin);
     for (uint32_t i = begin; i < end; i++)
         measure_tri(m, i);
 }
@@ -354,7 +350,7 @@ static void smooth_block(void *context, uint32_t number, int worker)
     struct fan fan = {.spokes = NULL};
     uint32_t place = number * BLOCK_PLACES;
     uint32_t end =
-        place + least(BLOCK_PLACES, m->scene->position_count - place);
+        place + u32_min(BLOCK_PLACES, m->scene->position_count - place);
     uint32_t begin = place > 0 ? m->first[place - 1] : 0;
 
     (void)worker;
@@ -403,7 +399,7 @@ static void number_block(void *context, uint32_t block, int worker)
     const struct mesh *m = context;
     const struct scene *s = m->scene;
     uint32_t begin = block * BLOCK_TRIS;
-    uint32_t end = begin + least(BLOCK_TRIS, s->tri_count - begin);
+    uint32_t end = begin + u32_min(BLOCK_TRIS, s->tri_count - begin);
 
     (void)worker;
     for (uint32_t i = begin; i < end; i++) {

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "base/min_max.h"
 #include "kernels/path_types.h"
 #include "kernels/sample_share.h"
 
@@ -118,11 +119,6 @@ double render_trend_target_ns(const struct render_trend *t, double target)
  */
 #define PASS_SHARE 16
 
-static uint64_t smaller(uint64_t a, uint64_t b)
-{
-    return a < b ? a : b;
-}
-
 bool pass_plan_has_shares(uint64_t done, bool is_adaptive)
 {
     return is_adaptive && done >= ADAPTIVE_FIRST;
@@ -138,7 +134,7 @@ static uint64_t pass_length(uint64_t done, bool has_error_limit)
         return done == 0 ? 1 : done;
     return has_error_limit || share < SAMPLE_BLOCK
                ? SAMPLE_BLOCK
-               : smaller(share, PASS_MEAN_MAX);
+               : u64_min(share, PASS_MEAN_MAX);
 }
 
 uint64_t pass_plan_next(uint64_t done, const struct render_limits *limits,
@@ -148,8 +144,8 @@ uint64_t pass_plan_next(uint64_t done, const struct render_limits *limits,
 
     /* the decision has the same samples wherever a step or a limit stopped */
     if (is_adaptive && done < ADAPTIVE_FIRST)
-        target = smaller(target, ADAPTIVE_FIRST);
-    return limits->spp != 0 ? smaller(target, limits->spp) : target;
+        target = u64_min(target, ADAPTIVE_FIRST);
+    return limits->spp != 0 ? u64_min(target, limits->spp) : target;
 }
 
 uint64_t pass_plan_end(uint64_t done, uint64_t spp, bool is_adaptive)

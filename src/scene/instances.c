@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/min_max.h"
 #include "scene/scene.h"
 #include "kernels/instance.h"
 #include "kernels/traverse_leaf.h"
@@ -74,29 +75,24 @@ static void move_tangent(const struct job *j, struct tangent *t)
     t->sign = j->is_mirror ? -t->sign : t->sign;
 }
 
-static uint32_t least(uint32_t a, uint32_t b)
-{
-    return a < b ? a : b;
-}
-
 static void move_block(void *context, uint32_t block, int worker)
 {
     const struct job *j = context;
     uint32_t begin = block * BLOCK_VERTICES;
 
     (void)worker;
-    for (size_t i = begin; i < least(begin + BLOCK_VERTICES, j->position_count);
-         i++) {
+    for (size_t i = begin;
+         i < u32_min(begin + BLOCK_VERTICES, j->position_count); i++) {
         double *p = j->positions + 3 * i;
         const double from[3] = {p[0], p[1], p[2]};
 
         affine_point(j->matrix, from, p);
     }
-    for (size_t i = begin; i < least(begin + BLOCK_VERTICES, j->normal_count);
+    for (size_t i = begin; i < u32_min(begin + BLOCK_VERTICES, j->normal_count);
          i++)
         j->normals[i] = moved_normal(j->rows, j->normals[i]);
     for (size_t i = begin; j->tangents != NULL &&
-                           i < least(begin + BLOCK_VERTICES, j->normal_count);
+                           i < u32_min(begin + BLOCK_VERTICES, j->normal_count);
          i++)
         move_tangent(j, &j->tangents[i]);
 }

@@ -12,6 +12,7 @@
 
 #include "base/background.h"
 #include "base/clock.h"
+#include "base/min_max.h"
 #include "base/print.h"
 #include "base/stop.h"
 #include "session/keymap.h"
@@ -741,11 +742,6 @@ enum {
     FDS
 };
 
-static uint64_t earlier(uint64_t a, uint64_t b)
-{
-    return a < b ? a : b;
-}
-
 /* When a sequence that is not complete is taken as it is. The terminal's
  * answers may come in pieces, so they have longer than a lone ESC. */
 static uint64_t input_deadline_ns(const struct studio *studio)
@@ -758,8 +754,8 @@ static uint64_t input_deadline_ns(const struct studio *studio)
 /* When the loop has to go on if no descriptor wakes it. */
 static uint64_t wake_ns(const struct studio *studio, uint64_t now_ns)
 {
-    return earlier(workspace_next_ns(&studio->workspace, now_ns),
-                   earlier(camera_control_next_ns(&studio->camera),
+    return u64_min(workspace_next_ns(&studio->workspace, now_ns),
+                   u64_min(camera_control_next_ns(&studio->camera),
                            input_deadline_ns(studio)));
 }
 

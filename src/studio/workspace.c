@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "base/clock.h"
+#include "base/min_max.h"
 #include "film/filter/screen_filter.h"
 #include "session/live_render.h"
 #include "studio/panel_draw.h"
@@ -64,16 +65,11 @@ static void screen_draft_expect(struct session *s, const struct cells_rect *fit)
     s->draft_height = 2 * fit->rows;
 }
 
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
-
 /* Returns true if the draft has the size that the next one will have. */
 static bool is_current(const struct session *s, const struct film *draft)
 {
-    return draft->width == smaller(s->draft_width, s->engine.crop.width) &&
-           draft->height == smaller(s->draft_height, s->engine.crop.height);
+    return draft->width == int_min(s->draft_width, s->engine.crop.width) &&
+           draft->height == int_min(s->draft_height, s->engine.crop.height);
 }
 
 /* Sets the draft's size for the present layout of the screen, which the filter
@@ -95,16 +91,6 @@ static void screen_draft_fit(struct live_render *control,
 }
 
 /* ---- parts ---- */
-
-static uint64_t earlier(uint64_t a, uint64_t b)
-{
-    return a < b ? a : b;
-}
-
-static uint64_t later(uint64_t a, uint64_t b)
-{
-    return a > b ? a : b;
-}
 
 static const struct film *film_of(const struct workspace *workspace)
 {
@@ -410,8 +396,8 @@ static uint64_t frame_interval(const struct workspace *workspace,
         interval_ns = workspace->control->progress.render_ns > OLD_NS
                           ? FRAME_OLD_NS
                           : FRAME_YOUNG_NS;
-    interval_ns = later(interval_ns, FRAME_SHARE * cpu_ns);
-    return later(interval_ns, 2 * took_ns); /* for terminals that block */
+    interval_ns = u64_max(interval_ns, FRAME_SHARE * cpu_ns);
+    return u64_max(interval_ns, 2 * took_ns); /* for terminals that block */
 }
 
 static int frame_step(const struct workspace *workspace)
@@ -671,24 +657,24 @@ uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns)
     uint64_t next = control->files_ns;
 
     if (live_render_awaits_picture(control))
-        next = earlier(next, next_look_ns(workspace, now_ns));
+        next = u64_min(next, next_look_ns(workspace, now_ns));
     else if (live_render_is_outdated(control))
         next = now_ns;
     else if (!workspace->is_settled &&
              frame_pacing_may_send(&workspace->screen.pace))
-        next = earlier(next, frame_due_ns(workspace));
+        next = u64_min(next, frame_due_ns(workspace));
     if (control->progress.state == RENDER_RUNNING || workspace->status_ns == 0)
-        next = earlier(next, workspace->status_ns);
+        next = u64_min(next, workspace->status_ns);
     if (editor_panel_is_busy(&workspace->panel))
-        next = earlier(next, now_ns + FRAME_FIRST_NS);
+        next = u64_min(next, now_ns + FRAME_FIRST_NS);
     if (shows_progress(workspace))
-        next = earlier(next, progress_panel_next_ns(&workspace->progress_panel,
+        next = u64_min(next, progress_panel_next_ns(&workspace->progress_panel,
                                                     control));
     if (control->message.until_ns != 0)
-        next = earlier(next, control->message.until_ns);
+        next = u64_min(next, control->message.until_ns);
     else if (workspace->glyph_choice.lack_ns != 0)
-        next = earlier(next, workspace->glyph_choice.lack_ns);
-    return earlier(next, frame_pacing_deadline_ns(&workspace->screen.pace));
+        next = u64_min(next, workspace->glyph_choice.lack_ns);
+    return u64_min(next, frame_pacing_deadline_ns(&workspace->screen.pace));
 }
 
 void workspace_free(struct workspace *workspace)

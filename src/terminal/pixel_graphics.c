@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/min_max.h"
 #include "terminal/kitty.h"
 #include "terminal/sixel.h"
 
@@ -28,15 +29,10 @@
 /* At rest a frame may take so many times as long as while the camera moves. */
 #define REST_SHARE 4
 
-static int at_most(int a, int b)
-{
-    return a < b ? a : b;
-}
-
 /* Most rows of cells in an image. */
 static int image_rows_max(const struct pixel_graphics *g)
 {
-    return at_most((g->shape.rows + IMAGE_ROWS - 1) / IMAGE_ROWS,
+    return int_min((g->shape.rows + IMAGE_ROWS - 1) / IMAGE_ROWS,
                    KITTY_ROWS_MAX);
 }
 
@@ -108,7 +104,7 @@ static int find_images(const struct pixel_graphics *g,
         int col = ansi_diff_uncovered(how, 0, row);
 
         while (col < g->shape.cols) {
-            int last = at_most(g->shape.cols, col + cols_max);
+            int last = int_min(g->shape.cols, col + cols_max);
             int end = col + 1, i = 0;
 
             while (end < last && ansi_diff_uncovered(how, end, row) == end)
@@ -165,8 +161,8 @@ static struct area area_in(const struct pixel_graphics *g,
     int y1 = (r->row + r->rows) * height / g->shape.rows;
 
     /* small frames have less than a pixel for each cell */
-    x0 = x1 > x0 ? x0 : at_most(x0, width - 1);
-    y0 = y1 > y0 ? y0 : at_most(y0, height - 1);
+    x0 = x1 > x0 ? x0 : int_min(x0, width - 1);
+    y0 = y1 > y0 ? y0 : int_min(y0, height - 1);
     return (struct area){x0, y0, x1 > x0 ? x1 - x0 : 1, y1 > y0 ? y1 - y0 : 1};
 }
 
@@ -379,8 +375,8 @@ static bool put_image(struct pixel_graphics *g, struct ansi_diff *a,
 {
     struct area from = area_in(g, &image->rect, frame->width, frame->height);
     struct area screen = area_in(g, &image->rect, g->width_px, g->height_px);
-    int width = at_most((int)ceil(screen.width / block), from.width);
-    int height = at_most((int)ceil(screen.height / block), from.height);
+    int width = int_min((int)ceil(screen.width / block), from.width);
+    int height = int_min((int)ceil(screen.height / block), from.height);
     struct sixel_image sixel = {screen.width, screen.height, g->shape.palette,
                                 g->numbers};
     size_t before = a->length;

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/min_max.h"
 #include "image/frame.h"
 #include "terminal/gauge.h"
 #include "terminal/kitty.h"
@@ -106,11 +107,6 @@ struct cells_rect screen_expect(const struct term_caps_choice *choice,
     return fit_to(&screen, &size, width_px, height_px);
 }
 
-static int at_most(int a, int b)
-{
-    return a < b ? a : b;
-}
-
 /* Frames have no more pixels than the picture. Returns false if the terminal
  * shows no pixels, or without memory: cells are shown then. */
 static bool init_pixels(struct screen *screen,
@@ -134,8 +130,8 @@ static bool init_pixels(struct screen *screen,
         return false;
     if (!pixel_graphics_init(&screen->graphics, &shape, before, err))
         return false;
-    screen->frame_width = at_most(screen->graphics.width_px, width_px);
-    screen->frame_height = at_most(screen->graphics.height_px, height_px);
+    screen->frame_width = int_min(screen->graphics.width_px, width_px);
+    screen->frame_height = int_min(screen->graphics.height_px, height_px);
     return true;
 }
 

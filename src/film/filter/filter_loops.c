@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "base/min_max.h"
 #include "film/filter/filter_planes.h"
 
 #ifndef LOOPS
@@ -36,16 +37,6 @@ static ptrdiff_t index_of(const struct filter_planes *p, int x, int y)
     return y * p->pitch + x;
 }
 
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
-
-static int larger(int a, int b)
-{
-    return a > b ? a : b;
-}
-
 /* Pixels of a tile whose other pixels in a pair are in the picture, and the
  * distance of these in the planes. */
 struct pair_tile {
@@ -60,11 +51,11 @@ static struct pair_tile pair_inside(const struct filter_planes *p,
                                     bool is_opposite)
 {
     int dx = pairs[k].x * step, dy = pairs[k].y * step;
-    int before = is_opposite ? larger(dx, -dx) : larger(-dx, 0);
-    int after = is_opposite ? before : larger(dx, 0);
-    int left = larger(at.x, before), top = larger(at.y, is_opposite ? dy : 0);
-    int right = smaller(at.x + at.width, p->width - after);
-    int bottom = smaller(at.y + at.height, p->height - dy);
+    int before = is_opposite ? int_max(dx, -dx) : int_max(-dx, 0);
+    int after = is_opposite ? before : int_max(dx, 0);
+    int left = int_max(at.x, before), top = int_max(at.y, is_opposite ? dy : 0);
+    int right = int_min(at.x + at.width, p->width - after);
+    int bottom = int_min(at.y + at.height, p->height - dy);
 
     return (struct pair_tile){{left, top, right - left, bottom - top},
                               index_of(p, dx, dy)};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "film/filter/filter_planes.h"
 
+#include "base/min_max.h"
+
 #include <string.h>
 
 void filter_extend(const struct filter_planes *p, float *plane,
@@ -48,17 +50,12 @@ uint32_t filter_tile_count(const struct filter_planes *p)
            filter_tile_columns(p);
 }
 
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
-
 struct filter_tile filter_tile_at(const struct filter_planes *p, uint32_t i)
 {
     int width = tile_width(p);
     int x = (int)(i % filter_tile_columns(p)) * width;
     int y = (int)(i / filter_tile_columns(p)) * FILTER_TILE_HEIGHT;
 
-    return (struct filter_tile){x, y, smaller(width, p->width - x),
-                                smaller(FILTER_TILE_HEIGHT, p->height - y)};
+    return (struct filter_tile){x, y, int_min(width, p->width - x),
+                                int_min(FILTER_TILE_HEIGHT, p->height - y)};
 }

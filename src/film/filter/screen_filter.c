@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/min_max.h"
 #include "film/filter/film_filter.h"
 #include "image/frame.h"
 
@@ -39,11 +40,6 @@ struct films {
 
 /* ---- sizes ---- */
 
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
-
 void screen_filter_draft_size(int frame_width, int frame_height, int *width,
                               int *height)
 {
@@ -62,8 +58,8 @@ static bool fits(const struct film *film, const struct film *draft,
     int width, height;
 
     screen_filter_draft_size(frame->width, frame->height, &width, &height);
-    return draft->width == smaller(width, film->width) &&
-           draft->height == smaller(height, film->height);
+    return draft->width == int_min(width, film->width) &&
+           draft->height == int_min(height, film->height);
 }
 
 /* ---- memory ---- */
@@ -129,8 +125,8 @@ static bool allocate(struct screen_filter *f)
 static bool resize(struct screen_filter *f, const struct film *draft,
                    const struct film *film, const struct frame *frame)
 {
-    int shown_width = smaller(frame->width, film->width);
-    int shown_height = smaller(frame->height, film->height);
+    int shown_width = int_min(frame->width, film->width);
+    int shown_height = int_min(frame->height, film->height);
 
     if (shown_width <= draft->width || shown_height <= draft->height) {
         shown_width = draft->width;

@@ -17,6 +17,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/min_max.h"
 #include "render/opencl/cl_buffers.h"
 #include "render/opencl/cl_device.h"
 #include "render/opencl/cl_source.h"
@@ -215,11 +216,6 @@ static bool call_done(struct backend_cl *b, cl_int code, const char *call,
     return cl_machine_check(&b->machine, code, call, err);
 }
 
-static uint64_t smaller(uint64_t a, uint64_t b)
-{
-    return a < b ? a : b;
-}
-
 /* ---- geometry, picture ---- */
 
 static bool cl_load(struct backend *base, struct host_world *host,
@@ -395,8 +391,8 @@ static bool enqueue_reading(struct backend_cl *b, struct progress *p,
     uint32_t end = (p->next + p->columns - 1) / p->columns;
 
     r->first = p->read / p->columns;
-    r->count = (uint32_t)smaller(end - r->first, b->film.readback_rows);
-    p->read = (uint32_t)smaller(p->next, (r->first + r->count) * p->columns);
+    r->count = (uint32_t)u64_min(end - r->first, b->film.readback_rows);
+    p->read = (uint32_t)u64_min(p->next, (r->first + r->count) * p->columns);
     b->read_ns = clock_ns();
     return cl_readback_enqueue(r, &b->film, &b->machine, stride, done, err);
 }
@@ -420,7 +416,7 @@ static bool start_task(struct backend_cl *b, struct progress *p, struct slot *s,
                             .first_sample = b->film.film->first_sample,
                             .samples = samples,
                             .first = p->next,
-                            .count = (uint32_t)smaller(points, left),
+                            .count = (uint32_t)u64_min(points, left),
                             .columns = p->columns,
                             .stride = (uint32_t)p->pass->stride,
                             .width = (uint32_t)b->film.film->width,

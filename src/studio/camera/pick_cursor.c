@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "base/clock.h"
-#include "base/geometry.h"
+#include "base/min_max.h"
 
 #define TEXT_BYTES 256
 

@@ -5,9 +5,9 @@
 #include <float.h>
 #include <math.h>
 
-#include "base/geometry.h"
 #include "base/memory.h"
 
+#include "base/min_max.h"
 #include "kernels/hit.h"
 
 #define BIN_COUNT 12
