@@ -3,19 +3,18 @@
  * path.h - one sample of a pixel: a path from the eye
  *
  * The estimator of Kajiya 1986, "The rendering equation", with Russian roulette
- * by throughput. path_extend() is the body of its loop: emission, light
- * sample, scattering, roulette, next hit. Direct light is that of
- * path_lights.h.
+ * by throughput. path_extend() is the body of its loop: emission, light sample,
+ * scattering, roulette. The shadow ray and the next ray follow: of one path in
+ * path_step(), of a stream of paths in src/render/path_stream.h. Direct light
+ * is that of path_lights.h.
  *
  * The ray queries are supplied by a file that is included first, traverse.h or
  * a faster one that finds the same hits:
  *     bool hit_closest(const struct world *, struct ray, struct hit *);
- *     void hits_closest(const struct world *, const struct ray *,
- *                       uint32_t count, struct hit *);
  *     bool hit_any(const struct world *, struct ray, uint32_t tri);
  *
  * Units:   normalised scene units, radiance
- * Threads: path_samples() from any thread; the world is read only
+ * Threads: any; the world is read only
  * Errors:  a surface that cannot be computed is black
  */
 #ifndef KERNELS_PATH_H
@@ -63,9 +62,9 @@ static inline bool path_scatter(const struct world *w, struct path *p,
 }
 
 /* Russian roulette. Returns false if the path is terminated. */
-static inline bool path_survives(struct path *p, uint32_t vertex, float u)
+static inline bool path_survives(struct path *p, float u)
 {
-    float q = roulette_survival(p->beta, vertex);
+    float q = roulette_survival(p->beta, p->vertex);
 
     p->beta = v3_scale(p->beta, 1.0f / q);
     return u < q;
@@ -80,19 +79,13 @@ static inline void path_set_key(const struct world *w, struct sampler s,
         r->key = ray_key(s, vertex);
 }
 
-/* Finds the hit of the path's ray on the way to `vertex`. */
-static inline void path_intersect(const struct world *w, struct path *p,
-                                  uint32_t vertex, struct hit *h)
-{
-    path_set_key(w, p->sampler, vertex, &p->ray);
-    p->ray.t_max = FLOAT_MAX;
-    p->out.rays++;
-    hit_closest(w, p->ray, h);
-}
-
-static inline void path_open(struct path *p, struct camera_sample start)
+/* Begins a path. Its estimates, if they are not NULL, become those of its
+ * vertices. */
+static inline void path_open(struct path *p, struct camera_sample start,
+                             struct cell_estimates *estimates)
 {
     p->ray = start.ray;
+    p->vertex = 1;
     p->sampler = start.sampler;
     p->half_number = start.half_number;
     p->beta = v3(1.0f, 1.0f, 1.0f);
@@ -105,7 +98,9 @@ static inline void path_open(struct path *p, struct camera_sample start)
     p->drops = false;
     p->is_chain = true;
     p->casts = false;
-    p->estimates = NULL;
+    p->estimates = estimates;
+    if (HAS(FEATURE_RADIANCE_CELLS) && estimates != NULL)
+        estimates->count = 0;
     p->out.radiance = v3(0.0f, 0.0f, 0.0f);
     p->out.rays = 1; /* the camera ray */
     p->out.cut = 0;
@@ -115,33 +110,34 @@ static inline void path_open(struct path *p, struct camera_sample start)
 /* Notes the role of a vertex. Returns true if it is a matte one from which on
  * the path leaves out the light that light cells have there. */
 static inline bool path_meet_role(const struct world *w, struct path *p,
-                                  const struct material *m, uint32_t vertex)
+                                  const struct material *m)
 {
     bool has_cells = false;
 
     if (p->is_chain && m->role == ROLE_MATTE &&
         w->settings.has_light_paths != 0) {
-        has_cells = vertex > 1 && w->settings.has_light_cells != 0;
-        p->drops = vertex == 1 || has_cells;
+        has_cells = p->vertex > 1 && w->settings.has_light_cells != 0;
+        p->drops = p->vertex == 1 || has_cells;
     }
     p->casts = m->role == ROLE_CASTS;
     p->is_chain = p->is_chain && p->casts;
     return has_cells;
 }
 
-/* Extends the path by one vertex, the hit *h of the path's ray. *h becomes the
- * hit of the next ray. Returns false if the path ends. */
+/* Extends the path by one vertex, the hit *h of the path's ray. The shadow ray
+ * of p->light is to be traced next, if there is one, then the path's ray.
+ * Returns false if the path ends. */
 static inline bool path_extend(const struct world *w, struct path *p,
-                               uint32_t vertex, struct hit *h)
+                               const struct hit *h)
 {
     struct material m;
     struct surface_point v;
     struct bsdf b;
-    struct path_light light;
     struct vec3 wo;
     struct vec2 lobe;
-    bool is_lit, goes_on, has_cells = false;
+    bool has_cells = false;
 
+    p->light.is_lit = false;
     /* Add lights before the hit, and the sky and suns of a ray that leaves */
     if (HAS(FEATURE_POINT_LIGHTS))
         path_add_spheres(w, p, h->tri == NO_INDEX ? FLOAT_MAX : h->t);
@@ -155,25 +151,25 @@ static inline bool path_extend(const struct world *w, struct path *p,
     }
     /* Find the surface. The sample points are computed early: they take long,
      * and nothing before depends on them. */
-    path_prepare_2d(p, vertex);
+    path_prepare_2d(p);
     m = w->materials[tri_material(w, h->tri, instance_of(w, h->tri))];
     if (!surface_at(w, &m, p->ray, *h, &v))
         return false;
     /* Attenuate by the medium on the way. The camera is in a solid if it sees
      * one of its faces from inside. */
     if (HAS(FEATURE_ATTENUATION)) {
-        if (vertex == 1 && !v.is_outside)
+        if (p->vertex == 1 && !v.is_outside)
             p->medium = m.attenuation;
         p->beta = attenuated(p->beta, p->medium, h->t);
     }
     /* Add emission of the surface */
     path_add_emission(w, p, &m, h->tri, &v);
-    first_surface_light(&p->surface, vertex, p->out.radiance);
+    first_surface_light(&p->surface, p->vertex, p->out.radiance);
     if (HAS(FEATURE_LIGHT_PATHS))
-        has_cells = path_meet_role(w, p, &m, vertex);
+        has_cells = path_meet_role(w, p, &m);
     /* End at the limit of bounces */
-    if (vertex >= w->settings.max_vertices) {
-        p->out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;
+    if (p->vertex >= w->settings.max_vertices) {
+        p->out.cut = p->vertex >= PATH_HARD_STOP ? 1u : 0u;
         return false;
     }
     /* Evaluate the BSDF's parameters and the path guide's cell */
@@ -199,20 +195,32 @@ static inline bool path_extend(const struct world *w, struct path *p,
     p->cell = guide_cell_none();
     if (HAS(FEATURE_GUIDE) && guide_helps(&b))
         p->cell = guide_at(w, v.p, v.ng);
-    /* Sample a light. Its shadow ray is traced after the next direction was
-     * sampled, on which it does not depend: 3 to 6 % less time. */
-    is_lit = path_choose_light(w, p, &m, &b, &v, wo, vertex, &light);
+    /* Sample a light */
+    p->light.is_lit = path_choose_light(w, p, &m, &b, &v, wo, &p->light);
     /* Sample the BSDF for the next direction; Russian roulette */
-    lobe = path_2d(p, vertex, DIMENSION_BSDF_LOBE);
-    goes_on =
-        path_scatter(w, p, &m, &b, &v, wo,
-                     path_2d(p, vertex, DIMENSION_BSDF_DIRECTION), lobe.x) &&
-        path_survives(p, vertex, lobe.y);
-    /* Trace the shadow ray, then the next ray */
-    if (is_lit)
-        path_add_light(w, p, &v, &light, vertex);
+    lobe = path_2d(p, DIMENSION_BSDF_LOBE);
+    if (!path_scatter(w, p, &m, &b, &v, wo,
+                      path_2d(p, DIMENSION_BSDF_DIRECTION), lobe.x) ||
+        !path_survives(p, lobe.y))
+        return false;
+    p->vertex++;
+    p->out.rays++;
+    p->ray.t_max = FLOAT_MAX;
+    path_set_key(w, p->sampler, p->vertex, &p->ray);
+    return true;
+}
+
+/* Extends the path by one vertex and traces its rays. *h becomes the next hit.
+ * Returns false if the path ends. */
+static inline bool path_step(const struct world *w, struct path *p,
+                             struct hit *h)
+{
+    bool goes_on = path_extend(w, p, h);
+
+    if (p->light.is_lit)
+        path_add_light(w, p);
     if (goes_on)
-        path_intersect(w, p, vertex + 1, h);
+        hit_closest(w, p->ray, h);
     return goes_on;
 }
 
@@ -227,104 +235,51 @@ static inline bool ray_is_divided(const struct world *w, struct ray r)
     return h.tri != NO_INDEX && coverage_at(w, h) < 1.0f;
 }
 
-/* Returns the radiance along a camera ray, whose hit is h, or the AOV of the
- * hit. Radiance is capped at the largest float, and the film counts it as
- * saturated. *surface is set if the world's samples have first surfaces, and
- * *estimates unless it is NULL. */
-static inline struct path_sample
-path_follow(const struct world *w, struct camera_sample start, struct hit h,
-            struct first_surface *surface, struct cell_estimates *estimates)
+/* Returns the sample of a path that has ended. Radiance is capped at the
+ * largest float, and the film counts it as saturated. *surface is set if the
+ * world's samples have first surfaces. */
+static inline struct path_sample path_close(const struct world *w,
+                                            struct path *p, struct ray camera,
+                                            struct first_surface *surface)
 {
-    struct path p;
-    uint32_t vertex = 1;
-
-    if (HAS(FEATURE_AOV) && w->settings.sample != SAMPLE_LIGHT)
-        return aov_sample(w, start.ray, h);
-    path_open(&p, start);
-    if (HAS(FEATURE_RADIANCE_CELLS) && estimates != NULL) {
-        p.estimates = estimates;
-        estimates->count = 0;
-    }
-    while (path_extend(w, &p, vertex, &h))
-        vertex++;
-    if (HAS(FEATURE_RADIANCE_CELLS) && estimates != NULL)
-        radiance_estimate(&p);
-    p.out.radiance =
-        v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), p.out.radiance);
+    if (HAS(FEATURE_RADIANCE_CELLS) && p->estimates != NULL)
+        radiance_estimate(p);
+    p->out.radiance =
+        v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), p->out.radiance);
     if (has_first_surface(w)) {
-        first_surface_end(w, &p.surface, vertex, p.out.radiance);
-        if (has_coverage(w) && !v3_is_zero(p.surface.seen)) {
-            p.out.rays++;
-            if (ray_is_divided(w, start.ray))
-                p.surface.seen = v3(0.0f, 0.0f, 0.0f);
+        first_surface_end(w, &p->surface, p->vertex, p->out.radiance);
+        if (has_coverage(w) && !v3_is_zero(p->surface.seen)) {
+            p->out.rays++;
+            if (ray_is_divided(w, camera))
+                p->surface.seen = v3(0.0f, 0.0f, 0.0f);
         }
-        *surface = p.surface;
+        *surface = p->surface;
     }
-    return p.out;
+    return p->out;
 }
 
-/* Traces a camera ray and returns path_follow() of its hit. */
+static inline bool samples_are_aovs(const struct world *w)
+{
+    return HAS(FEATURE_AOV) && w->settings.sample != SAMPLE_LIGHT;
+}
+
+/* Traces a camera ray and returns the radiance along it, or the AOV of its hit.
+ */
 static inline struct path_sample path_trace(const struct world *w,
                                             struct camera_sample start,
                                             struct first_surface *surface)
 {
+    struct path p;
     struct hit h;
 
     path_set_key(w, start.sampler, 1, &start.ray);
     hit_closest(w, start.ray, &h);
-    return path_follow(w, start, h, surface, NULL);
-}
-
-/* Makes the samplers of some samples, and their points within the pixel. */
-VECTORISED static void path_points(const struct settings *s,
-                                   const struct sample_id *places,
-                                   uint32_t count, struct sampler *samplers,
-                                   struct vec2 *points)
-{
-    for (uint32_t i = 0; i < count; i++)
-        samplers[i] =
-            camera_sampler(s, places[i].x, places[i].y, places[i].index);
-    for (uint32_t i = 0; i < count; i++)
-        points[i] = random_2d(samplers[i], DIMENSION_PIXEL);
-}
-
-/* Computes at most SAMPLE_BLOCK samples, their first surfaces if the world's
- * samples have some, and estimates for radiance cells unless that is NULL.
- * Samples of one pixel, or of neighbours, take less
- * time together. */
-static inline void path_samples(const struct world *w,
-                                const struct sample_id *places, uint32_t count,
-                                struct path_sample *out,
-                                struct first_surface *surfaces,
-                                struct cell_estimates *estimates)
-{
-    struct sample_id all[SAMPLE_BLOCK];
-    struct sampler samplers[SAMPLE_BLOCK];
-    struct vec2 points[SAMPLE_BLOCK];
-    struct ray rays[SAMPLE_BLOCK];
-    struct hit hits[SAMPLE_BLOCK];
-
-    if (count == 0)
-        return;
-    for (uint32_t i = 0; i < SAMPLE_BLOCK; i++)
-        all[i] = places[i < count ? i : 0];
-    path_points(&w->settings, all, HAS_WIDE_VECTORS ? SAMPLE_BLOCK : count,
-                samplers, points);
-    for (uint32_t i = 0; i < count; i++) {
-        rays[i] = camera_sample_ray(&w->settings, all[i].x, all[i].y, points[i],
-                                    samplers[i]);
-        path_set_key(w, samplers[i], 1, &rays[i]);
-    }
-    hits_closest(w, rays, count, hits);
-    for (uint32_t i = 0; i < count; i++) {
-        struct camera_sample start;
-
-        start.ray = rays[i];
-        start.sampler = samplers[i];
-        start.half_number = (uint32_t)all[i].index & 1u;
-        out[i] = path_follow(w, start, hits[i], surfaces + i,
-                             estimates != NULL ? estimates + i : NULL);
-    }
+    if (samples_are_aovs(w))
+        return aov_sample(w, start.ray, h);
+    path_open(&p, start, NULL);
+    while (path_step(w, &p, &h))
+        ;
+    return path_close(w, &p, start.ray, surface);
 }
 
 #endif

@@ -19,21 +19,34 @@
 #define HAS_WIDE_VECTORS 0
 #endif
 
-/* Number of vertices whose random numbers are computed together. */
+/* Number of vertices whose random numbers are computed together. Those of one
+ * path: other work hides their latency. Those of a vertex of all paths of a
+ * stream take 1 to 9 % more time in all. */
 #define VERTICES_AHEAD 2u
+
+/* Light sample of a vertex: its radiance at the pixel if the shadow ray, which
+ * ends at triangle `tri`, is not occluded. */
+struct path_light {
+    struct ray shadow;
+    struct vec3 radiance;
+    uint32_t tri; /* NO_INDEX: none */
+    bool is_lit;  /* there is a sample */
+};
 
 /* State of a path between two vertices. */
 struct path {
     struct ray ray;
     struct sampler sampler;
+    uint32_t vertex; /* number of the next vertex; the first has 1 */
     struct vec2 numbers[VERTICES_AHEAD * DIMENSION_KINDS];
     struct vec3 beta; /* throughput for Russian roulette */
     float scale;      /* factor of the throughput that roulette ignores */
     float pdf;        /* density of the ray's direction; 0 for the camera and
                          delta lobes, with which light samples do not compete */
-    struct receiver from;   /* vertex that the ray left, if pdf is above 0 */
-    struct guide_cell cell; /* tables of the path guide at that vertex */
-    struct vec3 medium;     /* absorption along the ray; FEATURE_ATTENUATION */
+    struct receiver from;    /* vertex that the ray left, if pdf is above 0 */
+    struct guide_cell cell;  /* tables of the path guide at that vertex */
+    struct vec3 medium;      /* absorption along the ray; FEATURE_ATTENUATION */
+    struct path_light light; /* light sample of the last vertex */
     struct path_sample out;
     struct first_surface surface;
     struct cell_estimates *estimates; /* NULL: none; FEATURE_RADIANCE_CELLS */
@@ -77,18 +90,19 @@ VECTORISED static void vertices_2d(struct sampler s, uint32_t vertex,
 
 /* Computes random numbers ahead. Call it before the first path_2d() of a
  * vertex. */
-static inline void path_prepare_2d(struct path *p, uint32_t vertex)
+static inline void path_prepare_2d(struct path *p)
 {
-    if (HAS_WIDE_VECTORS && (vertex - 1) % VERTICES_AHEAD == 0)
-        vertices_2d(p->sampler, vertex, p->numbers);
+    if (HAS_WIDE_VECTORS && (p->vertex - 1) % VERTICES_AHEAD == 0)
+        vertices_2d(p->sampler, p->vertex, p->numbers);
 }
 
-static inline struct vec2 path_2d(const struct path *p, uint32_t vertex,
-                                  uint32_t kind)
+/* Returns two random numbers of the path's next vertex. */
+static inline struct vec2 path_2d(const struct path *p, uint32_t kind)
 {
     if (!HAS_WIDE_VECTORS)
-        return vertex_2d(p->sampler, vertex, kind);
-    return p->numbers[(vertex - 1) % VERTICES_AHEAD * DIMENSION_KINDS + kind];
+        return vertex_2d(p->sampler, p->vertex, kind);
+    return p
+        ->numbers[(p->vertex - 1) % VERTICES_AHEAD * DIMENSION_KINDS + kind];
 }
 
 static inline void path_add(struct path *p, struct vec3 radiance, float weight)

@@ -9,8 +9,13 @@
 
 #include "kernels/types.h"
 
-/* Most samples that are computed together. */
+/* Samples of a pixel that one pass adds, unless it is short; as many camera
+ * rays are traced together. */
 #define SAMPLE_BLOCK 8
+
+/* Most samples that are computed together. Against 64, 16 and 32 take 1 to 4 %
+ * more time, 256 up to 8 % more. */
+#define SAMPLE_STREAM 64
 
 /* Identifies a sample: its pixel in the whole picture, and its number there. */
 struct sample_id {

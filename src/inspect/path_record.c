@@ -58,13 +58,14 @@ void path_record_follow(struct path_record *t, const struct world *w,
 
     path_set_key(w, start.sampler, 1, &start.ray);
     hit_closest(w, start.ray, &h);
-    path_open(&p, start);
+    path_open(&p, start, NULL);
     t->count = t->vertices = 0;
     while (goes_on) {
         struct path before = p;
         struct hit vertex = h;
 
-        goes_on = path_extend(w, &p, (uint32_t)++t->vertices, &h);
+        goes_on = path_step(w, &p, &h);
+        t->vertices++;
         if (t->count == PATH_RECORD_STEPS)
             continue;
         t->steps[t->count++] = (struct path_record_step){

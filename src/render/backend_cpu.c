@@ -138,7 +138,7 @@ static bool render_samples(const struct job *j, int x, int y, int pixel_count,
     uint32_t done = 0, n;
 
     for (; done < r->count && !cancel_requested(j->cancel); done += n) {
-        n = r->count - done < SAMPLE_BLOCK ? r->count - done : SAMPLE_BLOCK;
+        n = r->count - done < SAMPLE_STREAM ? r->count - done : SAMPLE_STREAM;
         b->kernel->samples(&b->world.world, r->ids + done, n, r->samples + done,
                            r->surfaces + done, NULL);
     }

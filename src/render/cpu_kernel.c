@@ -19,7 +19,7 @@
 #define HAS_WIDE_VECTORS 1
 #endif
 
-#include "kernels/path.h"
+#include "render/path_stream.h"
 
 #ifndef PATHS
 #define PATHS      paths_plain

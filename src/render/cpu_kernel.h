@@ -21,7 +21,7 @@ struct cpu_kernel {
     const char *name;  /* name of the instruction set */
     uint32_t features; /* features it has, a set of enum feature */
 
-    /* path_samples() of kernels/path.h. w must be the member of a struct
+    /* path_samples() of path_stream.h. w must be the member of a struct
      * bvh8_world. */
     void (*samples)(const struct world *w, const struct sample_id *places,
                     uint32_t count, struct path_sample *out,

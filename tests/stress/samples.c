@@ -422,11 +422,12 @@ static void check_weights(void)
 /* M13: roulette with invalid weights. */
 static void check_roulette(void)
 {
-    struct path dead = {.beta = {0, 0, 0}}, bad = {.beta = {NAN, NAN, NAN}};
-    struct path bright = {.beta = {4, 4, 4}};
+    struct path dead = {.vertex = 2, .beta = {0, 0, 0}};
+    struct path bad = {.vertex = 2, .beta = {NAN, NAN, NAN}};
+    struct path bright = {.vertex = 2, .beta = {4, 4, 4}};
 
-    row(!path_survives(&dead, 2, 0) && !path_survives(&bad, 2, 0) &&
-            path_survives(&bright, 2, 1 - 0x1p-24f) && bright.beta.x == 4,
+    row(!path_survives(&dead, 0) && !path_survives(&bad, 0) &&
+            path_survives(&bright, 1 - 0x1p-24f) && bright.beta.x == 4,
         "M13", "weights 0 and NaN end, 4 goes on with weight %g, want 4",
         (double)bright.beta.x);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/unit/paths.h"
 
+#include "render/path_stream.h"
+
 struct path_sample trace_path(const struct world *w, struct ray r,
                               struct sampler sampler,
                               struct first_surface *surface)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * paths.h - the functions of kernels/path.h for tests, compiled once
+ * paths.h - the functions of kernels/path.h and of path_stream.h for tests,
+ * compiled once
  *
  * Rays are traced through the binary tree. The instruction set is the host's.
  *
@@ -18,7 +19,7 @@ struct path_sample trace_path(const struct world *w, struct ray r,
                               struct sampler sampler,
                               struct first_surface *surface);
 
-/* path_samples() */
+/* path_samples() of path_stream.h */
 void trace_samples(const struct world *w, const struct sample_id *places,
                    uint32_t count, struct path_sample *out,
                    struct first_surface *surfaces);

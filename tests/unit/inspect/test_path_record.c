@@ -59,18 +59,18 @@ static void check_steps(const struct path_record *t)
 static void check_recorded_paths(const struct world *w, uint32_t first,
                                  int *bright)
 {
-    struct sample_id places[SAMPLE_BLOCK];
-    struct path_sample want[SAMPLE_BLOCK];
-    struct first_surface surfaces[SAMPLE_BLOCK];
+    struct sample_id places[SAMPLE_STREAM];
+    struct path_sample want[SAMPLE_STREAM];
+    struct first_surface surfaces[SAMPLE_STREAM];
     struct path_record t;
 
-    for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
+    for (uint32_t i = 0; i < SAMPLE_STREAM; i++) {
         uint32_t k = first + i;
 
         places[i] = (struct sample_id){k % SIDE, k / SIDE, k % 5};
     }
-    trace_samples(w, places, SAMPLE_BLOCK, want, surfaces);
-    for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
+    trace_samples(w, places, SAMPLE_STREAM, want, surfaces);
+    for (uint32_t i = 0; i < SAMPLE_STREAM; i++) {
         path_record_follow(&t, w, places[i].x, places[i].y, places[i].index);
         assert_memory_equal(&t.radiance, &want[i].radiance, sizeof t.radiance);
         *bright += !v3_is_zero(t.radiance);
@@ -102,7 +102,7 @@ static void recorded_paths_are_the_render_s(void **state)
                      err.text);
         w.nodes = bvh.nodes;
         w.leaf_tris = bvh.leaf_tris;
-        for (uint32_t k = 0; k < SIDE * SIDE; k += SAMPLE_BLOCK)
+        for (uint32_t k = 0; k < SIDE * SIDE; k += SAMPLE_STREAM)
             check_recorded_paths(&w, k, &bright);
         assert_true(bright > SIDE);
         bvh_free(&bvh);
