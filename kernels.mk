@@ -12,8 +12,7 @@ FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
 	-mprefer-vector-width=256
 SETS := lamps lamps_filter images images_filter shiny shiny_filter gltf \
 	gltf_filter light
-# gcc 12 loses sight of `is_lit`, which guards the light sample, in one of them.
-FLAGS_lamps := -DFLATTEN $(NO_MAYBE)
+FLAGS_lamps := -DFLATTEN
 FLAGS_lamps_filter := $(FLAGS_lamps)
 
 # BUILDS=few leaves out what this processor cannot run and all small sets of

@@ -196,7 +196,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
     if (HAS(FEATURE_GUIDE) && guide_helps(&b))
         p->cell = guide_at(w, v.p, v.ng);
     /* Sample a light */
-    p->light.is_lit = path_choose_light(w, p, &m, &b, &v, wo, &p->light);
+    p->light.is_lit = path_choose_light(w, p, &m, &b, &v, wo);
     /* Sample the BSDF for the next direction; Russian roulette */
     lobe = path_2d(p, DIMENSION_BSDF_LOBE);
     if (!path_scatter(w, p, &m, &b, &v, wo,

@@ -229,13 +229,12 @@ static inline bool path_aim(const struct world *w, const struct path *p,
     return true;
 }
 
-/* Draws a light sample. Returns false if there is none, or if roulette drops
- * its shadow ray. */
+/* Draws the light sample of the path's vertex. Returns false if there is none,
+ * or if roulette drops its shadow ray. */
 FLATTENED static inline bool
-path_choose_light(const struct world *w, const struct path *p,
+path_choose_light(const struct world *w, struct path *p,
                   const struct material *m, const struct bsdf *b,
-                  const struct surface_point *v, struct vec3 wo,
-                  struct path_light *light)
+                  const struct surface_point *v, struct vec3 wo)
 {
     struct light_sample l;
     struct vec3 wi, radiance;
@@ -266,10 +265,10 @@ path_choose_light(const struct world *w, const struct path *p,
                              light_mis_weight(w, l.pdf, pdf) / l.pdf);
     if (HAS(FEATURE_ATTENUATION))
         radiance = path_light_attenuated(p, m, b, v, &l, wi.z, radiance);
-    light->tri = l.tri;
-    light->radiance = radiance;
-    return shadow_survives(p, &light->radiance) &&
-           path_aim(w, p, v, &l, wi.z, &light->shadow);
+    p->light.tri = l.tri;
+    p->light.radiance = radiance;
+    return shadow_survives(p, &p->light.radiance) &&
+           path_aim(w, p, v, &l, wi.z, &p->light.shadow);
 }
 
 /* Traces the shadow ray and adds the light sample if it is not occluded. */

@@ -19,9 +19,9 @@
 #define HAS_WIDE_VECTORS 0
 #endif
 
-/* Number of vertices whose random numbers are computed together. Those of one
- * path: other work hides their latency. Those of a vertex of all paths of a
- * stream take 1 to 9 % more time in all. */
+/* Number of vertices of a path whose random numbers are computed together. If
+ * those of one vertex of many paths are instead, a picture takes 1 to 9 % more
+ * time. */
 #define VERTICES_AHEAD 2u
 
 /* Light sample of a vertex: its radiance at the pixel if the shadow ray, which
@@ -29,8 +29,8 @@
 struct path_light {
     struct ray shadow;
     struct vec3 radiance;
-    uint32_t tri; /* NO_INDEX: none */
-    bool is_lit;  /* there is a sample */
+    uint32_t tri; /* NO_INDEX: none; the light is not a triangle */
+    bool is_lit;  /* there is a sample, whose shadow ray is to be traced */
 };
 
 /* State of a path between two vertices. */
@@ -99,10 +99,10 @@ static inline void path_prepare_2d(struct path *p)
 /* Returns two random numbers of the path's next vertex. */
 static inline struct vec2 path_2d(const struct path *p, uint32_t kind)
 {
-    if (!HAS_WIDE_VECTORS)
-        return vertex_2d(p->sampler, p->vertex, kind);
-    return p
-        ->numbers[(p->vertex - 1) % VERTICES_AHEAD * DIMENSION_KINDS + kind];
+    uint32_t ahead = (p->vertex - 1) % VERTICES_AHEAD;
+
+    return HAS_WIDE_VECTORS ? p->numbers[ahead * DIMENSION_KINDS + kind]
+                            : vertex_2d(p->sampler, p->vertex, kind);
 }
 
 static inline void path_add(struct path *p, struct vec3 radiance, float weight)

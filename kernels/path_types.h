@@ -9,12 +9,12 @@
 
 #include "kernels/types.h"
 
-/* Samples of a pixel that one pass adds, unless it is short; as many camera
- * rays are traced together. */
+/* Samples of a pixel that most passes add, and camera rays that are traced as
+ * one packet. */
 #define SAMPLE_BLOCK 8
 
-/* Most samples that are computed together. Against 64, 16 and 32 take 1 to 4 %
- * more time, 256 up to 8 % more. */
+/* Most samples that are computed together. With 16 or 32 pictures take 1 to 4 %
+ * more time, with 256 up to 8 % more. */
 #define SAMPLE_STREAM 64
 
 /* Identifies a sample: its pixel in the whole picture, and its number there. */

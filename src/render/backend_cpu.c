@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/min_max.h"
 #include "render/cpu_dispatch.h"
 #include "kernels/sobol.h"
 
@@ -138,7 +139,7 @@ static bool render_samples(const struct job *j, int x, int y, int pixel_count,
     uint32_t done = 0, n;
 
     for (; done < r->count && !cancel_requested(j->cancel); done += n) {
-        n = r->count - done < SAMPLE_STREAM ? r->count - done : SAMPLE_STREAM;
+        n = u32_min(r->count - done, SAMPLE_STREAM);
         b->kernel->samples(&b->world.world, r->ids + done, n, r->samples + done,
                            r->surfaces + done, NULL);
     }

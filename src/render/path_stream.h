@@ -17,6 +17,7 @@
 #ifndef GLIM_PATH_STREAM_H
 #define GLIM_PATH_STREAM_H
 
+#include "base/min_max.h"
 #include "kernels/path.h"
 
 /* Paths, with the hits of their rays. */
@@ -104,8 +105,7 @@ static inline void path_samples(const struct world *w,
         path_set_key(w, samplers[i], 1, &s.camera[i]);
     }
     for (uint32_t i = 0; i < count; i += SAMPLE_BLOCK)
-        hits_closest(w, s.camera + i,
-                     count - i < SAMPLE_BLOCK ? count - i : SAMPLE_BLOCK,
+        hits_closest(w, s.camera + i, u32_min(count - i, SAMPLE_BLOCK),
                      s.hits + i);
     if (samples_are_aovs(w)) {
         for (uint32_t i = 0; i < count; i++)
