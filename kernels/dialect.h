@@ -18,14 +18,39 @@ typedef ulong uint64_t;
 
 #define FLATTENED
 #define VECTORISED
+
+/* Vectors of eight integers; elements are v[0] to v[7]. */
+#define HAS_WIDE_VECTORS 1
+typedef uint8 u32x8;
+
 #define APART
-#define GLOBAL        __global
-#define CONSTANT      __constant
-#define sqrtf(x)      sqrt(x)
-#define fabsf(x)      fabs(x)
-#define floorf(x)     floor(x)
+#define INLINED    inline
+#define RARE       inline
+#define ALIGNED(n) __attribute__((aligned(n)))
+#define PREFETCH(p)
+#define UNROLLED _Pragma("unroll")
+#define GLOBAL   __global
+#define CONSTANT __constant
+#define sqrtf(x) sqrt(x)
+#define fabsf(x) fabs(x)
+#ifdef __clang__ /* one instruction, where PoCL's floor() takes fifteen */
+#define floorf(x) __builtin_floorf(x)
+#else
+#define floorf(x) floor(x)
+#endif
 #define float_bits(x) as_uint(x)
 #define bits_float(x) as_float(x)
+
+/* That of PoCL takes ten instructions. */
+static inline float copysignf(float x, float y)
+{
+    return as_float((as_uint(x) & 0x7fffffffu) | (as_uint(y) & 0x80000000u));
+}
+
+static inline uint lowest_bit(uint mask)
+{
+    return popcount(~mask & (mask - 1));
+}
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -46,6 +71,13 @@ typedef ulong uint64_t;
  * Such a function is `static`, not `static inline`. */
 #define VECTORISED __attribute__((noinline, flatten, unused))
 
+#ifdef __AVX2__
+#define HAS_WIDE_VECTORS 1
+typedef uint32_t u32x8 __attribute__((vector_size(32)));
+#else
+#define HAS_WIDE_VECTORS 0
+#endif
+
 /* Keeps a function that few scenes need out of its caller, unless the build is
  * flattened into one: 1 % fewer instructions in most scenes. */
 #ifdef FLATTEN
@@ -53,8 +85,24 @@ typedef ulong uint64_t;
 #else
 #define APART __attribute__((noinline, unused))
 #endif
+
+/* Inlines a function into every caller: those of the walks through trees. */
+#define INLINED inline __attribute__((always_inline))
+
+/* Keeps a function out of its callers, with all that it calls. */
+#define RARE    __attribute__((noinline, flatten, unused))
+
+#define ALIGNED(n)  _Alignas(n)
+#define PREFETCH(p) __builtin_prefetch(p)
+#define UNROLLED
 #define GLOBAL
 #define CONSTANT static const
+
+/* The number of the lowest bit of a mask, which is not 0. */
+static inline uint32_t lowest_bit(uint32_t mask)
+{
+    return (uint32_t)__builtin_ctz(mask);
+}
 
 static inline uint32_t float_bits(float x)
 {

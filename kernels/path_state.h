@@ -13,15 +13,10 @@
 #include "kernels/light.h"
 #include "kernels/path_types.h"
 
-/* Set to 1, random numbers of several vertices are computed together, in loops
- * that compilers vectorise; set to 0, each is computed when it is used. */
-#ifndef HAS_WIDE_VECTORS
-#define HAS_WIDE_VECTORS 0
-#endif
-
-/* Number of vertices of a path whose random numbers are computed together. If
- * those of one vertex of many paths are instead, a picture takes 1 to 9 % more
- * time. */
+/* Number of vertices of a path whose random numbers are computed together if
+ * there are vectors of eight, else each is computed when it is used. If those
+ * of one vertex of many paths are instead, a picture takes 1 to 9 % more time.
+ */
 #define VERTICES_AHEAD 2u
 
 /* Light sample of a vertex: its radiance at the pixel if the shadow ray, which
@@ -79,21 +74,33 @@ static inline struct vec2 vertex_2d(struct sampler s, uint32_t vertex,
     return random_2d(s, vertex * DIMENSION_STRIDE + kind);
 }
 
+#if HAS_WIDE_VECTORS
 /* Computes all random numbers of VERTICES_AHEAD vertices. */
-VECTORISED static void vertices_2d(struct sampler s, uint32_t vertex,
-                                   struct vec2 *numbers)
+static inline void vertices_2d(struct sampler s, uint32_t vertex,
+                               struct vec2 *numbers)
 {
+    const u32x8 vertices = {0, 0, 0, 0, 1, 1, 1, 1};
+    const u32x8 kinds = {0, 1, 2, 3, 0, 1, 2, 3};
+    u32x8 dimensions = (vertex + vertices) * DIMENSION_STRIDE + kinds;
+    u32x8 indices = s.reversed_index + 0 * kinds;
+    struct bits2_8 p =
+        sobol_point_8(indices, dimension_key_8(s.key, dimensions));
+
     for (uint32_t i = 0; i < VERTICES_AHEAD * DIMENSION_KINDS; i++)
-        numbers[i] =
-            vertex_2d(s, vertex + i / DIMENSION_KINDS, i % DIMENSION_KINDS);
+        numbers[i] = v2(unit_float(p.x[i]), unit_float(p.y[i]));
 }
+#endif
 
 /* Computes random numbers ahead. Call it before the first path_2d() of a
  * vertex. */
 static inline void path_prepare_2d(struct path *p)
 {
-    if (HAS_WIDE_VECTORS && (p->vertex - 1) % VERTICES_AHEAD == 0)
+#if HAS_WIDE_VECTORS
+    if ((p->vertex - 1) % VERTICES_AHEAD == 0)
         vertices_2d(p->sampler, p->vertex, p->numbers);
+#else
+    (void)p;
+#endif
 }
 
 /* Returns two random numbers of the path's next vertex. */

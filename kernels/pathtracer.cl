@@ -2,6 +2,8 @@
 /*
  * pathtracer.cl - traces the paths of a task, one work-item a path
  */
+#include "kernels/simd_cl.h"
+
 #include "kernels/traverse.h"
 
 #include "kernels/path.h"
@@ -23,8 +25,8 @@ __kernel void trace_paths(
     __global const struct material *materials,
     __global const struct texture *textures, __global const uint *texels,
     __global const float *linear_of_srgb,
-    __global const struct vec3 *sky_texels, __global const struct node *nodes,
-    __global const struct leaf_tri *leaf_tris,
+    __global const struct vec3 *sky_texels,
+    __global const struct bvh8_node *nodes, __global const uint *roots,
     __global const struct light *lights, __global const uint *tri_lights,
     __global const struct light_node *light_nodes,
     __global const float *sky_cdf,
@@ -58,7 +60,7 @@ __kernel void trace_paths(
                           linear_of_srgb,
                           sky_texels,
                           nodes,
-                          leaf_tris,
+                          roots,
                           lights,
                           tri_lights,
                           light_nodes,

@@ -138,14 +138,10 @@ sampler_start_draft_half(uint32_t x, uint32_t y, uint32_t index, uint32_t seed)
     return s;
 }
 
-static inline uint32_t dimension_key(struct sampler s, uint32_t dimension)
-{
-    return hash_u32(s.key ^ (dimension + 0x85ebca6bu));
-}
-
 static inline struct vec2 random_2d(struct sampler s, uint32_t dimension)
 {
-    struct bits2 p = sobol_point(s.reversed_index, dimension_key(s, dimension));
+    struct bits2 p =
+        sobol_point(s.reversed_index, dimension_key(s.key, dimension));
 
     return v2(unit_float(p.x), unit_float(p.y));
 }
@@ -154,7 +150,7 @@ static inline struct vec2 random_2d(struct sampler s, uint32_t dimension)
  * the ray arrives, counted from 1. */
 static inline uint32_t ray_key(struct sampler s, uint32_t vertex)
 {
-    uint32_t key = dimension_key(s, 0x40000000u + vertex);
+    uint32_t key = dimension_key(s.key, 0x40000000u + vertex);
 
     return hash_u32(key ^ s.reversed_index);
 }

@@ -1,244 +1,479 @@
 // SPDX-License-Identifier: MIT
 /*
- * traverse.h - ray queries through the binary tree
+ * traverse.h - ray queries through the tree of eight
  *
- * Queries of OpenCL devices, and the reference for those of the CPU. The
- * winning hit does not depend on the tree: the nearest t, at equal t the lowest
- * triangle.
+ * Children are visited in the order of the distances at which the ray enters
+ * them. The winning hit does not depend on the tree: the nearest t, at equal t
+ * the lowest triangle.
+ *
+ * With instances a walk through the tree of stand-ins goes on in the tree of
+ * the mesh, with the ray in the mesh's space.
+ *
+ * Vectors are supplied by a file that is included first: src/base/simd8.h on
+ * the CPU, simd_cl.h on a device.
  *
  * Units:     normalised scene units
+ * Threads:   any, on one world
  */
 #ifndef KERNELS_TRAVERSE_H
 #define KERNELS_TRAVERSE_H
 
-#include "kernels/traverse_leaf.h"
-
 /* Hooks that count the tests of a query, for pictures of traversal cost. A file
  * that counts defines them before it includes this one. */
-#ifndef COUNT_BOX
-#define COUNT_BOX()
-#define COUNT_TRIANGLE()
+#ifndef COUNT_NODE
+#define COUNT_NODE()
+#define COUNT_BLOCK()
 #endif
 
-struct slabs {
-    struct vec3 o;
-    struct vec3 inverse;
-    struct vec3 widen; /* of boxes, only with FEATURE_INSTANCES */
+#include "kernels/traverse_block.h"
+
+/* Entries of the stack: all but one child of a node for each level; with
+ * instances those of two trees. */
+#define BVH8_STACK                                                             \
+    (TRAVERSE_STACK * (HAS(FEATURE_INSTANCES) ? 2 : 1) * (BVH8_CHILDREN - 1) + \
+     1)
+
+/* Least magnitude of a component of a direction. With it the box test
+ * multiplies no infinity by 0. Across the scene such a ray drifts by less than
+ * the padding of boxes. */
+#define DIRECTION_MIN 0x1p-60f
+
+/* Widening of the distances at which a ray leaves a box, twice EXIT_WIDEN, in
+ * ulps. An ulp is at least FLOAT_EPSILON of the number; one more, as
+ * f8_distance_lt() excludes equality. */
+#define WIDEN_STEPS 33
+
+static inline struct hit no_hit(struct ray r)
+{
+    struct hit none = {r.t_max, 0.0f, 0.0f, 0.0f, NO_INDEX};
+
+    return none;
+}
+
+/* ---- boxes ---- */
+
+/* A ray, prepared for box tests: a plane at p is at distance p * inverse -
+ * start. If the origin is further from the scene than its size, the error is in
+ * proportion to the distance, which WIDEN_STEPS cover; nearer, it is a small
+ * part of BOX_PAD. */
+struct bvh8_ray {
+    f8 inverse[3], start[3];
+    size_t near[3], far[3]; /* offsets in a node, in bytes */
 };
 
-/* Entries of the stack: with instances those of two trees. */
-#define QUERY_STACK ((HAS(FEATURE_INSTANCES) ? 2 : 1) * TRAVERSE_STACK)
-
-static inline struct slabs slabs_of(struct ray r)
+/* Sets an axis of the ray. Without branches, which could not be predicted for
+ * rays in all directions. */
+static inline void bvh8_ray_axis(struct bvh8_ray *r, uint32_t axis, float o,
+                                 float d)
 {
-    struct slabs s;
+    const size_t side = sizeof(float[BVH8_CHILDREN]);
+    float inverse = 1.0f / copysignf(f_max(fabsf(d), DIRECTION_MIN), d);
+    uint32_t low_is_far = float_bits(d) >> 31;
 
-    s.o = r.o;
-    s.inverse = v3(1.0f / r.d.x, 1.0f / r.d.y, 1.0f / r.d.z);
-    s.widen = v3(0.0f, 0.0f, 0.0f);
+    r->inverse[axis] = f8_set1(inverse);
+    r->start[axis] = f8_set1(o * inverse);
+    r->near[axis] = (2 * axis + low_is_far) * side;
+    r->far[axis] = (2 * axis + (low_is_far ^ 1u)) * side;
+}
+
+static inline struct bvh8_ray bvh8_ray_of(struct ray r)
+{
+    struct bvh8_ray s;
+
+    bvh8_ray_axis(&s, 0, r.o.x, r.d.x);
+    bvh8_ray_axis(&s, 1, r.o.y, r.d.y);
+    bvh8_ray_axis(&s, 2, r.o.z, r.d.z);
     return s;
 }
 
-/* The slabs of a ray in an instance, or in the triangles outside of meshes. */
-static inline struct slabs slabs_in(const struct world *w, struct ray r,
-                                    uint32_t instance)
+static inline f8 bvh8_planes(GLOBAL const struct bvh8_node *n, size_t offset,
+                             f8 inverse, f8 start)
 {
-    struct slabs s = slabs_of(r);
+    GLOBAL const void *planes = (GLOBAL const char *)n + offset;
 
-    if (instance != NO_INDEX) {
-        struct mesh_ray m = instance_ray(w->instances[instance], r);
+    return f8_mul_sub(f8_load(planes), inverse, start);
+}
 
-        s.o = m.o;
-        s.inverse = v3(1.0f / m.d.x, 1.0f / m.d.y, 1.0f / m.d.z);
-        s.widen = m.widen;
+/* Returns the mask of children that the ray enters before t_far, and the
+ * distances. For a packet, and for boxes that grow, `first` enters before all
+ * rays along each axis and `last` leaves after them. */
+static INLINED uint32_t bvh8_enter(GLOBAL const struct bvh8_node *n,
+                                   const struct bvh8_ray *first,
+                                   const struct bvh8_ray *last, float t_far,
+                                   f8 *entries)
+{
+    f8 in[3], out[3], leave;
+
+    COUNT_NODE();
+    UNROLLED
+    for (int i = 0; i < 3; i++) {
+        in[i] =
+            bvh8_planes(n, first->near[i], first->inverse[i], first->start[i]);
+        out[i] = bvh8_planes(n, last->far[i], last->inverse[i], last->start[i]);
     }
-    return s;
+    *entries = f8_distance_max(f8_distance_max(in[0], in[1]),
+                               f8_distance_max(in[2], f8_set1(0.0f)));
+    leave = f8_distance_min(f8_distance_min(out[0], out[1]), out[2]);
+    leave = f8_distance_add_ulps(leave, WIDEN_STEPS);
+    return f8_bits(
+        f8_distance_lt(*entries, f8_distance_min(leave, f8_set1(t_far))));
 }
 
-/* Intersects the slab between two planes. Where the origin lies in a plane 0 *
- * inf is NaN, and f_min and f_max keep the other value. */
-static inline void slab_axis(float lo, float hi, float o, float inverse,
-                             float *enter, float *leave)
+/* Distance beyond which no child is entered, for a hit at t. Finite, as the
+ * boxes of missing children are at infinity. */
+static inline float bvh8_far(float t)
 {
-    float a = (lo - o) * inverse;
-    float b = (hi - o) * inverse;
-    float in = inverse < 0.0f ? b : a;
-    float out = inverse < 0.0f ? a : b;
-
-    *enter = f_max(in, *enter);
-    *leave = f_min(out, *leave);
+    return f_min(t * (1.0f + ENTRY_WIDEN), FLOAT_MAX);
 }
 
-/* Distance at which the ray enters the box, or infinity if it misses the box or
- * enters it beyond t_max. */
-static inline float box_entry(struct slabs s, struct vec3 lo, struct vec3 hi,
-                              float t_max)
-{
-    float enter = 0.0f;
-    float leave = FLOAT_MAX;
+/* ---- the walk ---- */
 
-    COUNT_BOX();
-    if (HAS(FEATURE_INSTANCES)) {
-        lo = v3_sub(lo, s.widen);
-        hi = v3_add(hi, s.widen);
+/* A walk through a tree. Its stack belongs to the query. Every node is visited
+ * at most once, also for invalid rays, as missing children name the empty
+ * block. So BVH8_STACK entries are enough for trees within the depth that bvh.h
+ * promises. */
+struct walk {
+    GLOBAL const struct bvh8_node *nodes; /* the root of the tree */
+    float t_far;  /* no child is entered beyond: bvh8_far() */
+    uint32_t at;  /* the root, which is child 0, then the leaf that was found */
+    size_t depth; /* entries of the stack, */
+    size_t base;  /* of which these are of the tree of stand-ins */
+};
+
+static inline struct walk walk_begin(GLOBAL const struct bvh8_node *nodes,
+                                     float t_max)
+{
+    struct walk k = {nodes, bvh8_far(t_max), 0, 0, 0};
+
+    return k;
+}
+
+static inline GLOBAL const struct bvh8_node *walk_node(const struct walk *k,
+                                                       uint32_t child)
+{
+    return (GLOBAL const void *)((GLOBAL const char *)k->nodes +
+                                 (size_t)child * (BVH8_UNIT / 8));
+}
+
+/* The first block of the leaf, and the number of those that follow. */
+static inline GLOBAL const struct tri_block *walk_block(const struct walk *k)
+{
+    return (GLOBAL const void *)walk_node(k, k->at & ~(BVH8_LEAF | BVH8_MORE));
+}
+
+static inline uint32_t walk_more(const struct walk *k)
+{
+    return k->at & BVH8_MORE;
+}
+
+/* Prefetches a node, or a block and what follows it. */
+static inline void walk_prefetch(const struct walk *k, uint32_t child)
+{
+    GLOBAL const char *p = (GLOBAL const char *)walk_node(k, child);
+
+    for (size_t i = 0; i < sizeof(struct bvh8_node); i += 64)
+        PREFETCH(p + i);
+}
+
+/* Stack entry of the lowest child in the mask, which it removes: the bits of
+ * the entry distance, which have the order of the distance, above the child.
+ */
+static inline uint64_t walk_entry(const struct walk *k,
+                                  GLOBAL const struct bvh8_node *n,
+                                  const float *entries, uint32_t *mask)
+{
+    uint32_t i = lowest_bit(*mask);
+
+    *mask &= *mask - 1;
+    walk_prefetch(k, n->child[i]);
+    return (uint64_t)float_bits(entries[i]) << 32 | n->child[i];
+}
+
+/* Sorts two entries without a branch, as half of the predictions would be
+ * wrong. */
+static inline void sort_two(uint64_t *a, uint64_t *b)
+{
+    uint64_t less = *a < *b ? *a : *b;
+
+    *b = *a < *b ? *b : *a;
+    *a = less;
+}
+
+/* Returns the nearest of two or more children and pushes the others, nearer
+ * ones on top. Most are two to four, which a sorting network sorts. */
+static inline uint32_t walk_push(struct walk *k, uint64_t *stack,
+                                 GLOBAL const struct bvh8_node *n,
+                                 uint32_t mask, f8 enter)
+{
+    ALIGNED(32) float entries[BVH8_CHILDREN];
+    size_t base = k->depth;
+    uint64_t a, b, c, d;
+
+    f8_store(entries, enter);
+    a = walk_entry(k, n, entries, &mask);
+    b = walk_entry(k, n, entries, &mask);
+    sort_two(&a, &b);
+    if (mask != 0) {
+        c = walk_entry(k, n, entries, &mask);
+        if (mask != 0) {
+            d = walk_entry(k, n, entries, &mask);
+            sort_two(&c, &d);
+            sort_two(&a, &c);
+            sort_two(&b, &d);
+            stack[k->depth++] = d;
+        } else {
+            sort_two(&a, &c);
+        }
+        sort_two(&b, &c);
+        stack[k->depth++] = c;
     }
-    slab_axis(lo.x, hi.x, s.o.x, s.inverse.x, &enter, &leave);
-    slab_axis(lo.y, hi.y, s.o.y, s.inverse.y, &enter, &leave);
-    slab_axis(lo.z, hi.z, s.o.z, s.inverse.z, &enter, &leave);
-    enter *= 1.0f - ENTRY_WIDEN;
-    leave *= 1.0f + EXIT_WIDEN;
-    return enter <= leave && enter <= t_max ? enter : bits_float(0x7f800000u);
-}
+    stack[k->depth++] = b;
+    while (mask != 0) {
+        uint64_t e = walk_entry(k, n, entries, &mask);
+        size_t at = k->depth++;
 
-/* Tests the triangles of a leaf, where the instance shows them. Returns true if
- * one is a nearer hit. */
-static inline bool leaf_hit(const struct world *w, struct ray r, struct shear s,
-                            struct node leaf, uint32_t instance,
-                            struct hit *best)
-{
-    bool found = false;
-
-    for (uint32_t i = 0; i < leaf.count; i++) {
-        struct leaf_tri t = w->leaf_tris[leaf.next + i];
-
-        COUNT_TRIANGLE();
-        if (HAS(FEATURE_INSTANCES) && instance != NO_INDEX)
-            t = instance_leaf_tri(w->instances[instance], t);
-        if (tri_hit(w, r, s, t, best))
-            found = true;
+        sort_two(&a, &e);
+        for (; at > base && stack[at - 1] < e; at--)
+            stack[at] = stack[at - 1];
+        stack[at] = e;
     }
-    return found;
+    return (uint32_t)a;
 }
 
-/* Finds the nearest hit up to r.t_max. Returns false if there is none. With
- * instances the first tree leads to the trees of meshes. `base` is the depth of
- * the stack where the ray entered that of a mesh. */
-static inline bool hit_closest(const struct world *w, struct ray r,
-                               struct hit *best)
+/* Takes the next child from the stack. Returns false if there is none. */
+static inline bool walk_pop(struct walk *k, const uint64_t *stack)
 {
-    struct slabs slabs = slabs_of(r);
-    struct shear shear = shear_of(r);
-    uint32_t stack[QUERY_STACK];
-    float entries[QUERY_STACK];
-    uint32_t depth = 0;
-    uint32_t at = 0;
-    uint32_t instance = NO_INDEX, base = NO_INDEX;
-    bool is_in_tris = !has_instances(w);
+    do {
+        if (k->depth == k->base)
+            return false;
+        k->depth--;
+    } while (stack[k->depth] >> 32 > float_bits(k->t_far));
+    k->at = (uint32_t)stack[k->depth];
+    return true;
+}
 
-    best->t = r.t_max;
-    best->b0 = best->b1 = best->b2 = 0.0f;
-    best->tri = NO_INDEX;
-    if (w->settings.tri_count == 0 || !ray_is_finite(r) ||
-        box_entry(slabs, w->nodes[0].lo, w->nodes[0].hi, best->t) > best->t)
+/* Walks to the next leaf that the rays enter before k->t_far, nearest first;
+ * see bvh8_enter(). Returns false if the tree has no more. */
+static INLINED bool walk_nearest(struct walk *k, uint64_t *stack,
+                                 const struct bvh8_ray *first,
+                                 const struct bvh8_ray *last)
+{
+    if ((k->at & BVH8_LEAF) != 0 && !walk_pop(k, stack))
         return false;
-    for (;;) {
-        struct node n = w->nodes[at];
+    while ((k->at & BVH8_LEAF) == 0) {
+        GLOBAL const struct bvh8_node *n = walk_node(k, k->at);
+        f8 enter;
+        uint32_t mask = bvh8_enter(n, first, last, k->t_far, &enter);
 
-        if (n.count == 0) {
-            uint32_t near = at + 1;
-            uint32_t far = n.next;
-            float near_entry =
-                box_entry(slabs, w->nodes[near].lo, w->nodes[near].hi, best->t);
-            float far_entry =
-                box_entry(slabs, w->nodes[far].lo, w->nodes[far].hi, best->t);
+        if (mask == 0) {
+            if (!walk_pop(k, stack))
+                return false;
+        } else if ((mask & (mask - 1)) == 0) {
+            k->at = n->child[lowest_bit(mask)];
+        } else {
+            k->at = walk_push(k, stack, n, mask, enter);
+        }
+    }
+    return true;
+}
 
-            if (far_entry < near_entry) {
-                uint32_t index = near;
-                float entry = near_entry;
+/* Takes the next child from the stack of walk_any(). Returns false if there is
+ * none. */
+static inline bool walk_pop_any(struct walk *k, const uint32_t *stack)
+{
+    if (k->depth == k->base)
+        return false;
+    k->at = stack[--k->depth];
+    return true;
+}
 
-                near = far;
-                near_entry = far_entry;
-                far = index;
-                far_entry = entry;
-            }
-            if (near_entry <= best->t) {
-                if (far_entry <= best->t) {
-                    stack[depth] = far;
-                    entries[depth] = far_entry;
-                    depth++;
-                }
-                at = near;
+/* Walks to the next leaf that the rays enter before k->t_far, in any order.
+ * Returns false if the tree has no more. */
+static INLINED bool walk_any(struct walk *k, uint32_t *stack,
+                             const struct bvh8_ray *first,
+                             const struct bvh8_ray *last)
+{
+    if ((k->at & BVH8_LEAF) != 0 && !walk_pop_any(k, stack))
+        return false;
+    while ((k->at & BVH8_LEAF) == 0) {
+        GLOBAL const struct bvh8_node *n = walk_node(k, k->at);
+        f8 enter;
+        uint32_t mask = bvh8_enter(n, first, last, k->t_far, &enter);
+
+        if (mask == 0) {
+            if (!walk_pop_any(k, stack))
+                return false;
+            continue;
+        }
+        for (; (mask & (mask - 1)) != 0; mask &= mask - 1) {
+            uint32_t child = n->child[lowest_bit(mask)];
+
+            stack[k->depth++] = child;
+            walk_prefetch(k, child);
+        }
+        k->at = n->child[lowest_bit(mask)];
+    }
+    return true;
+}
+
+/* ---- instances ---- */
+
+/* The place of a walk with instances, and the rays that bound its ray there. */
+struct instance_walk {
+    struct bvh8_ray outer; /* the ray outside of meshes */
+    struct bvh8_ray first, last;
+    bool is_in_mesh; /* or among the triangles outside of meshes */
+    GLOBAL const struct instance *at; /* NULL there */
+};
+
+static inline void instance_walk_begin(struct instance_walk *i, struct ray r)
+{
+    i->outer = i->first = i->last = bvh8_ray_of(r);
+    i->is_in_mesh = false;
+    i->at = 0;
+}
+
+/* Enters the tree that the stand-in in a leaf leads to. There the boxes are
+ * widened by instance_ray(). */
+static inline void instance_walk_enter(struct instance_walk *i, struct walk *k,
+                                       const struct world *w, struct ray r)
+{
+    uint32_t stand_in = walk_block(k)->tri[0];
+    struct mesh_ray m;
+
+    if (stand_in == NO_INDEX)
+        return;
+    i->is_in_mesh = true;
+    k->base = k->depth;
+    k->at = 0;
+    k->nodes = (GLOBAL const void *)((GLOBAL const char *)w->nodes +
+                                     (size_t)w->roots[stand_in] * BVH8_UNIT);
+    if (stand_in == w->settings.instance_count)
+        return;
+    i->at = &w->instances[stand_in];
+    m = instance_ray(*i->at, r);
+    m.widen = v3(copysignf(m.widen.x, m.d.x), copysignf(m.widen.y, m.d.y),
+                 copysignf(m.widen.z, m.d.z));
+    bvh8_ray_axis(&i->first, 0, m.o.x + m.widen.x, m.d.x);
+    bvh8_ray_axis(&i->first, 1, m.o.y + m.widen.y, m.d.y);
+    bvh8_ray_axis(&i->first, 2, m.o.z + m.widen.z, m.d.z);
+    bvh8_ray_axis(&i->last, 0, m.o.x - m.widen.x, m.d.x);
+    bvh8_ray_axis(&i->last, 1, m.o.y - m.widen.y, m.d.y);
+    bvh8_ray_axis(&i->last, 2, m.o.z - m.widen.z, m.d.z);
+}
+
+/* Returns from a tree that has no more leaves. Returns false if it is that of
+ * the stand-ins. */
+static inline bool instance_walk_leave(struct instance_walk *i, struct walk *k,
+                                       const struct world *w)
+{
+    if (!i->is_in_mesh)
+        return false;
+    i->is_in_mesh = false;
+    i->at = 0;
+    i->first = i->last = i->outer;
+    k->base = 0;
+    k->at = BVH8_LEAF;
+    k->nodes = w->nodes;
+    return true;
+}
+
+/* hit_closest() for finite rays in a world with instances. */
+static RARE void instances_closest(const struct world *w, struct ray r,
+                                   struct hit *hit)
+{
+    struct block_ray ray = block_ray_of(r, NO_INDEX);
+    struct walk k = walk_begin(w->nodes, r.t_max);
+    uint64_t stack[BVH8_STACK];
+    struct instance_walk i;
+
+    instance_walk_begin(&i, r);
+    do {
+        while (walk_nearest(&k, stack, &i.first, &i.last)) {
+            struct placed_block b = {walk_block(&k), i.at};
+
+            if (!i.is_in_mesh) {
+                instance_walk_enter(&i, &k, w, r);
                 continue;
             }
-        } else if (HAS(FEATURE_INSTANCES) && !is_in_tris) {
-            is_in_tris = true;
-            base = depth;
-            instance = n.next;
-            slabs = slabs_in(w, r, instance);
-            at = n.count;
-            continue;
-        } else {
-            leaf_hit(w, r, shear, n, instance, best);
+            blocks_hit(w, &ray, b, walk_more(&k), false, hit);
+            k.t_far = bvh8_far(hit->t);
         }
-        do {
-            if (HAS(FEATURE_INSTANCES) && depth == base) {
-                is_in_tris = false;
-                base = NO_INDEX;
-                slabs = slabs_of(r);
-            }
-            if (depth == 0)
-                return best->tri != NO_INDEX;
-            depth--;
-        } while (entries[depth] > best->t);
-        at = stack[depth];
-    }
+    } while (instance_walk_leave(&i, &k, w));
 }
 
-/* Finds the nearest hits of `count` rays. */
-static inline void hits_closest(const struct world *w, const struct ray *rays,
-                                uint32_t count, struct hit *hits)
+/* hit_any() for finite rays in a world with instances. */
+static RARE bool instances_any(const struct world *w, struct ray r,
+                               uint32_t tri)
 {
-    for (uint32_t i = 0; i < count; i++)
-        hit_closest(w, rays[i], &hits[i]);
+    struct block_ray ray = block_ray_of(r, tri);
+    struct hit h = {r.t_max, 0.0f, 0.0f, 0.0f, tri};
+    struct walk k = walk_begin(w->nodes, r.t_max);
+    uint32_t stack[BVH8_STACK];
+    struct instance_walk i;
+
+    instance_walk_begin(&i, r);
+    do {
+        while (walk_any(&k, stack, &i.first, &i.last)) {
+            struct placed_block b = {walk_block(&k), i.at};
+
+            if (!i.is_in_mesh)
+                instance_walk_enter(&i, &k, w, r);
+            else if (blocks_hit(w, &ray, b, walk_more(&k), true, &h))
+                return true;
+        }
+    } while (instance_walk_leave(&i, &k, w));
+    return false;
+}
+
+/* ---- queries ---- */
+
+/* Finds the nearest hit up to r.t_max. Returns false if there is none. */
+static inline bool hit_closest(const struct world *w, struct ray r,
+                               struct hit *hit)
+{
+    struct block_ray ray = block_ray_of(r, NO_INDEX);
+    struct bvh8_ray boxes = bvh8_ray_of(r);
+    struct walk k = walk_begin(w->nodes, r.t_max);
+    uint64_t stack[BVH8_STACK];
+
+    *hit = no_hit(r);
+    if (w->nodes == 0 || !ray_is_finite(r))
+        return false;
+    if (has_instances(w)) {
+        instances_closest(w, r, hit);
+        return hit->tri != NO_INDEX;
+    }
+    while (walk_nearest(&k, stack, &boxes, &boxes)) {
+        struct placed_block b = {walk_block(&k), 0};
+
+        blocks_hit(w, &ray, b, walk_more(&k), false, hit);
+        k.t_far = bvh8_far(hit->t);
+    }
+    return hit->tri != NO_INDEX;
 }
 
 /* Returns true if the ray is occluded before r.t_max, or at r.t_max by a
  * triangle with a number below `tri`. The ray is aimed at the triangle `tri` at
  * distance r.t_max, so that this is true where hit_closest() would find another
- * hit. Children are visited in any order. */
+ * hit. */
 static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
-    struct slabs slabs = slabs_of(r);
-    struct shear shear = shear_of(r);
-    uint32_t stack[QUERY_STACK];
-    uint32_t depth = 0;
-    uint32_t instance = NO_INDEX, base = NO_INDEX;
-    bool is_in_tris = !has_instances(w);
-    struct hit h;
+    struct hit h = {r.t_max, 0.0f, 0.0f, 0.0f, tri};
+    struct block_ray ray = block_ray_of(r, tri);
+    struct bvh8_ray boxes = bvh8_ray_of(r);
+    struct walk k = walk_begin(w->nodes, r.t_max);
+    uint32_t stack[BVH8_STACK];
 
-    if (w->settings.tri_count == 0 || !ray_is_finite(r))
+    if (w->nodes == 0 || !ray_is_finite(r))
         return false;
-    h.t = r.t_max;
-    h.tri = tri;
-    stack[depth++] = 0;
-    while (depth > 0) {
-        uint32_t at = stack[--depth];
-        struct node n = w->nodes[at];
+    if (has_instances(w))
+        return instances_any(w, r, tri);
+    while (walk_any(&k, stack, &boxes, &boxes)) {
+        struct placed_block b = {walk_block(&k), 0};
 
-        if (HAS(FEATURE_INSTANCES) && depth < base && base != NO_INDEX) {
-            is_in_tris = false;
-            base = NO_INDEX;
-            slabs = slabs_of(r);
-        }
-        while (box_entry(slabs, n.lo, n.hi, r.t_max) <= r.t_max) {
-            if (HAS(FEATURE_INSTANCES) && n.count != 0 && !is_in_tris) {
-                is_in_tris = true;
-                base = depth;
-                instance = n.next;
-                slabs = slabs_in(w, r, instance);
-                at = n.count;
-                n = w->nodes[at];
-                continue;
-            }
-            if (n.count != 0) {
-                if (leaf_hit(w, r, shear, n, instance, &h))
-                    return true;
-                break;
-            }
-            stack[depth++] = n.next;
-            at = at + 1;
-            n = w->nodes[at];
-        }
+        if (blocks_hit(w, &ray, b, walk_more(&k), true, &h))
+            return true;
     }
     return false;
 }

@@ -169,18 +169,32 @@ struct camera {
     float top;   /* the corner of a crop, which may be fractional in a draft */
 };
 
-/* A node of the binary tree. Nodes are stored depth-first: the left child of
- * node i is node i + 1. With instances the first tree is that of instances, and
- * the trees of meshes follow. */
-struct node {
-    struct vec3 lo;
-    uint32_t next; /* inner node: right child; leaf: its first leaf_tri, or
-                      the instance: NO_INDEX for triangles outside of meshes */
-    struct vec3 hi;
-    uint32_t count; /* inner node: 0; leaf: triangles, or the tree's root */
+/* Children of a node, and triangles of a block. */
+#define BVH8_CHILDREN   8
+#define BVH8_BLOCK_TRIS 4
+
+/* A node of the tree of eight: the boxes of its children, as arrays for vector
+ * units. src/world/bvh/bvh8.h draws the tree. */
+struct bvh8_node {
+    /* the signs of a ray choose near and far planes; [axis][low or high] */
+    float planes[3][2][BVH8_CHILDREN]; /* no child: infinite */
+    uint32_t child[BVH8_CHILDREN];     /* no child: the empty block */
 };
 
-/* A triangle with its corners, stored in the order of the leaves. */
+/* The parts of a child: its place, and bits below. One shift makes its place an
+ * offset from the root of the tree in bytes. */
+#define BVH8_UNIT 32 /* bytes; all places are multiples of it */
+#define BVH8_LEAF 4u /* it is a block, else a node */
+#define BVH8_MORE 3u /* further blocks of the leaf, which follow the first */
+
+/* Triangles of a leaf, with their corners as [corner][axis][triangle]. NaN and
+ * NO_INDEX fill the places of missing triangles. */
+struct tri_block {
+    float corners[3][3][BVH8_BLOCK_TRIS];
+    uint32_t tri[BVH8_BLOCK_TRIS];
+};
+
+/* A triangle with its corners. */
 struct leaf_tri {
     struct vec3 p0, p1, p2;
     uint32_t tri;
@@ -418,8 +432,7 @@ struct settings {
     struct guide_grid guide;
 };
 
-/* The data that a sample reads, and nothing more. nodes and leaf_tris belong to
- * the backend, all other arrays to the scene. */
+/* The data that a sample reads, and nothing more. */
 struct world {
     struct settings settings;
     GLOBAL const struct vec3 *positions;
@@ -436,8 +449,12 @@ struct world {
     GLOBAL const uint32_t *texels;
     GLOBAL const float *linear_of_srgb;   /* 256 entries: the sRGB curve */
     GLOBAL const struct vec3 *sky_texels; /* top row: +y */
-    GLOBAL const struct node *nodes;
-    GLOBAL const struct leaf_tri *leaf_tris;
+    /* The tree of eight; NULL: no triangles. With instances it is a tree of
+     * stand-ins, which have the numbers of instances, and roots has where the
+     * tree of each begins, in multiples of BVH8_UNIT from nodes. The last
+     * stand-in stands for the triangles outside of meshes. */
+    GLOBAL const struct bvh8_node *nodes;
+    GLOBAL const uint32_t *roots;
     GLOBAL const struct light *lights;
     GLOBAL const uint32_t *tri_lights;           /* NO_INDEX: no light */
     GLOBAL const struct light_node *light_nodes; /* NULL for one light */

@@ -114,7 +114,6 @@ static struct engine_options options_of(const char *path,
                              .time_s = o->anim_time_s},
                   .view_lines = o->view_lines},
         .turbidity = o->turbidity,
-        .drops_tree = true,
     };
 
     if (o->sun == NULL)

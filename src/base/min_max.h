@@ -25,6 +25,11 @@ static inline int index_clamp(int i, int count)
     return int_min(int_max(i, 0), count - 1);
 }
 
+static inline uint32_t u32_max(uint32_t a, uint32_t b)
+{
+    return a > b ? a : b;
+}
+
 static inline uint32_t u32_min(uint32_t a, uint32_t b)
 {
     return a < b ? a : b;

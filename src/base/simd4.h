@@ -2,8 +2,8 @@
 /*
  * simd4.h - vectors of four floats: SSE2, or plain loops
  *
- * Arithmetic is that of floats, lane by lane, without contraction. Masks have a
- * bit for each lane, lane 0 the lowest. simd8.h has the same functions for
+ * Arithmetic is that of floats, lane by lane, without contraction. A mask has
+ * all bits of a lane set or none. simd8.h has the same functions for
  * eight floats, but not as a second use of one template: their bodies are
  * different intrinsics, and the halves without AVX2 are made of these four.
  */
@@ -18,6 +18,7 @@
 #include <immintrin.h>
 
 typedef __m128 f4;
+typedef __m128 f4_mask;
 
 static inline f4 f4_load(const float *p)
 {
@@ -119,38 +120,55 @@ static inline void f4_transpose3(f4 a, f4 b, f4 c, f4 to[3])
     to[2] = _mm_shuffle_ps(high, c, _MM_SHUFFLE(2, 2, 1, 0));
 }
 
-static inline uint32_t f4_mask_le(f4 a, f4 b)
+static inline f4_mask f4_le(f4 a, f4 b)
 {
-    return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
+    return _mm_cmple_ps(a, b);
 }
 
-static inline uint32_t f4_mask_lt(f4 a, f4 b)
+static inline f4_mask f4_lt(f4 a, f4 b)
 {
-    return (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a, b));
+    return _mm_cmplt_ps(a, b);
 }
 
 /* Returns the mask of lanes in which a, b and c are equal. */
-static inline uint32_t f4_mask_equal3(f4 a, f4 b, f4 c)
+static inline f4_mask f4_equal3(f4 a, f4 b, f4 c)
 {
-    return (uint32_t)_mm_movemask_ps(
-        _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c)));
+    return _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c));
 }
 
 /* Returns the mask of integers equal to n. */
-static inline uint32_t f4_mask_equal_u32(const uint32_t *p, uint32_t n)
+static inline f4_mask f4_equal_u32(const uint32_t *p, uint32_t n)
 {
-    __m128i same = _mm_cmpeq_epi32(_mm_load_si128((const void *)p),
-                                   _mm_set1_epi32((int)n));
-
-    return (uint32_t)_mm_movemask_ps(_mm_castsi128_ps(same));
+    return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_load_si128((const void *)p),
+                                            _mm_set1_epi32((int)n)));
 }
 
-/* Selects x in lanes in which a, b and c are equal, and y elsewhere. */
-static inline f4 f4_select_equal3(f4 a, f4 b, f4 c, f4 x, f4 y)
+static inline f4_mask f4_or(f4_mask a, f4_mask b)
 {
-    f4 same = _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c));
+    return _mm_or_ps(a, b);
+}
 
-    return _mm_or_ps(_mm_and_ps(same, x), _mm_andnot_ps(same, y));
+static inline f4_mask f4_and(f4_mask a, f4_mask b)
+{
+    return _mm_and_ps(a, b);
+}
+
+/* Returns the lanes of a that are not in b. */
+static inline f4_mask f4_but(f4_mask a, f4_mask b)
+{
+    return _mm_andnot_ps(b, a);
+}
+
+/* Returns a bit for each lane, lane 0 the lowest. */
+static inline uint32_t f4_bits(f4_mask a)
+{
+    return (uint32_t)_mm_movemask_ps(a);
+}
+
+/* Selects x in the lanes of the mask, and y elsewhere. */
+static inline f4 f4_select(f4_mask a, f4 x, f4 y)
+{
+    return _mm_or_ps(_mm_and_ps(a, x), _mm_andnot_ps(a, y));
 }
 
 #else
@@ -158,6 +176,10 @@ static inline f4 f4_select_equal3(f4 a, f4 b, f4 c, f4 x, f4 y)
 typedef struct {
     float v[4];
 } f4;
+
+typedef struct {
+    uint32_t v[4];
+} f4_mask;
 
 #define F4_EACH(result, value)  \
     f4 result;                  \
@@ -255,45 +277,59 @@ static inline void f4_transpose3(f4 a, f4 b, f4 c, f4 to[3])
         to[i] = (f4){{a.v[i], b.v[i], c.v[i], c.v[i]}};
 }
 
-static inline uint32_t f4_mask_le(f4 a, f4 b)
-{
-    uint32_t mask = 0;
+#define F4_MASK_EACH(is_set)                 \
+    f4_mask r;                               \
+    for (int i = 0; i < 4; i++)              \
+        r.v[i] = (is_set) ? 0xffffffffu : 0; \
+    return r
 
-    for (int i = 0; i < 4; i++)
-        mask |= (a.v[i] <= b.v[i] ? 1u : 0u) << i;
-    return mask;
+static inline f4_mask f4_le(f4 a, f4 b)
+{
+    F4_MASK_EACH(a.v[i] <= b.v[i]);
 }
 
-static inline uint32_t f4_mask_lt(f4 a, f4 b)
+static inline f4_mask f4_lt(f4 a, f4 b)
 {
-    uint32_t mask = 0;
-
-    for (int i = 0; i < 4; i++)
-        mask |= (a.v[i] < b.v[i] ? 1u : 0u) << i;
-    return mask;
+    F4_MASK_EACH(a.v[i] < b.v[i]);
 }
 
-static inline uint32_t f4_mask_equal3(f4 a, f4 b, f4 c)
+static inline f4_mask f4_equal3(f4 a, f4 b, f4 c)
 {
-    uint32_t mask = 0;
-
-    for (int i = 0; i < 4; i++)
-        mask |= (a.v[i] == b.v[i] && a.v[i] == c.v[i] ? 1u : 0u) << i;
-    return mask;
+    F4_MASK_EACH(a.v[i] == b.v[i] && a.v[i] == c.v[i]);
 }
 
-static inline uint32_t f4_mask_equal_u32(const uint32_t *p, uint32_t n)
+static inline f4_mask f4_equal_u32(const uint32_t *p, uint32_t n)
 {
-    uint32_t mask = 0;
-
-    for (int i = 0; i < 4; i++)
-        mask |= (p[i] == n ? 1u : 0u) << i;
-    return mask;
+    F4_MASK_EACH(p[i] == n);
 }
 
-static inline f4 f4_select_equal3(f4 a, f4 b, f4 c, f4 x, f4 y)
+static inline f4_mask f4_or(f4_mask a, f4_mask b)
 {
-    F4_EACH(r, a.v[i] == b.v[i] && a.v[i] == c.v[i] ? x.v[i] : y.v[i]);
+    F4_MASK_EACH((a.v[i] | b.v[i]) != 0);
+}
+
+static inline f4_mask f4_and(f4_mask a, f4_mask b)
+{
+    F4_MASK_EACH((a.v[i] & b.v[i]) != 0);
+}
+
+static inline f4_mask f4_but(f4_mask a, f4_mask b)
+{
+    F4_MASK_EACH((a.v[i] & ~b.v[i]) != 0);
+}
+
+static inline uint32_t f4_bits(f4_mask a)
+{
+    uint32_t bits = 0;
+
+    for (int i = 0; i < 4; i++)
+        bits |= (a.v[i] & 1u) << i;
+    return bits;
+}
+
+static inline f4 f4_select(f4_mask a, f4 x, f4 y)
+{
+    F4_EACH(r, a.v[i] != 0 ? x.v[i] : y.v[i]);
 }
 
 #endif

@@ -6,7 +6,7 @@
  *
  * The functions of distances may give other bits on other processors.
  * f8_mul_sub rounds once or twice. f8_distance_max and f8_distance_min return
- * any of two negative numbers. f8_distance_mask_lt needs a first number that is
+ * any of two negative numbers. f8_distance_lt needs a first number that is
  * not negative. f8_distance_add_ulps adds that many units in the last place, or
  * a few more.
  */
@@ -20,6 +20,7 @@
 #include <immintrin.h>
 
 typedef __m256 f8;
+typedef __m256 f8_mask;
 
 static inline f8 f8_load(const float *p)
 {
@@ -71,30 +72,45 @@ static inline f8 f8_max(f8 a, f8 b)
     return _mm256_max_ps(a, b);
 }
 
-static inline uint32_t f8_mask_le(f8 a, f8 b)
+static inline f8_mask f8_le(f8 a, f8 b)
 {
-    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OS));
+    return _mm256_cmp_ps(a, b, _CMP_LE_OS);
 }
 
-static inline uint32_t f8_mask_lt(f8 a, f8 b)
+static inline f8_mask f8_lt(f8 a, f8 b)
 {
-    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OS));
+    return _mm256_cmp_ps(a, b, _CMP_LT_OS);
 }
 
-static inline f8 f8_equal3(f8 a, f8 b, f8 c)
+static inline f8_mask f8_equal3(f8 a, f8 b, f8 c)
 {
     return _mm256_and_ps(_mm256_cmp_ps(a, b, _CMP_EQ_OQ),
                          _mm256_cmp_ps(a, c, _CMP_EQ_OQ));
 }
 
-static inline uint32_t f8_mask_equal3(f8 a, f8 b, f8 c)
+static inline f8_mask f8_or(f8_mask a, f8_mask b)
 {
-    return (uint32_t)_mm256_movemask_ps(f8_equal3(a, b, c));
+    return _mm256_or_ps(a, b);
 }
 
-static inline f8 f8_select_equal3(f8 a, f8 b, f8 c, f8 x, f8 y)
+static inline f8_mask f8_and(f8_mask a, f8_mask b)
 {
-    return _mm256_blendv_ps(y, x, f8_equal3(a, b, c));
+    return _mm256_and_ps(a, b);
+}
+
+static inline f8_mask f8_but(f8_mask a, f8_mask b)
+{
+    return _mm256_andnot_ps(b, a);
+}
+
+static inline uint32_t f8_bits(f8_mask a)
+{
+    return (uint32_t)_mm256_movemask_ps(a);
+}
+
+static inline f8 f8_select(f8_mask a, f8 x, f8 y)
+{
+    return _mm256_blendv_ps(y, x, a);
 }
 
 static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
@@ -126,10 +142,10 @@ static inline f8 f8_distance_add_ulps(f8 a, int steps)
         _mm256_add_epi32(_mm256_castps_si256(a), _mm256_set1_epi32(steps)));
 }
 
-static inline uint32_t f8_distance_mask_lt(f8 a, f8 b)
+static inline f8_mask f8_distance_lt(f8 a, f8 b)
 {
-    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(
-        _mm256_cmpgt_epi32(_mm256_castps_si256(b), _mm256_castps_si256(a))));
+    return _mm256_castsi256_ps(
+        _mm256_cmpgt_epi32(_mm256_castps_si256(b), _mm256_castps_si256(a)));
 }
 
 #else
@@ -139,6 +155,10 @@ static inline uint32_t f8_distance_mask_lt(f8 a, f8 b)
 typedef struct {
     f4 lo, hi;
 } f8;
+
+typedef struct {
+    f4_mask lo, hi;
+} f8_mask;
 
 static inline f8 f8_load(const float *p)
 {
@@ -191,26 +211,44 @@ static inline f8 f8_max(f8 a, f8 b)
     return (f8){f4_max(a.lo, b.lo), f4_max(a.hi, b.hi)};
 }
 
-static inline uint32_t f8_mask_le(f8 a, f8 b)
+static inline f8_mask f8_le(f8 a, f8 b)
 {
-    return f4_mask_le(a.lo, b.lo) | f4_mask_le(a.hi, b.hi) << 4;
+    return (f8_mask){f4_le(a.lo, b.lo), f4_le(a.hi, b.hi)};
 }
 
-static inline uint32_t f8_mask_lt(f8 a, f8 b)
+static inline f8_mask f8_lt(f8 a, f8 b)
 {
-    return f4_mask_lt(a.lo, b.lo) | f4_mask_lt(a.hi, b.hi) << 4;
+    return (f8_mask){f4_lt(a.lo, b.lo), f4_lt(a.hi, b.hi)};
 }
 
-static inline uint32_t f8_mask_equal3(f8 a, f8 b, f8 c)
+static inline f8_mask f8_equal3(f8 a, f8 b, f8 c)
 {
-    return f4_mask_equal3(a.lo, b.lo, c.lo) | f4_mask_equal3(a.hi, b.hi, c.hi)
-                                                  << 4;
+    return (f8_mask){f4_equal3(a.lo, b.lo, c.lo), f4_equal3(a.hi, b.hi, c.hi)};
 }
 
-static inline f8 f8_select_equal3(f8 a, f8 b, f8 c, f8 x, f8 y)
+static inline f8_mask f8_or(f8_mask a, f8_mask b)
 {
-    return (f8){f4_select_equal3(a.lo, b.lo, c.lo, x.lo, y.lo),
-                f4_select_equal3(a.hi, b.hi, c.hi, x.hi, y.hi)};
+    return (f8_mask){f4_or(a.lo, b.lo), f4_or(a.hi, b.hi)};
+}
+
+static inline f8_mask f8_and(f8_mask a, f8_mask b)
+{
+    return (f8_mask){f4_and(a.lo, b.lo), f4_and(a.hi, b.hi)};
+}
+
+static inline f8_mask f8_but(f8_mask a, f8_mask b)
+{
+    return (f8_mask){f4_but(a.lo, b.lo), f4_but(a.hi, b.hi)};
+}
+
+static inline uint32_t f8_bits(f8_mask a)
+{
+    return f4_bits(a.lo) | f4_bits(a.hi) << 4;
+}
+
+static inline f8 f8_select(f8_mask a, f8 x, f8 y)
+{
+    return (f8){f4_select(a.lo, x.lo, y.lo), f4_select(a.hi, x.hi, y.hi)};
 }
 
 static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
@@ -233,9 +271,9 @@ static inline f8 f8_distance_add_ulps(f8 a, int steps)
     return f8_mul(a, f8_set1(1.0f + (float)steps * 0x1p-23f));
 }
 
-static inline uint32_t f8_distance_mask_lt(f8 a, f8 b)
+static inline f8_mask f8_distance_lt(f8 a, f8 b)
 {
-    return f8_mask_lt(a, b);
+    return f8_lt(a, b);
 }
 
 #endif

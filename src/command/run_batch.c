@@ -119,7 +119,7 @@ static float *render_aovs(struct view_mode *show, uint32_t kinds,
     const struct session *s = show->session;
     struct rect crop = s->engine.crop;
     size_t size = 3 * (size_t)crop.width * (size_t)crop.height;
-    struct bvh8_world world;
+    struct world world;
     float *numbers, *to;
 
     if (!view_mode_traced(show, &world, err))

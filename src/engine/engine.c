@@ -282,12 +282,6 @@ bool engine_prepare(struct engine *e, const struct view *view,
         !engine_lend(e, view, &job->world, err))
         return false;
     job->world.settings.features = engine_features(e);
-    if (!engine_uses_device(e))
-        return true;
-    if (!e->options.drops_tree || !e->options.is_exact ||
-        e->world.light_paths.sources != NULL)
-        return world_ensure_tree(&e->world, &job->world, NULL, err);
-    world_drop_tree(&e->world);
     return true;
 }
 

@@ -95,7 +95,6 @@ struct engine_options {
     bool is_adaptive;
     bool is_exact;                   /* without light cells, which blur */
     bool wants_filter;               /* films have what the filter needs */
-    bool drops_tree;                 /* beside a device, which has its own */
     const struct cpu_kernel *kernel; /* NULL: the best */
     struct cl_request device;        /* features are those of the scene */
 };

@@ -48,7 +48,7 @@
 #define MEAN_SHARE  (1 / 16.0)
 
 struct probe_job {
-    struct bvh8_world w;
+    struct world w;
     const struct cpu_kernel *kernel;
     int width;
     double exposure;
@@ -71,9 +71,9 @@ static float *light_of_paths(struct probe_job *j, const struct host_world *host,
     const struct cancel never = {0};
     float *means = NULL;
     double sky_mean =
-        host->sky_table.mean * color_mean(j->w.world.settings.sky.color);
+        host->sky_table.mean * color_mean(j->w.settings.sky.color);
 
-    bool ok = light_paths_build(&paths, &j->w.world, &host->lights, sky_mean) &&
+    bool ok = light_paths_build(&paths, &j->w, &host->lights, sky_mean) &&
               paths.sources != NULL &&
               light_image_init(&image, j->width, height);
 
@@ -86,9 +86,9 @@ static float *light_of_paths(struct probe_job *j, const struct host_world *host,
         light_image_means(&image, PROBE_PATHS, means);
         for (size_t i = 0; i < 3 * pixels; i++)
             means[i] = 0.5f * (means[i] + means[3 * pixels + i]);
-        j->w.world.settings.has_light_paths = 1;
-        j->w.world.settings.sky_level = paths.spots.level;
-        j->w.world.settings.features |= FEATURE_LIGHT_PATHS;
+        j->w.settings.has_light_paths = 1;
+        j->w.settings.sky_level = paths.spots.level;
+        j->w.settings.features |= FEATURE_LIGHT_PATHS;
     }
     light_image_free(&image);
     light_paths_free(&paths);
@@ -108,8 +108,7 @@ static void add_pixel(const struct probe_job *j, uint32_t x, uint32_t y,
 
     for (uint32_t i = 0; i < PROBE_SAMPLES; i++)
         places[i] = (struct sample_id){x, y, i};
-    j->kernel->samples(&j->w.world, places, PROBE_SAMPLES, samples, surfaces,
-                       NULL);
+    j->kernel->samples(&j->w, places, PROBE_SAMPLES, samples, surfaces, NULL);
     for (int i = 0; i < PROBE_SAMPLES; i++) {
         struct vec3 c = j->counts_seen
                             ? samples[i].radiance
@@ -165,13 +164,12 @@ bool light_probe_take(struct light_probe *probe, struct host_world *host,
     float *light = NULL;
     bool ok;
 
-    if (!world_lend(host, scene, &small, 0, &j.w.world, err))
+    if (!world_lend(host, scene, &small, 0, &j.w, err))
         return false;
     pool = world_pool(host);
-    ok = world_ensure_tree(host, &j.w.world, pool, err);
+    ok = world_ensure_tree(host, &j.w, pool, err);
     if (ok) {
-        j.w.tree = world_tree(host);
-        j.w.world.settings.features |= FEATURE_FILTER;
+        j.w.settings.features |= FEATURE_FILTER;
         j.light = light = light_of_paths(&j, host, small.height_px, pool);
         pool_each(pool, (uint32_t)small.height_px, probe_row, &j);
     }

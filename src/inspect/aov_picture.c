@@ -3,12 +3,12 @@
 
 #include <assert.h>
 
-#include "world/bvh/bvh8_traverse.h"
+#include "world/bvh/ray_queries.h"
 
 #include "kernels/path.h"
 
 struct job {
-    const struct bvh8_world *world;
+    const struct world *world;
     int width;
     float *numbers;
 };
@@ -23,7 +23,7 @@ static void set_vector(struct vec3 v, float *to)
 static void trace_row(void *context, uint32_t y, int worker)
 {
     const struct job *j = context;
-    const struct world *w = &j->world->world;
+    const struct world *w = j->world;
     float *row = j->numbers + 3 * (size_t)y * (size_t)j->width;
 
     (void)worker;
@@ -38,12 +38,12 @@ static void trace_row(void *context, uint32_t y, int worker)
     }
 }
 
-void aov_of_pixels(struct pool *pool, const struct bvh8_world *world, int width,
+void aov_of_pixels(struct pool *pool, const struct world *world, int width,
                    int height, float *numbers)
 {
     struct job j = {world, width, numbers};
 
-    assert(world->world.settings.sample != SAMPLE_LIGHT);
+    assert(world->settings.sample != SAMPLE_LIGHT);
     pool_each(pool, (uint32_t)height, trace_row, &j);
 }
 
@@ -69,7 +69,7 @@ static void set_all(double number, float *to)
 static void set_surface(const struct aov_picture *a, struct ray r,
                         struct sampler sampler, float *to)
 {
-    const struct world *w = &a->world->world;
+    const struct world *w = a->world;
     struct surface_point v;
     struct material m;
     struct bsdf b;
@@ -109,7 +109,7 @@ static void set_mean(const struct aov_picture *a, uint32_t x, uint32_t y,
 
     for (uint64_t i = 0; i < AOV_SAMPLES; i++) {
         struct camera_sample start =
-            camera_sample_begin(&a->world->world.settings, x, y, i);
+            camera_sample_begin(&a->world->settings, x, y, i);
 
         set_surface(a, start.ray, start.sampler, to);
         for (int c = 0; c < 3; c++)
@@ -139,9 +139,9 @@ static void render_row(void *context, uint32_t row, int worker)
             set_mean(a, x, y, to);
         else
             set_surface(a,
-                        camera_ray(a->world->world.settings.camera, x, y,
+                        camera_ray(a->world->settings.camera, x, y,
                                    v2(0.5f, 0.5f)),
-                        camera_sampler(&a->world->world.settings, x, y, 0), to);
+                        camera_sampler(&a->world->settings, x, y, 0), to);
     }
 }
 
@@ -150,6 +150,6 @@ void aov_picture_render(const struct aov_picture *picture, struct pool *pool,
 {
     struct rows j = {picture, numbers};
 
-    assert(picture->world->world.settings.sample == SAMPLE_LIGHT);
+    assert(picture->world->settings.sample == SAMPLE_LIGHT);
     pool_each(pool, (uint32_t)picture->crop.height, render_row, &j);
 }

@@ -16,14 +16,14 @@
 /* Fills 3 numbers for each pixel: the sample kind in the world's settings,
  * which must not be light, at the first hit of the ray through the pixel's
  * centre. The camera has width x height pixels. Blocks. */
-void aov_of_pixels(struct pool *pool, const struct bvh8_world *world, int width,
+void aov_of_pixels(struct pool *pool, const struct world *world, int width,
                    int height, float *numbers);
 
 /* A picture of the first surfaces that the camera sees. */
 struct aov_picture {
     enum aov_kind kind;
     const struct scene *scene;
-    const struct bvh8_world *world; /* for the whole picture */
+    const struct world *world; /* for the whole picture */
     struct rect crop;
 };
 

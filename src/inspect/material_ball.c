@@ -51,7 +51,7 @@ struct ball_arrays {
 static void add_tri(struct material_ball *b, uint32_t v0, uint32_t v1,
                     uint32_t v2, uint32_t material)
 {
-    struct tri *t = &b->arrays->tris[b->studio.world.settings.tri_count];
+    struct tri *t = &b->arrays->tris[b->studio.settings.tri_count];
     bool is_ball = material == BALL;
 
     *t = (struct tri){.v = {v0, v1, v2},
@@ -62,7 +62,7 @@ static void add_tri(struct material_ball *b, uint32_t v0, uint32_t v1,
         t->vn[i] = t->vt[i] = t->v[i];
     if (triangle_normal(b->arrays->positions[v0], b->arrays->positions[v1],
                         b->arrays->positions[v2], &t->ng))
-        b->studio.world.settings.tri_count++;
+        b->studio.settings.tri_count++;
 }
 
 static void add_ball(struct material_ball *b)
@@ -128,7 +128,7 @@ static struct vec3 sky_radiance(double elevation_deg, double azimuth_deg)
 
 static bool add_sky(struct material_ball *b, struct error *err)
 {
-    struct world *w = &b->studio.world;
+    struct world *w = &b->studio;
 
     for (int i = 0; i < SKY_ROWS * SKY_COLUMNS; i++) {
         int row = i / SKY_COLUMNS, column = i % SKY_COLUMNS;
@@ -175,7 +175,7 @@ static struct material grey_material(float grey)
 
 static bool open_studio(struct material_ball *b, struct error *err)
 {
-    struct world *w = &b->studio.world;
+    struct world *w = &b->studio;
 
     b->arrays = alloc_array(1, sizeof *b->arrays);
     if (!b->arrays)
@@ -197,7 +197,7 @@ static bool open_studio(struct material_ball *b, struct error *err)
     set_camera(&w->settings.camera);
     if (!add_sky(b, err) || !bvh8_build(&b->tree, w, NULL, err))
         return false;
-    b->studio.tree = &b->tree;
+    bvh8_lend(&b->tree, &b->studio);
     b->kernel = cpu_kernel_best();
     return true;
 }
@@ -224,8 +224,8 @@ static void add_row(struct material_ball *b, uint32_t y)
 
         for (uint32_t i = 0; i < SAMPLE_BLOCK; i++)
             ids[i] = (struct sample_id){x + i, y, b->spp};
-        b->kernel->samples(&b->studio.world, ids, SAMPLE_BLOCK, samples,
-                           surfaces, NULL);
+        b->kernel->samples(&b->studio, ids, SAMPLE_BLOCK, samples, surfaces,
+                           NULL);
         for (uint32_t i = 0; i < SAMPLE_BLOCK; i++)
             sums[i] = v3_add(sums[i], samples[i].radiance);
     }
@@ -263,7 +263,7 @@ bool material_ball_add(struct material_ball *b, const struct world *world,
     }
     if (material_ball_is_done(b))
         return true;
-    lend_textures(&b->studio.world, world);
+    lend_textures(&b->studio, world);
     for (int i = 0; i < SPP_TOGETHER && !*is_new; i++) {
         add_sample(b);
         *is_new = (b->spp & (b->spp - 1)) == 0;

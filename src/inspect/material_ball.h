@@ -29,7 +29,7 @@
 
 struct material_ball {
     const struct cpu_kernel *kernel; /* NULL: there is no studio yet */
-    struct bvh8_world studio;
+    struct world studio;
     struct bvh8 tree;
     struct sky_table sky_table;
     struct ball_arrays *arrays; /* the world's */

@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "base/min_max.h"
-#include "world/bvh/bvh8_traverse.h"
+#include "world/bvh/ray_queries.h"
 #include "kernels/camera.h"
 
 #define COLOR 0xff9a2eu
@@ -15,17 +15,16 @@
 /* Width of the line: a pixel for so many pixels of the frame. */
 #define PIXELS_A_LINE 300
 
-static bool is_chosen(const struct bvh8_world *w, const struct scene *scene,
+static bool is_chosen(const struct world *w, const struct scene *scene,
                       struct outline_choice choice, struct ray ray)
 {
     struct hit h;
 
-    if (!hit_closest(&w->world, ray, &h))
+    if (!hit_closest(w, ray, &h))
         return false;
-    return choice.index == (choice.is_object
-                                ? scene_tri_object(scene, h.tri)
-                                : tri_material(&w->world, h.tri,
-                                               instance_of(&w->world, h.tri)));
+    return choice.index ==
+           (choice.is_object ? scene_tri_object(scene, h.tri)
+                             : tri_material(w, h.tri, instance_of(w, h.tri)));
 }
 
 static bool resize(struct outline *o, const struct frame *frame)
@@ -44,11 +43,11 @@ static bool resize(struct outline *o, const struct frame *frame)
     return o->mask != NULL;
 }
 
-void outline_find(struct outline *o, const struct bvh8_world *w,
+void outline_find(struct outline *o, const struct world *w,
                   const struct scene *scene, uint64_t version,
                   struct outline_choice choice, const struct frame *frame)
 {
-    const struct camera *camera = &w->world.settings.camera;
+    const struct camera *camera = &w->settings.camera;
 
     if (!resize(o, frame) ||
         (o->version == version && o->choice.index == choice.index &&

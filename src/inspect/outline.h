@@ -37,7 +37,7 @@ struct outline {
 
 /* Finds the mask. `world` has the camera of the frame's pixels; `version`
  * changes with its triangles. */
-void outline_find(struct outline *outline, const struct bvh8_world *world,
+void outline_find(struct outline *outline, const struct world *world,
                   const struct scene *scene, uint64_t version,
                   struct outline_choice choice, const struct frame *frame);
 

@@ -7,10 +7,10 @@
 
 #include "base/geometry.h"
 #include "base/memory.h"
+#include "base/min_max.h"
 #include "base/print.h"
 #include "render/projection.h"
-#include "kernels/instance.h"
-#include "kernels/traverse.h"
+#include "world/bvh/ray_queries.h"
 
 /* ---- drawings ---- */
 
@@ -57,47 +57,74 @@ struct level {
     uint32_t count;
 };
 
-static bool add_box(struct level *l, const struct camera *c,
-                    const struct node *n)
+static bool add_box(struct level *l, const struct camera *c, struct vec3 lo,
+                    struct vec3 hi)
 {
-    struct vec3 middle = v3_scale(v3_add(n->lo, n->hi), 0.5f);
+    struct vec3 middle = v3_scale(v3_add(lo, hi), 0.5f);
     void *boxes = l->boxes;
 
     if (!grow_array(&boxes, &l->capacity, l->count + 1u, sizeof *l->boxes))
         return false;
     l->boxes = boxes;
     l->boxes[l->count++] =
-        (struct near_box){n->lo, n->hi,
-                          v3_dot(v3_sub(middle, c->eye), c->forward)};
+        (struct near_box){lo, hi, v3_dot(v3_sub(middle, c->eye), c->forward)};
     return true;
 }
 
-/* Collects the boxes of a level. Nodes are in depth-first order, so a stack of
- * right children suffices. */
-static bool collect(struct level *l, const struct camera *c,
-                    const struct bvh *bvh, uint32_t level)
+static bool has_child(const struct bvh8_node *n, uint32_t i)
 {
-    struct {
-        uint32_t node, level;
-    } pile[128] = {{0, 0}};
-    int depth = bvh->node_count > 0 ? 1 : 0;
+    return n->planes[0][0][i] < INFINITY;
+}
 
-    while (depth > 0) {
-        uint32_t at = pile[--depth].node;
-        uint32_t here = pile[depth].level;
-        const struct node *n = &bvh->nodes[at];
+/* Returns the node below the root, or NULL if the child is a leaf. */
+static const struct bvh8_node *node_below(const struct world *w, uint32_t child)
+{
+    return (child & BVH8_LEAF) != 0
+               ? NULL
+               : w->nodes + child / 8 * BVH8_UNIT / sizeof(struct bvh8_node);
+}
 
-        if (here == level) {
-            if (!add_box(l, c, n))
+/* Collects the boxes of the children that are `level` nodes below a node.
+ * Recursion is as deep as the tree. */
+static bool collect(struct level *l, const struct camera *c,
+                    const struct world *w, const struct bvh8_node *n,
+                    uint32_t level)
+{
+    for (uint32_t i = 0; i < BVH8_CHILDREN; i++) {
+        const struct bvh8_node *below = node_below(w, n->child[i]);
+
+        if (!has_child(n, i))
+            continue;
+        if (level == 0) {
+            if (!add_box(l, c,
+                         v3(n->planes[0][0][i], n->planes[1][0][i],
+                            n->planes[2][0][i]),
+                         v3(n->planes[0][1][i], n->planes[1][1][i],
+                            n->planes[2][1][i])))
                 return false;
-        } else if (n->count == 0) {
-            pile[depth].node = n->next;
-            pile[depth++].level = here + 1;
-            pile[depth].node = at + 1;
-            pile[depth++].level = here + 1;
+        } else if (below != NULL && !collect(l, c, w, below, level - 1)) {
+            return false;
         }
     }
     return true;
+}
+
+static uint32_t levels_below(const struct world *w, const struct bvh8_node *n)
+{
+    uint32_t levels = 0;
+
+    for (uint32_t i = 0; i < BVH8_CHILDREN; i++) {
+        const struct bvh8_node *below = node_below(w, n->child[i]);
+
+        if (below != NULL)
+            levels = u32_max(levels, levels_below(w, below));
+    }
+    return levels + 1;
+}
+
+uint32_t overlay_levels(const struct world *w)
+{
+    return w->nodes != NULL ? levels_below(w, w->nodes) : 0;
 }
 
 static int farther_first(const void *a, const void *b)
@@ -127,12 +154,12 @@ static void draw_box(struct frame *f, const struct camera *c,
 }
 
 uint32_t overlay_boxes(struct frame *frame, const struct camera *camera,
-                       const struct bvh *bvh, uint32_t level)
+                       const struct world *w, uint32_t level)
 {
     struct level l = {0};
     uint32_t first;
 
-    if (!collect(&l, camera, bvh, level)) {
+    if (w->nodes == NULL || !collect(&l, camera, w, w->nodes, level)) {
         free(l.boxes);
         return 0;
     }

@@ -17,21 +17,25 @@
 #include "image/frame.h"
 #include "inspect/path_record.h"
 #include "scene/scene.h"
-#include "world/bvh/bvh.h"
+#include "kernels/types.h"
 
 /* ---- drawings ---- */
 
 /* Most boxes that are drawn; the nearest are chosen. */
 #define OVERLAY_BOXES_MAX 4096
 
-/* Draws the boxes of all nodes at this level below the root. Near ones are
- * brighter and cover far ones. Returns the number of nodes. */
+/* Draws the boxes of all nodes and leaves at this level; level 0 has the
+ * children of the root. Near ones are brighter and cover far ones. Returns
+ * their number. With instances the tree is that of their stand-ins. */
 uint32_t overlay_boxes(struct frame *frame, const struct camera *camera,
-                       const struct bvh *bvh, uint32_t level);
+                       const struct world *world, uint32_t level);
+
+/* Returns the number of levels of the world's tree. */
+uint32_t overlay_levels(const struct world *world);
 
 /* Draws the first `count` steps of a path, the last of them bright. What is
- * behind surfaces of the world is dashed; NULL: nothing is. The world has a
- * binary tree. */
+ * behind surfaces of the world is dashed; NULL: nothing is. The world has its
+ * tree. */
 void overlay_path(struct frame *frame, const struct camera *camera,
                   const struct world *world, const struct path_record *path,
                   int count);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "inspect/path_record.h"
 
-#include "kernels/traverse.h"
+#include "world/bvh/ray_queries.h"
 
 #include "kernels/path.h"
 

@@ -4,10 +4,10 @@
 /* Counters of the current ray of this thread. */
 static _Thread_local struct traversal_cost counted;
 
-#define COUNT_BOX()      (counted.boxes++)
-#define COUNT_TRIANGLE() (counted.triangles++)
+#define COUNT_NODE()  (counted.nodes++)
+#define COUNT_BLOCK() (counted.blocks++)
 
-#include "kernels/traverse.h"
+#include "world/bvh/ray_queries.h"
 
 #include "kernels/camera.h"
 

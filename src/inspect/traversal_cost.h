@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * traversal_cost.h - counts the box and triangle tests of camera rays
+ * traversal_cost.h - counts the nodes and the blocks of triangles that camera
+ * rays meet
  *
- * Rays go through the binary tree with the plain query of traverse.h, which is
- * compiled here again with counters.
+ * Rays go through the tree with the query of kernels/traverse.h, which is
+ * compiled here again with counters. In a node the boxes of up to eight
+ * children are tested at once, in a block up to four triangles.
  *
  * Units:     tests
  * Threads:   one at a time; workers of the pool trace the rays
@@ -15,7 +17,7 @@
 #include "kernels/types.h"
 
 struct traversal_cost {
-    uint32_t boxes, triangles;
+    uint32_t nodes, blocks;
 };
 
 /* Counts the tests of the ray through the centre of each pixel. The camera has

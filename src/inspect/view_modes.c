@@ -57,12 +57,8 @@ static bool find_world(const struct view_mode *s, struct world *w,
 {
     struct session *of = s->session;
 
-    if (!world_lend(&of->engine.world, &of->engine.scene, &of->edit.now.view,
-                    of->options->seed, w, err))
-        return false;
-    w->nodes = s->bvh.nodes;
-    w->leaf_tris = s->bvh.leaf_tris;
-    return true;
+    return world_lend(&of->engine.world, &of->engine.scene, &of->edit.now.view,
+                      of->options->seed, w, err);
 }
 
 bool view_mode_world(const struct view_mode *s, struct world *w)
@@ -72,16 +68,11 @@ bool view_mode_world(const struct view_mode *s, struct world *w)
     return find_world(s, w, &ignored);
 }
 
-bool view_mode_traced(struct view_mode *s, struct bvh8_world *w,
-                      struct error *err)
+bool view_mode_traced(struct view_mode *s, struct world *w, struct error *err)
 {
-    struct host_world *host = &s->session->engine.world;
-
-    if (!find_world(s, &w->world, err) ||
-        !world_ensure_tree(host, &w->world, view_mode_pool(s), err))
-        return false;
-    w->tree = world_tree(host);
-    return true;
+    return find_world(s, w, err) &&
+           world_ensure_tree(&s->session->engine.world, w, view_mode_pool(s),
+                             err);
 }
 
 struct camera view_mode_camera(const struct view_mode *s,
@@ -93,20 +84,6 @@ struct camera view_mode_camera(const struct view_mode *s,
                                    r.height, frame->width, frame->height};
 
     return projection_camera(camera, &part);
-}
-
-bool view_mode_need_tree(struct view_mode *s, struct error *err)
-{
-    uint64_t shape = s->session->engine.world.versions[WORLD_SHAPE];
-    struct world w;
-
-    if (s->bvh_shape == shape)
-        return true;
-    s->bvh_shape = 0;
-    if (!find_world(s, &w, err) || !bvh_build(&s->bvh, &w, NULL, err))
-        return false;
-    s->bvh_shape = shape;
-    return true;
 }
 
 struct pool *view_mode_pool(struct view_mode *s)
@@ -132,7 +109,8 @@ set_legend(struct view_mode *s, const char *format, ...)
 
 bool view_mode_set(struct view_mode *s, enum show_kind kind, struct error *err)
 {
-    bool ok = kind != SHOW_COST || view_mode_need_tree(s, err);
+    struct world w;
+    bool ok = kind != SHOW_COST || view_mode_traced(s, &w, err);
 
     s->kind = ok ? kind : SHOW_LIGHT;
     s->error_spp = 0; /* other views use its numbers */
@@ -307,15 +285,13 @@ static bool count_costs(struct view_mode *s, const struct frame *frame)
     struct error ignored;
     struct world w;
 
-    /* a reloaded scene has no tree yet */
-    if (!view_mode_need_tree(s, &ignored) || !view_mode_world(s, &w))
+    if (!view_mode_traced(s, &w, &ignored))
         return false;
     w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
     if (s->cost_generation == generation && s->cost_width == frame->width &&
         s->cost_height == frame->height &&
         memcmp(&s->cost_camera, &w.settings.camera, sizeof s->cost_camera) == 0)
         return true;
-    view_mode_pool(s);
     free(s->costs);
     s->cost_width = 0;
     s->costs = alloc_array((size_t)frame->width * (size_t)frame->height,
@@ -335,22 +311,22 @@ static bool paint_costs(struct view_mode *s, struct frame *frame)
 {
     size_t pixels = (size_t)frame->width * (size_t)frame->height;
     struct number_range range;
-    double boxes = 0, triangles = 0;
+    double nodes = 0, blocks = 0;
 
     if (!count_costs(s, frame) || !need_numbers(s, pixels))
         return false;
     for (size_t i = 0; i < pixels; i++) {
-        boxes += s->costs[i].boxes;
-        triangles += s->costs[i].triangles;
-        s->numbers[i] = (float)(s->costs[i].boxes + s->costs[i].triangles);
+        nodes += s->costs[i].nodes;
+        blocks += s->costs[i].blocks;
+        s->numbers[i] = (float)(s->costs[i].nodes + s->costs[i].blocks);
     }
     range = number_range_of(s->numbers, pixels, 1);
     fill_heat(s, frame, frame->width, frame->height, range.hi);
     set_legend(s,
                "COST  tests of a camera ray, black 0, white %.0f; mean %.1f "
-               "boxes, %.1f triangles",
-               (double)range.hi, boxes / (double)pixels,
-               triangles / (double)pixels);
+               "nodes, %.1f leaf blocks",
+               (double)range.hi, nodes / (double)pixels,
+               blocks / (double)pixels);
     return true;
 }
 
@@ -409,16 +385,15 @@ static bool fail_memory(const struct frame *frame, struct error *err)
 static bool find_numbers(struct view_mode *s, const struct frame *frame,
                          struct error *err)
 {
-    struct bvh8_world w;
+    struct world w;
 
     if (!view_mode_traced(s, &w, err))
         return false;
     if (!need_numbers(s, 3 * (size_t)frame->width * (size_t)frame->height))
         return fail_memory(frame, err);
-    w.world.settings.camera =
-        view_mode_camera(s, &w.world.settings.camera, frame);
-    w.world.settings.sample = kinds[s->kind].sample;
-    w.world.settings.features |= FEATURE_AOV;
+    w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
+    w.settings.sample = kinds[s->kind].sample;
+    w.settings.features |= FEATURE_AOV;
     aov_of_pixels(s->pool, &w, frame->width, frame->height, s->numbers);
     return true;
 }
@@ -450,7 +425,6 @@ bool view_mode_picture(struct view_mode *s, struct film *film,
 void view_mode_free(struct view_mode *s)
 {
     pool_destroy(s->pool);
-    bvh_free(&s->bvh);
     screen_filter_free(&s->filter);
     free(s->numbers);
     free(s->costs);

@@ -23,7 +23,6 @@
 #include "inspect/false_color.h"
 #include "inspect/traversal_cost.h"
 #include "session/session.h"
-#include "world/bvh/bvh.h"
 
 struct view_mode {
     struct session *session;
@@ -34,9 +33,7 @@ struct view_mode {
     bool is_filtered; /* the last frame for the screen */
     struct screen_filter filter;
 
-    struct bvh bvh;     /* built on first use */
-    uint64_t bvh_shape; /* version that it was built for; 0: none */
-    struct pool *pool;  /* of world_pool(), started on first use */
+    struct pool *pool; /* of world_pool(), started on first use */
 
     float *numbers; /* of the frame that was painted last, or of its film */
     size_t number_capacity;
@@ -70,15 +67,12 @@ void view_mode_preview(struct view_mode *s, struct film *film,
 bool view_mode_picture(struct view_mode *s, struct film *film,
                        struct frame *frame, struct error *err);
 
-/* Builds a binary tree of the scene for drawings and costs, and a world that is
- * as rendered but has this tree. */
-bool view_mode_need_tree(struct view_mode *s, struct error *err);
+/* Lends the world as rendered, with its tree if that has been built. */
 bool view_mode_world(const struct view_mode *s, struct world *w);
 
-/* Lends the world as rendered with its tree, which is built if the render has
- * dropped it. */
-bool view_mode_traced(struct view_mode *s, struct bvh8_world *w,
-                      struct error *err);
+/* Lends the world as rendered with its tree, which is built if there is none.
+ */
+bool view_mode_traced(struct view_mode *s, struct world *w, struct error *err);
 
 /* Returns the threads for pictures of the view, which start on first use. */
 struct pool *view_mode_pool(struct view_mode *s);

@@ -116,7 +116,7 @@ struct backend {
      * uses the host's, and builds that if nobody has yet. `world` is lent from
      * the host, as in begin(). */
     bool (*load)(struct backend *b, struct host_world *host,
-                 const struct world *world, struct error *err);
+                 struct world *world, struct error *err);
 
     /* Frees everything that load() built, except the host's tree. Called when
      * another backend takes over. */

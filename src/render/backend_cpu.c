@@ -16,7 +16,7 @@ struct backend_cpu {
     const struct cpu_kernel *full_kernel; /* with all features */
     /* from begin() */
     const struct cpu_kernel *kernel; /* smallest build for the world */
-    struct bvh8_world world;
+    struct world world;
     struct film *film;
     int x0, y0;
 };
@@ -140,7 +140,7 @@ static bool render_samples(const struct job *j, int x, int y, int pixel_count,
 
     for (; done < r->count && !cancel_requested(j->cancel); done += n) {
         n = u32_min(r->count - done, SAMPLE_STREAM);
-        b->kernel->samples(&b->world.world, r->ids + done, n, r->samples + done,
+        b->kernel->samples(&b->world, r->ids + done, n, r->samples + done,
                            r->surfaces + done, NULL);
     }
     if (j->pass.light != NULL && j->pass.light->pixel_count > 0)
@@ -187,7 +187,7 @@ static void render_block(void *context, uint32_t item, int worker)
 }
 
 static bool cpu_load(struct backend *base, struct host_world *host,
-                     const struct world *world, struct error *err)
+                     struct world *world, struct error *err)
 {
     if (!world_ensure_tree(host, world, base->pool, err))
         return false;
@@ -207,8 +207,7 @@ static bool cpu_begin(struct backend *base, const struct backend_picture *p,
 
     (void)err;
     b->kernel = cpu_kernel_fit(b->full_kernel, p->world->settings.features);
-    b->world.world = *p->world;
-    b->world.tree = world_tree(p->host);
+    b->world = *p->world;
     b->film = p->film;
     b->x0 = p->x0;
     b->y0 = p->y0;
@@ -224,8 +223,8 @@ static enum pass_result cpu_pass(struct backend *base, const struct pass *pass,
 
     (void)err;
     if (pass->light != NULL) {
-        b->world.world.light_grids = pass->light->grids;
-        b->world.world.light_cells = pass->light->cells;
+        b->world.light_grids = pass->light->grids;
+        b->world.light_cells = pass->light->cells;
     }
     j.columns = (uint32_t)((b->film->width + side - 1) / side);
     j.count = j.columns * (uint32_t)((b->film->height + side - 1) / side);

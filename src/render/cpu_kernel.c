@@ -13,11 +13,7 @@
 
 #include "render/cpu_kernel.h"
 
-#include "world/bvh/bvh8_traverse.h"
-
-#ifdef __AVX2__
-#define HAS_WIDE_VECTORS 1
-#endif
+#include "world/bvh/ray_queries.h"
 
 #include "render/path_stream.h"
 

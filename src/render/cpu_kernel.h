@@ -13,7 +13,7 @@
 #ifndef GLIM_CPU_KERNEL_H
 #define GLIM_CPU_KERNEL_H
 
-#include "world/bvh/bvh8.h"
+#include "base/error.h"
 #include "kernels/first_surface.h"
 #include "kernels/path_types.h"
 
@@ -21,8 +21,7 @@ struct cpu_kernel {
     const char *name;  /* name of the instruction set */
     uint32_t features; /* features it has, a set of enum feature */
 
-    /* path_samples() of path_stream.h. w must be the member of a struct
-     * bvh8_world. */
+    /* path_samples() of path_stream.h. */
     void (*samples)(const struct world *w, const struct sample_id *places,
                     uint32_t count, struct path_sample *out,
                     struct first_surface *surfaces,

@@ -33,7 +33,6 @@ static bool may_train(const struct backend_picture *picture)
     const struct settings *s = &picture->world->settings;
 
     return s->has_light_cells != 0 && s->max_vertices >= CELL_VERTICES_MIN &&
-           world_tree(picture->host) != NULL &&
            fits_memory(picture->film, RADIANCE_BYTES);
 }
 
@@ -49,7 +48,7 @@ enum pass_result light_block_decide(struct light_block *b,
         return PASS_DONE;
     b->choice = (struct light_choice){.paths = 0};
     if (picture->host->light_paths.sources != NULL &&
-        world_tree(picture->host) != NULL && fits_memory(picture->film, 0)) {
+        fits_memory(picture->film, 0)) {
         if (b->pilot == NULL)
             b->pilot = light_pilot_begin(picture);
         if (b->pilot == NULL)
@@ -157,8 +156,8 @@ static enum pass_result trace_paths(struct light_block *b,
                                     const struct cancel *cancel,
                                     uint64_t *count)
 {
-    struct bvh8_world w = {*p->world, world_tree(p->host)};
-    const struct camera *c = &w.world.settings.camera;
+    struct world w = *p->world;
+    const struct camera *c = &w.settings.camera;
     uint64_t first = paths_before(b, c, samples.begin);
     struct light_film film = {&b->image,
                               b->choice.has_cells ? &b->cells : NULL};
@@ -190,15 +189,15 @@ static bool train(struct light_block *b, const struct backend_picture *p,
                   struct range samples, struct pool *pool,
                   const struct cancel *cancel)
 {
-    struct bvh8_world w = {*p->world, world_tree(p->host)};
-    const struct camera *c = &w.world.settings.camera;
+    struct world w = *p->world;
+    const struct camera *c = &w.settings.camera;
     uint64_t first = radiance_training_before(c, samples.begin);
     uint64_t end = radiance_training_before(c, samples.end);
 
     if (!is_trained(c, samples))
         return true;
     if (b->choice.paths > 0)
-        w.world = light_pilot_world(p->world, NULL);
+        w = light_pilot_world(p->world, NULL);
     return radiance_training_run(&b->cells, &w, first, (uint32_t)(end - first),
                                  pool, cancel);
 }

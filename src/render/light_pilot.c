@@ -51,7 +51,7 @@ enum { WORLD_ALONE, WORLD_BESIDE, WORLD_CELLS, PILOT_WORLDS };
 
 struct light_pilot {
     const struct cpu_kernel *kernel;
-    struct bvh8_world worlds[PILOT_WORLDS];
+    struct world worlds[PILOT_WORLDS];
     struct light_cells cells, none;
     struct light_image image;
     const struct light_paths *paths;
@@ -76,7 +76,7 @@ static void pilot_pixel(void *context, uint32_t pixel, int worker)
         ids[i] =
             (struct sample_id){pixel % PILOT_WIDTH, pixel / PILOT_WIDTH, i};
     for (int i = 0; i < worlds * PILOT_SPP; i += SAMPLE_BLOCK)
-        p->kernel->samples(&p->worlds[i / PILOT_SPP].world, ids + i % PILOT_SPP,
+        p->kernel->samples(&p->worlds[i / PILOT_SPP], ids + i % PILOT_SPP,
                            SAMPLE_BLOCK, samples[i / PILOT_SPP] + i % PILOT_SPP,
                            surfaces, NULL);
     for (uint32_t i = 0; i < PILOT_SPP; i++) {
@@ -216,8 +216,8 @@ void light_pilot_free(struct light_pilot *p)
 struct light_pilot *light_pilot_begin(const struct backend_picture *picture)
 {
     struct light_pilot *p = alloc_array(1, sizeof *p);
-    struct bvh8_world w = {*picture->world, world_tree(picture->host)};
-    struct camera *c = &w.world.settings.camera;
+    struct world w = *picture->world;
+    struct camera *c = &w.settings.camera;
 
     if (p == NULL)
         return NULL;
@@ -229,8 +229,8 @@ struct light_pilot *light_pilot_begin(const struct backend_picture *picture)
     for (int i = 0; i < PILOT_WORLDS; i++)
         p->worlds[i] = w;
     p->paths = &picture->host->light_paths;
-    p->has_cells = w.world.settings.has_light_cells != 0 &&
-                   w.world.settings.max_vertices >= CELL_VERTICES_MIN;
+    p->has_cells = w.settings.has_light_cells != 0 &&
+                   w.settings.max_vertices >= CELL_VERTICES_MIN;
     return p;
 }
 
@@ -238,31 +238,31 @@ struct light_pilot *light_pilot_begin(const struct backend_picture *picture)
 static enum pass_result pilot_light(struct light_pilot *p, struct pool *pool,
                                     const struct cancel *cancel)
 {
-    const struct bvh8_world *w = &p->worlds[WORLD_ALONE];
+    const struct world *w = &p->worlds[WORLD_ALONE];
     struct light_film film = {&p->image, p->has_cells ? &p->cells : NULL};
 
     light_image_clear(&p->image);
-    if (!light_cells_begin(&p->none, &w->world, 0, 1, pool) ||
-        !light_cells_begin(&p->cells, &w->world, 0, 1, pool))
+    if (!light_cells_begin(&p->none, w, 0, 1, pool) ||
+        !light_cells_begin(&p->cells, w, 0, 1, pool))
         return PASS_FAILED;
     if (!light_paths_trace(p->paths, w, 0, PILOT_PATHS, pool, cancel, film))
         return PASS_CANCELLED;
     if (!light_cells_end(&p->none, PILOT_PATHS, pool, cancel) ||
         !light_cells_end(&p->cells, PILOT_PATHS, pool, cancel))
         return cancel_requested(cancel) ? PASS_CANCELLED : PASS_FAILED;
-    p->worlds[WORLD_BESIDE].world =
-        light_pilot_world(&w->world, p->has_cells ? &p->none : NULL);
-    p->worlds[WORLD_CELLS].world =
-        light_pilot_world(&w->world, p->has_cells ? &p->cells : NULL);
+    p->worlds[WORLD_BESIDE] =
+        light_pilot_world(w, p->has_cells ? &p->none : NULL);
+    p->worlds[WORLD_CELLS] =
+        light_pilot_world(w, p->has_cells ? &p->cells : NULL);
     p->kernel = cpu_kernel_fit(cpu_kernel_best(),
-                               p->worlds[WORLD_CELLS].world.settings.features);
+                               p->worlds[WORLD_CELLS].settings.features);
     p->has_paths = true;
     return PASS_DONE;
 }
 
 static struct light_choice choice_of(const struct light_pilot *p)
 {
-    const struct world *w = &p->worlds[WORLD_ALONE].world;
+    const struct world *w = &p->worlds[WORLD_ALONE];
     float means[6 * PILOT_PIXELS];
     struct light_choice choice = {.has_cells = p->has_cells && cells_help(p)};
 

@@ -19,7 +19,7 @@
 struct training {
     struct light_cells *cells;
     const struct cpu_kernel *kernel;
-    struct bvh8_world world;
+    struct world world;
     uint64_t first;
     uint32_t count;
 };
@@ -56,7 +56,7 @@ static struct sample_id path_id(const struct settings *s, uint64_t number)
 static void train(void *context, uint32_t block, int worker)
 {
     const struct training *t = context;
-    const struct world *w = &t->world.world;
+    const struct world *w = &t->world;
     struct sample_id ids[SAMPLE_BLOCK] = {{0, 0, 0}};
     struct path_sample samples[SAMPLE_BLOCK];
     struct first_surface surfaces[SAMPLE_BLOCK];
@@ -72,23 +72,21 @@ static void train(void *context, uint32_t block, int worker)
                              &estimates[i]);
 }
 
-bool radiance_training_run(struct light_cells *cells,
-                           const struct bvh8_world *world, uint64_t first,
-                           uint32_t count, struct pool *pool,
+bool radiance_training_run(struct light_cells *cells, const struct world *world,
+                           uint64_t first, uint32_t count, struct pool *pool,
                            const struct cancel *cancel)
 {
     struct training t = {
         .cells = cells,
-        .kernel =
-            cpu_kernel_fit(cpu_kernel_best(), world->world.settings.features |
-                                                  FEATURE_RADIANCE_CELLS),
+        .kernel = cpu_kernel_fit(cpu_kernel_best(), world->settings.features |
+                                                        FEATURE_RADIANCE_CELLS),
         .world = *world,
         .first = first,
         .count = count,
     };
 
-    radiance_training_lend(&t.world.world, cells);
-    t.world.world.settings.has_light_cells = 0;
+    radiance_training_lend(&t.world, cells);
+    t.world.settings.has_light_cells = 0;
     return pool_run(pool, (count + SAMPLE_BLOCK - 1) / SAMPLE_BLOCK, train, &t,
                     cancel);
 }
@@ -107,7 +105,7 @@ bool radiance_training_run(struct light_cells *cells,
 
 struct pilot {
     const struct cpu_kernel *kernel;
-    struct bvh8_world without, with;
+    struct world without, with;
     uint64_t rays[PILOT_PIXELS][2];
 };
 
@@ -122,10 +120,9 @@ static void pilot_pixel(void *context, uint32_t pixel, int worker)
     for (uint32_t i = 0; i < SAMPLE_BLOCK; i++)
         ids[i] =
             (struct sample_id){pixel % PILOT_WIDTH, pixel / PILOT_WIDTH, i};
-    p->kernel->samples(&p->without.world, ids, SAMPLE_BLOCK, samples[0],
-                       surfaces, NULL);
-    p->kernel->samples(&p->with.world, ids, SAMPLE_BLOCK, samples[1], surfaces,
+    p->kernel->samples(&p->without, ids, SAMPLE_BLOCK, samples[0], surfaces,
                        NULL);
+    p->kernel->samples(&p->with, ids, SAMPLE_BLOCK, samples[1], surfaces, NULL);
     for (int k = 0; k < 2; k++) {
         p->rays[pixel][k] = 0;
         for (int i = 0; i < SAMPLE_BLOCK; i++)
@@ -135,16 +132,16 @@ static void pilot_pixel(void *context, uint32_t pixel, int worker)
 
 /* Returns the world of the pilot, without radiance cells, and with light cells
  * that are empty. */
-static struct bvh8_world pilot_world(const struct backend_picture *picture,
-                                     bool has_light_paths,
-                                     const struct light_cells *cells)
+static struct world pilot_world(const struct backend_picture *picture,
+                                bool has_light_paths,
+                                const struct light_cells *cells)
 {
-    struct bvh8_world w = {*picture->world, world_tree(picture->host)};
-    struct camera *c = &w.world.settings.camera;
+    struct world w = *picture->world;
+    struct camera *c = &w.settings.camera;
 
     *c = light_pilot_camera(c);
     if (has_light_paths)
-        w.world = light_pilot_world(&w.world, cells);
+        w = light_pilot_world(&w, cells);
     return w;
 }
 
@@ -152,18 +149,17 @@ static enum pass_result pilot_run(struct pilot *p, struct light_cells *cells,
                                   struct pool *pool,
                                   const struct cancel *cancel)
 {
-    if (!light_cells_begin(cells, &p->without.world, 0, PILOT_WIDER, pool))
+    if (!light_cells_begin(cells, &p->without, 0, PILOT_WIDER, pool))
         return PASS_FAILED;
     if (!radiance_training_run(cells, &p->without, 0, PILOT_TRAINING, pool,
                                cancel))
         return PASS_CANCELLED;
     if (!light_cells_end(cells, 1, pool, cancel))
         return cancel_requested(cancel) ? PASS_CANCELLED : PASS_FAILED;
-    p->without.world.light_cells = cells->cells;
+    p->without.light_cells = cells->cells;
     p->with = p->without;
-    radiance_training_lend(&p->with.world, cells);
-    p->kernel =
-        cpu_kernel_fit(cpu_kernel_best(), p->with.world.settings.features);
+    radiance_training_lend(&p->with, cells);
+    p->kernel = cpu_kernel_fit(cpu_kernel_best(), p->with.settings.features);
     return pool_run(pool, PILOT_PIXELS, pilot_pixel, p, cancel)
                ? PASS_DONE
                : PASS_CANCELLED;

@@ -28,9 +28,8 @@ void radiance_training_lend(struct world *world,
 
 /* Adds the estimates of paths to the radiance cells of both halves. Returns
  * false after a cancel. */
-bool radiance_training_run(struct light_cells *cells,
-                           const struct bvh8_world *world, uint64_t first,
-                           uint32_t count, struct pool *pool,
+bool radiance_training_run(struct light_cells *cells, const struct world *world,
+                           uint64_t first, uint32_t count, struct pool *pool,
                            const struct cancel *cancel);
 
 /* Finds whether radiance cells save rays in a picture, by a few samples of a

@@ -72,7 +72,6 @@ struct engine_options options_engine(const struct options *o)
         .is_adaptive = options_adaptive(o),
         .is_exact = o->gi == GI_EXACT,
         .wants_filter = o->denoise,
-        .drops_tree = o->batch,
         .kernel = o->paths,
         .device = {.program = "/proc/self/exe",
                    .device = o->device,

@@ -108,14 +108,12 @@ void editor_panel_outline(struct editor_panel *p, const struct camera *camera,
     const struct session *s = p->control->session;
     struct outline_choice choice = {p->selection.page == PAGE_OBJECTS,
                                     p->selection.index[p->selection.page]};
-    struct bvh8_world w = {.world =
-                               world_arrays(&s->engine.world, &s->engine.scene),
-                           .tree = world_tree(&s->engine.world)};
+    struct world w = world_arrays(&s->engine.world, &s->engine.scene);
 
-    if (!p->is_open || p->is_in_parameters || w.tree == NULL ||
+    if (!p->is_open || p->is_in_parameters || w.nodes == NULL ||
         p->control->progress.spp_done == 0 || !selection_has_one(&p->selection))
         return;
-    w.world.settings.camera = *camera;
+    w.settings.camera = *camera;
     outline_find(&p->outline, &w, &s->engine.scene,
                  s->engine.world.versions[WORLD_TRIS], choice, frame);
     outline_draw(&p->outline, frame);

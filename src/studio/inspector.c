@@ -35,8 +35,7 @@ static void draw_over(struct inspector *inspector, struct frame *frame)
         return;
     camera = view_mode_camera(&inspector->view_mode, &w.settings.camera, frame);
     if (inspector->drawing == INSPECTOR_BOXES)
-        overlay_boxes(frame, &camera, &inspector->view_mode.bvh,
-                      inspector->level);
+        overlay_boxes(frame, &camera, &w, inspector->level);
     else if (inspector->drawing == INSPECTOR_LOBES && inspector->is_surface)
         overlay_lobes(frame, &camera, &inspector->lobes);
     else if (draws_path(inspector))
@@ -105,15 +104,16 @@ static void say_boxes(struct inspector *inspector)
 {
     struct frame nothing = {0};
     struct camera any = {0};
+    struct world w;
+    uint32_t boxes;
 
-    uint32_t nodes = overlay_boxes(&nothing, &any, &inspector->view_mode.bvh,
-                                   inspector->level);
-
+    if (!view_mode_world(&inspector->view_mode, &w))
+        return;
+    boxes = overlay_boxes(&nothing, &any, &w, inspector->level);
     live_render_say_long(
         inspector->control,
-        "boxes of level %u of %u: %u node%s; %s %s go up and down",
-        inspector->level, inspector->view_mode.bvh.depth, nodes,
-        print_plural(nodes),
+        "boxes of level %u of %u: %u box%s; %s %s go up and down",
+        inspector->level + 1, overlay_levels(&w), boxes, boxes == 1 ? "" : "es",
         live_render_key(inspector->control, ACTION_LESS).text,
         live_render_key(inspector->control, ACTION_MORE).text);
 }
@@ -195,12 +195,13 @@ static void say_drawing(struct inspector *inspector)
 void inspector_next_drawing(struct inspector *inspector)
 {
     struct error err;
+    struct world w;
 
     inspector->drawing =
         (enum inspector_drawing)((inspector->drawing + 1) % INSPECTOR_DRAWINGS);
     live_render_clear_message(inspector->control);
     if (inspector->drawing != INSPECTOR_NOTHING &&
-        !view_mode_need_tree(&inspector->view_mode, &err)) {
+        !view_mode_traced(&inspector->view_mode, &w, &err)) {
         inspector->drawing = INSPECTOR_NOTHING;
         live_render_say_error(inspector->control, err.text);
     }
@@ -211,8 +212,12 @@ void inspector_next_drawing(struct inspector *inspector)
 
 static void change_level(struct inspector *inspector, int by)
 {
+    struct world w;
+
+    if (!view_mode_world(&inspector->view_mode, &w))
+        return;
     if (by < 0 ? inspector->level > 0
-               : inspector->level < inspector->view_mode.bvh.depth)
+               : inspector->level + 1 < overlay_levels(&w))
         inspector->level += (uint32_t)by;
     say_boxes(inspector);
 }

@@ -5,6 +5,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stddef.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -258,7 +259,8 @@ const struct instance *world_instances(const struct host_world *host,
 struct world world_arrays(const struct host_world *host,
                           const struct scene *scene)
 {
-    return (struct world){
+    const struct bvh8 *tree = world_tree(host);
+    struct world w = {
         .positions = scene->positions,
         .normals = scene->normals,
         .uvs = scene->uvs,
@@ -297,6 +299,10 @@ struct world world_arrays(const struct host_world *host,
                 .directional_light_count = host->directional_light_count,
             },
     };
+
+    if (tree != NULL)
+        bvh8_lend(tree, &w);
+    return w;
 }
 
 uint32_t world_features(const struct host_world *host)
@@ -341,15 +347,20 @@ struct pool *world_pool(const struct host_world *host)
                                   : NULL;
 }
 
-bool world_ensure_tree(struct host_world *host, const struct world *world,
+bool world_ensure_tree(struct host_world *host, struct world *world,
                        struct pool *pool, struct error *err)
 {
-    if (atomic_load(&host->has_tree))
-        return true;
-    if (!bvh8_build(&host->tree, world, pool, err))
-        return false;
-    atomic_store(&host->has_tree, true);
-    return true;
+    static pthread_mutex_t building = PTHREAD_MUTEX_INITIALIZER;
+    bool ok;
+
+    pthread_mutex_lock(&building);
+    ok = world_tree(host) != NULL || bvh8_build(&host->tree, world, pool, err);
+    if (ok)
+        atomic_store(&host->has_tree, true);
+    pthread_mutex_unlock(&building);
+    if (ok)
+        bvh8_lend(&host->tree, world);
+    return ok;
 }
 
 const struct bvh8 *world_tree(const struct host_world *host)
@@ -398,13 +409,13 @@ static struct sky make_sky(const struct host_world *host,
     return sky;
 }
 
-static bool aim_light_paths(struct host_world *host, struct bvh8_world w,
+static bool aim_light_paths(struct host_world *host, struct world w,
                             struct error *err)
 {
     struct pool *pool = world_pool(host);
-    bool ok = world_ensure_tree(host, &w.world, pool, err);
+    bool ok = world_ensure_tree(host, &w, pool, err);
 
-    sky_table_lend(&host->sky_table, &w.world);
+    sky_table_lend(&host->sky_table, &w);
     if (ok)
         light_paths_aim(&host->light_paths, &w, pool);
     pool_destroy(pool);
@@ -413,9 +424,8 @@ static bool aim_light_paths(struct host_world *host, struct bvh8_world w,
 
 /* Builds the tables of light paths unless they are current. Versions grow, so
  * that equal sums have equal parts. */
-static bool find_light_paths(struct host_world *host,
-                             const struct bvh8_world *w, double sky_mean,
-                             struct error *err)
+static bool find_light_paths(struct host_world *host, const struct world *w,
+                             double sky_mean, struct error *err)
 {
     uint64_t version =
         host->versions[WORLD_SHAPE] + host->versions[WORLD_TRIS] +
@@ -426,8 +436,7 @@ static bool find_light_paths(struct host_world *host,
         host->light_paths_sky == sky_mean)
         return true;
     light_paths_free(&host->light_paths);
-    if (!light_paths_build(&host->light_paths, &w->world, &host->lights,
-                           sky_mean))
+    if (!light_paths_build(&host->light_paths, w, &host->lights, sky_mean))
         return fail(err, "out of memory for light paths");
     if (host->light_paths.sources != NULL && !aim_light_paths(host, *w, err))
         return false;
@@ -439,26 +448,25 @@ static bool find_light_paths(struct host_world *host,
 bool world_guide(struct host_world *host, const struct scene *scene,
                  const struct view *view, struct error *err)
 {
-    struct bvh8_world w = {.world = world_arrays(host, scene),
-                           .tree = &host->tree};
+    struct world w = world_arrays(host, scene);
     struct path_guide *guide = &host->guide;
     double sky;
     bool had_table = path_guide_has_tables(guide);
     struct pool *pool = NULL;
     bool ok = true;
 
-    w.world.settings.sky = make_sky(host, view);
-    sky = color_mean(w.world.settings.sky.color);
-    lights_lend(&host->lights, &w.world);
+    w.settings.sky = make_sky(host, view);
+    sky = color_mean(w.settings.sky.color);
+    lights_lend(&host->lights, &w);
     if (host->sky_texels != NULL)
         sky *= host->sky_table.mean;
     if (!find_light_paths(host, &w, sky, err))
         return false;
     if (path_guide_is_current(guide, sky))
         return true;
-    if (path_guide_needs_rays(guide, &w.world, sky)) {
+    if (path_guide_needs_rays(guide, &w, sky)) {
         pool = world_pool(host);
-        ok = world_ensure_tree(host, &w.world, pool, err);
+        ok = world_ensure_tree(host, &w, pool, err);
     }
     ok = ok && path_guide_update(guide, &w, &host->lights, sky, pool, err);
     pool_destroy(pool);

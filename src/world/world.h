@@ -137,9 +137,10 @@ bool world_guide(struct host_world *host, const struct scene *scene,
  * trees then use the caller's thread. The caller destroys the pool. */
 struct pool *world_pool(const struct host_world *host);
 
-/* Builds the tree if there is none yet. `world` is lent from `host`. With pool
- * NULL the caller's thread builds. */
-bool world_ensure_tree(struct host_world *host, const struct world *world,
+/* Builds the tree if there is none yet, and lends it to `world`, which is lent
+ * from `host`. With pool NULL the caller's thread builds. Callable from any
+ * thread. */
+bool world_ensure_tree(struct host_world *host, struct world *world,
                        struct pool *pool, struct error *err);
 
 /* Returns the tree, or NULL if it has not been built. Callable from any
@@ -169,12 +170,13 @@ const struct tri *world_tris(const struct host_world *host,
 const struct instance *world_instances(const struct host_world *host,
                                        const struct scene *scene);
 
-/* Returns a world with the arrays and counts that do not depend on the view. */
+/* Returns a world with the arrays and counts that do not depend on the view,
+ * and the tree if it has been built. */
 struct world world_arrays(const struct host_world *host,
                           const struct scene *scene);
 
-/* Fills *world for a view, except nodes and leaf_tris. Returns false for an
- * impossible camera. */
+/* Fills *world for a view: world_arrays(), camera, sky and settings. Returns
+ * false for an impossible camera. */
 bool world_lend(const struct host_world *host, const struct scene *scene,
                 const struct view *view, uint32_t seed, struct world *world,
                 struct error *err);
@@ -190,9 +192,9 @@ void world_free(struct host_world *host);
 /* ---- the list of arrays ---- */
 
 /* The arrays in the order of the struct, with their lengths for a world *w and
- * its settings *s. `nodes` and `leaf_tris` belong to the backend, which knows
- * their lengths, `light_grids` and `light_cells` to a pass. The table of the
- * sky has its whole length, even if the view does not use it. */
+ * its settings *s. Those of the tree, `nodes` and `roots`, have the lengths
+ * that struct bvh8 says, `light_grids` and `light_cells` those of a pass. The
+ * table of the sky has its whole length, even if the view does not use it. */
 #define WORLD_LIST(X)                                                   \
     X(positions, s->position_count, WORLD_FIXED)                        \
     X(normals, s->normal_count, WORLD_FIXED)                            \
@@ -209,7 +211,7 @@ void world_free(struct host_world *host);
     X(linear_of_srgb, 256, WORLD_FIXED)                                 \
     X(sky_texels, (size_t)s->sky.width * s->sky.height, WORLD_SKY)      \
     X(nodes, 0, WORLD_SHAPE)                                            \
-    X(leaf_tris, 0, WORLD_SHAPE)                                        \
+    X(roots, 0, WORLD_SHAPE)                                            \
     X(lights, s->light_count, WORLD_LIGHTS)                             \
     X(tri_lights, s->light_count > 0 ? s->tri_count : 0, WORLD_LIGHTS)  \
     X(light_nodes, s->light_node_count, WORLD_LIGHTS)                   \

@@ -12,7 +12,7 @@
 #include "world/light/lights.h"
 #include "world/light/sky_table.h"
 #include "kernels/path_lights.h"
-#include "kernels/traverse.h"
+#include "world/bvh/ray_queries.h"
 
 /* Roulette of the paths in this program: glim's, a plain one from the first
  * vertex on, or none. */

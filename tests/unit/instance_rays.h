@@ -25,8 +25,7 @@
 struct instance_test {
     struct scene scene;
     struct host_world host;
-    struct bvh bvh;
-    struct bvh8_world w;
+    struct world w;
     struct world copies;
     struct vec3 *positions, *normals;
     struct tri *tris;
@@ -67,7 +66,7 @@ static inline void make_copies(struct instance_test *t)
     t->normals = calloc(3 * (size_t)count, sizeof *t->normals);
     assert_true(t->positions != NULL && t->tris != NULL && t->normals != NULL);
     for (uint32_t i = 0; i < count; i++) {
-        struct placed_tri placed = tri_placed(&t->w.world, i);
+        struct placed_tri placed = tri_placed(&t->w, i);
 
         t->tris[i] = placed.t;
         for (uint32_t k = 0; k < 3; k++) {
@@ -75,12 +74,12 @@ static inline void make_copies(struct instance_test *t)
             t->tris[i].v[k] = 3 * i + k;
             if (placed.t.vn[k] == NO_INDEX)
                 continue;
-            t->normals[3 * i + k] = normal_at(&t->w.world, placed.t.vn[k],
-                                              instance_of(&t->w.world, i));
+            t->normals[3 * i + k] =
+                normal_at(&t->w, placed.t.vn[k], instance_of(&t->w, i));
             t->tris[i].vn[k] = 3 * i + k;
         }
     }
-    t->copies = t->w.world;
+    t->copies = t->w;
     t->copies.positions = t->positions;
     t->copies.normals = t->normals;
     t->copies.tris = t->tris;
@@ -104,15 +103,10 @@ static inline void instance_test_finish(struct instance_test *t)
     view.height_px = 240;
     check_or_say(scene_finish(&t->scene, &report, &err) &&
                      world_init(&t->host, &t->scene, 1, &report, &err) &&
-                     world_lend(&t->host, &t->scene, &view, 1, &t->w.world,
-                                &err) &&
-                     bvh_build(&t->bvh, &t->w.world, NULL, &err) &&
-                     world_ensure_tree(&t->host, &t->w.world, NULL, &err),
+                     world_lend(&t->host, &t->scene, &view, 1, &t->w, &err) &&
+                     world_ensure_tree(&t->host, &t->w, NULL, &err),
                  err.text);
     assert_true(t->scene.placed_count > 0);
-    t->w.world.nodes = t->bvh.nodes;
-    t->w.world.leaf_tris = t->bvh.leaf_tris;
-    t->w.tree = world_tree(&t->host);
     make_copies(t);
     view_free(&view);
     warnings_free(&report);
@@ -120,7 +114,6 @@ static inline void instance_test_finish(struct instance_test *t)
 
 static inline void instance_test_free(struct instance_test *t)
 {
-    bvh_free(&t->bvh);
     world_free(&t->host);
     scene_free(&t->scene);
     free(t->positions);
@@ -180,18 +173,18 @@ static inline void check_ray(const struct instance_test *t, struct ray r,
     struct hit want, got;
 
     hit_of_copies(t, r, &want);
-    hit_closest(&t->w.world, r, &got);
+    hit_closest(&t->w, r, &got);
     assert_memory_equal(&got, &want, sizeof want);
-    assert_true(hit_any(&t->w.world, r, NO_INDEX) == (want.tri != NO_INDEX));
+    assert_true(hit_any(&t->w, r, NO_INDEX) == (want.tri != NO_INDEX));
     if (want.tri == NO_INDEX)
         return;
     ++*hits;
     r.t_max = want.t;
-    assert_true(hit_closest(&t->w.world, r, &got) && got.tri == want.tri);
-    assert_true(hit_any(&t->w.world, r, NO_INDEX));
-    assert_false(hit_any(&t->w.world, r, want.tri));
+    assert_true(hit_closest(&t->w, r, &got) && got.tri == want.tri);
+    assert_true(hit_any(&t->w, r, NO_INDEX));
+    assert_false(hit_any(&t->w, r, want.tri));
     r.t_max = nextafterf(want.t, 0.0f);
-    assert_false(hit_any(&t->w.world, r, NO_INDEX));
+    assert_false(hit_any(&t->w, r, NO_INDEX));
 }
 
 static inline void check_group(const struct instance_test *t, struct ray first,
@@ -204,7 +197,7 @@ static inline void check_group(const struct instance_test *t, struct ray first,
         rays[k] = first;
         rays[k].d = v3_unit(v3_add(first.d, random_point(seed, 2e-3f)));
     }
-    hits_closest(&t->w.world, rays, GROUP, got);
+    hits_closest(&t->w, rays, GROUP, got);
     for (uint32_t k = 0; k < GROUP; k++) {
         hit_of_copies(t, rays[k], &want);
         assert_memory_equal(&got[k], &want, sizeof want);
@@ -344,8 +337,8 @@ static void rays_that_are_no_numbers_miss_instances(void **state)
         struct hit h;
 
         (i < 9 ? &r.o.x : &r.d.x)[i % 3] = wrong[i / 3 % 3];
-        assert_false(hit_closest(&t.w.world, r, &h));
-        assert_false(hit_any(&t.w.world, r, NO_INDEX));
+        assert_false(hit_closest(&t.w, r, &h));
+        assert_false(hit_any(&t.w, r, NO_INDEX));
     }
     instance_test_free(&t);
     free(faces);

@@ -17,7 +17,7 @@
 #include "tests/unit/files.h"
 #include "world/world.h"
 
-#include "kernels/traverse.h"
+#include "world/bvh/ray_queries.h"
 
 #include "kernels/path.h"
 

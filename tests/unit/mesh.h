@@ -3,7 +3,7 @@
  * mesh.h - small worlds made by tests
  *
  * Units:     normalised scene units
- * Ownership: mesh_free() frees the arrays and the trees
+ * Ownership: mesh_free() frees the arrays and the tree
  * Threads:   one
  * Errors:    a test ends when memory is out
  */
@@ -23,13 +23,9 @@ struct mesh {
     struct tri *tris;
     uint32_t tri_count;
     struct material materials[MESH_MATERIALS];
-    struct bvh bvh;
-    struct bvh8 wide;
+    struct bvh8 tree;
     struct host_world host; /* for backends; it owns this tree */
-    union {
-        struct world world;
-        struct bvh8_world wide_world; /* for the queries of bvh8_traverse.h */
-    };
+    struct world world;
 };
 
 static inline void mesh_add(struct mesh *m, struct vec3 a, struct vec3 b,
@@ -127,7 +123,7 @@ static inline void mesh_set_normals(struct mesh *m)
                         m->positions[t->v[2]], &t->ng);
 }
 
-/* Builds the trees and the world; the camera and the sky stay the caller's. */
+/* Builds the tree and the world; the camera and the sky stay the caller's. */
 static inline void mesh_finish(struct mesh *m)
 {
     struct error err;
@@ -142,19 +138,15 @@ static inline void mesh_finish(struct mesh *m)
     w->materials = m->materials;
     if (w->settings.max_vertices == 0)
         w->settings.max_vertices = PATH_HARD_STOP;
-    assert_true(bvh_build(&m->bvh, w, NULL, &err));
-    w->nodes = m->bvh.nodes;
-    w->leaf_tris = m->bvh.leaf_tris;
-    assert_true(bvh8_build(&m->wide, w, NULL, &err));
-    m->wide_world.tree = &m->wide;
-    m->host = (struct host_world){.tree = m->wide, .has_tree = true};
+    assert_true(bvh8_build(&m->tree, w, NULL, &err));
+    bvh8_lend(&m->tree, w);
+    m->host = (struct host_world){.tree = m->tree, .has_tree = true};
     world_renew(&m->host, WORLD_SHAPE);
 }
 
 static inline void mesh_free(struct mesh *m)
 {
-    bvh_free(&m->bvh);
-    bvh8_free(&m->wide);
+    bvh8_free(&m->tree);
     free(m->positions);
     free(m->tris);
 }

@@ -3,14 +3,14 @@
  * paths.h - the functions of kernels/path.h and of path_stream.h for tests,
  * compiled once
  *
- * Rays are traced through the binary tree. The instruction set is the host's.
+ * The instruction set is the host's.
  *
  * Units and errors as in kernels/path.h.
  */
 #ifndef TESTS_PATHS_H
 #define TESTS_PATHS_H
 
-#include "kernels/traverse.h"
+#include "world/bvh/ray_queries.h"
 
 #include "kernels/path.h"
 

@@ -414,7 +414,7 @@ static void cluster_ranks_free(struct cluster_ranks *c)
 /* ---- picture ---- */
 
 static bool load(struct backend *base, struct host_world *host,
-                 const struct world *world, struct error *err)
+                 struct world *world, struct error *err)
 {
     struct backend_cluster *c = (struct backend_cluster *)base;
     bool ok = c->ranks.local->load(c->ranks.local, host, world, err);

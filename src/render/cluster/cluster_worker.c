@@ -71,8 +71,10 @@ static bool begin_picture(struct worker *w, const struct rank_order *o,
         return false;
     memcpy(w->host.versions, o->versions, sizeof w->host.versions);
     w->error.text[0] = '\0';
-    if (b->shape == shape)
+    if (b->shape == shape) {
+        bvh8_lend(world_tree(&w->host), &w->world);
         return true;
+    }
     world_drop_tree(&w->host);
     b->shape = b->load(b, &w->host, &w->world, &w->error) ? shape : 0;
     return true;

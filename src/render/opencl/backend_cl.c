@@ -21,7 +21,6 @@
 #include "render/opencl/cl_buffers.h"
 #include "render/opencl/cl_device.h"
 #include "render/opencl/cl_source.h"
-#include "world/bvh/bvh.h"
 #include "kernels/camera.h"
 #include "kernels/features.h"
 
@@ -66,7 +65,6 @@ struct backend_cl {
     pthread_mutex_t lock;
     /* guarded by lock; replaces `special` at the next begin() */
     struct cl_kernels next;
-    struct bvh bvh;
     struct cl_world world;
     cl_mem cancel;
     cl_mem shares; /* of adaptive sampling; NULL: none yet in this picture */
@@ -219,17 +217,17 @@ static bool call_done(struct backend_cl *b, cl_int code, const char *call,
 /* ---- geometry, picture ---- */
 
 static bool cl_load(struct backend *base, struct host_world *host,
-                    const struct world *world, struct error *err)
+                    struct world *world, struct error *err)
 {
     struct backend_cl *b = (struct backend_cl *)base;
-    bool ok;
 
     cl_world_free(&b->world, &b->machine);
     if (base->pool == NULL)
         base->pool = world_pool(host);
-    ok = bvh_build(&b->bvh, world, base->pool, err);
-    base->tree_bytes = bvh_bytes(&b->bvh);
-    return ok;
+    if (!world_ensure_tree(host, world, base->pool, err))
+        return false;
+    base->tree_bytes = bvh8_bytes(world_tree(host));
+    return true;
 }
 
 static void cl_unload(struct backend *base)
@@ -237,7 +235,6 @@ static void cl_unload(struct backend *base)
     struct backend_cl *b = (struct backend_cl *)base;
 
     cl_world_free(&b->world, &b->machine);
-    bvh_free(&b->bvh);
     base->tree_bytes = 0;
 }
 
@@ -297,8 +294,8 @@ static bool cl_begin(struct backend *base, const struct backend_picture *p,
     b->x0 = (uint32_t)p->x0;
     b->y0 = (uint32_t)p->y0;
     b->complete_points = 0;
-    return cl_world_update(&b->world, &b->machine, p, &b->bvh,
-                           &base->upload_count, err) &&
+    return cl_world_update(&b->world, &b->machine, p, &base->upload_count,
+                           err) &&
            cl_film_begin(&b->film, &b->machine, p->film, err) &&
            cl_readback_begin(&b->slots[0].reading, &b->film, err) &&
            cl_readback_begin(&b->slots[1].reading, &b->film, err) &&

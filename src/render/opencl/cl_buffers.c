@@ -17,17 +17,15 @@ static bool upload(cl_mem *buffer, const struct cl_machine *m, const void *data,
 }
 
 bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
-                     const struct backend_picture *p, const struct bvh *bvh,
-                     uint64_t *upload_count, struct error *err)
+                     const struct backend_picture *p, uint64_t *upload_count,
+                     struct error *err)
 {
+    const struct bvh8 *tree = world_tree(p->host);
     struct world_array list[WORLD_LIST_COUNT];
 
     world_list(p->world, list);
-    list[WORLD_LIST_nodes].data = bvh->nodes;
-    list[WORLD_LIST_nodes].size_bytes = bvh->node_count * sizeof *bvh->nodes;
-    list[WORLD_LIST_leaf_tris].data = bvh->leaf_tris;
-    list[WORLD_LIST_leaf_tris].size_bytes =
-        bvh->leaf_tri_count * sizeof *bvh->leaf_tris;
+    list[WORLD_LIST_nodes].size_bytes = tree->size_bytes;
+    list[WORLD_LIST_roots].size_bytes = tree->root_count * sizeof *tree->roots;
     if (!upload(&c->buffers[CL_SETTINGS], m, &p->world->settings,
                 sizeof p->world->settings, false, err))
         return false;

@@ -24,7 +24,6 @@
 #include "film/film.h"
 #include "render/backend.h"
 #include "render/opencl/cl_device.h"
-#include "world/bvh/bvh.h"
 #include "kernels/cl_task.h"
 
 /* ---- world ---- */
@@ -41,11 +40,10 @@ struct cl_world {
 };
 
 /* Uploads the settings, and the arrays whose version differs from the buffer's.
- * Adds their number to *upload_count. `bvh` is the tree of the host's shape. */
+ * Adds their number to *upload_count. The host has its tree. */
 bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
                      const struct backend_picture *picture,
-                     const struct bvh *bvh, uint64_t *upload_count,
-                     struct error *err);
+                     uint64_t *upload_count, struct error *err);
 
 /* Uploads the light cells of a pass. */
 bool cl_world_set_cells(struct cl_world *c, const struct cl_machine *m,

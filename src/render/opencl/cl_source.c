@@ -111,17 +111,28 @@ static bool splice_text(struct splice *s, const char *name, const char *text,
     return ok;
 }
 
+/* Templates are inserted at each inclusion, other files once. */
+static bool is_template(const char *name)
+{
+    static const char ending[] = "_template.h";
+    size_t length = strlen(name), end = sizeof ending - 1;
+
+    return length > end && strcmp(name + length - end, ending) == 0;
+}
+
 static bool splice_file(struct splice *s, const char *from, int line,
                         const char *name, struct error *err)
 {
     struct error reason;
 
-    if (name_table_find(&s->seen, name) != NO_NAME) {
-        putc('\n', s->out);
-        return true;
+    if (!is_template(name)) {
+        if (name_table_find(&s->seen, name) != NO_NAME) {
+            putc('\n', s->out);
+            return true;
+        }
+        if (name_table_add(&s->seen, name) == NO_NAME)
+            return fail(err, "out of memory for the kernels");
     }
-    if (name_table_add(&s->seen, name) == NO_NAME)
-        return fail(err, "out of memory for the kernels");
 
     char *text = read_kernel(s->folder, name, &reason);
     if (!text)

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/geometry.h"
-#include "world/bvh/bvh8_traverse.h"
+#include "world/bvh/ray_queries.h"
 #include "kernels/camera.h"
 #include "kernels/hit.h"
 #include "kernels/instance.h"
@@ -62,23 +62,23 @@ static void set_normal(const struct world *w, struct hit h, const double d[3],
 
 /* Finds the first surface on a ray in normalised units. hit->t is its distance
  * from the ray's origin. */
-static bool first_surface(struct bvh8_world *w, struct ray ray,
+static bool first_surface(struct world *w, struct ray ray,
                           enum surface_glass glass, struct hit *hit)
 {
     float passed = 0;
 
     /* else partial coverage would let rays pass by chance */
-    w->world.settings.features &= ~(uint32_t)FEATURE_COVERAGE;
-    if (w->tree == NULL || !isfinite(ray.o.x + ray.o.y + ray.o.z))
+    w->settings.features &= ~(uint32_t)FEATURE_COVERAGE;
+    if (w->nodes == NULL || !isfinite(ray.o.x + ray.o.y + ray.o.z))
         return false;
     for (int i = 0; i < LAYERS_MAX; i++) {
         float t;
 
-        if (!hit_closest(&w->world, ray, hit))
+        if (!hit_closest(w, ray, hit))
             return false;
         t = hit->t;
         hit->t += passed;
-        if (stops(&w->world, *hit, glass))
+        if (stops(w, *hit, glass))
             return true;
         passed = hit->t;
         ray.o = v3_add(ray.o, v3_scale(ray.d, t));
@@ -92,8 +92,7 @@ bool surfaces_hit(const struct surfaces *s, const double from[3],
                   const double d[3], double most, enum surface_glass glass,
                   struct surface_hit *hit)
 {
-    struct bvh8_world w = {.world = world_arrays(s->host, s->scene),
-                           .tree = world_tree(s->host)};
+    struct world w = world_arrays(s->host, s->scene);
     struct ray ray = {
         .o = scene_point(s->scene, from),
         .d = v3((float)d[0], (float)d[1], (float)d[2]),
@@ -105,7 +104,7 @@ bool surfaces_hit(const struct surfaces *s, const double from[3],
         return false;
     hit->distance = h.t / s->scene->scale;
     hit->object = scene_tri_object(s->scene, h.tri);
-    set_normal(&w.world, h, d, hit->normal);
+    set_normal(&w, h, d, hit->normal);
     return true;
 }
 
@@ -113,22 +112,22 @@ bool surfaces_pick(const struct surfaces *s, const struct view *view,
                    double x_px, double y_px, struct pick *pick)
 {
     const struct scene *scene = s->scene;
-    struct bvh8_world w = {.tree = world_tree(s->host)};
+    struct world w;
     struct vec3 ignored;
     struct error err;
     struct hit h;
 
     if (!(x_px >= 0 && x_px < view->width_px && y_px >= 0 &&
           y_px < view->height_px) ||
-        !world_lend(s->host, scene, view, 0, &w.world, &err))
+        !world_lend(s->host, scene, view, 0, &w, &err))
         return false;
     uint32_t x = (uint32_t)x_px;
     uint32_t y = (uint32_t)y_px;
     struct vec2 offset = {(float)(x_px - x), (float)(y_px - y)};
-    struct ray ray = camera_ray(w.world.settings.camera, x, y, offset);
+    struct ray ray = camera_ray(w.settings.camera, x, y, offset);
     if (!first_surface(&w, ray, SURFACE_GLASS_STOPS, &h))
         return false;
-    struct placed_tri t = tri_placed(&w.world, h.tri);
+    struct placed_tri t = tri_placed(&w, h.tri);
     *pick = (struct pick){
         .tri = h.tri,
         .face = scene->tri_faces[scene_tri_index(scene, h.tri)],

@@ -16,20 +16,12 @@
 
 #include "base/memory.h"
 #include "world/bvh/bvh_reinsert.h"
-#include "world/bvh/instance_trees.h"
 #include "world/bvh/sah_splitter.h"
 #include "kernels/traverse_leaf.h"
 
 /* Largest number of triangles in a subtree: they stay in the cache of a core.
  */
 #define SUBTREE_TRIS_MAX 16384
-
-/* Cost of a triangle's test in visits of a node. Measured: the same from 1 to
- * 2. */
-#define TRIANGLE_COST 1.5f
-
-/* Most triangles of a leaf. */
-#define LEAF_TRIS 8
 
 /* Subtree that one thread builds, or a single node at the top. */
 struct subtree {
@@ -183,8 +175,8 @@ static void join_subtrees(const struct builder *b)
 
         subtree->first_node = bvh->node_count;
         bvh->node_count += subtree->right != 0 ? 1 : subtree->node_count;
-        subtree->first_tri = bvh->leaf_tri_count;
-        bvh->leaf_tri_count += subtree->tri_count;
+        subtree->first_tri = bvh->tri_count;
+        bvh->tri_count += subtree->tri_count;
         if (subtree->first_tri < subtree->range.first) /* copies are dropped */
             memmove(bvh->tris + subtree->first_tri,
                     bvh->tris + subtree->range.first,
@@ -263,147 +255,9 @@ bool bvh_build_nodes(struct bvh *bvh, const struct world *w,
     return true;
 }
 
-static bool build_one(struct bvh *bvh, const struct world *w,
-                      uint32_t leaf_tris, struct pool *pool, struct error *err)
-{
-    const struct bvh_leaves leaves = {0, 0, TRIANGLE_COST, leaf_tris};
-
-    if (!bvh_build_nodes(bvh, w, &leaves, pool, err))
-        return false;
-    bvh->leaf_tris = alloc_aligned(bvh->leaf_tri_count, sizeof *bvh->leaf_tris);
-    if (bvh->leaf_tris == NULL)
-        return fail_for(bvh, w, err);
-    for (uint32_t i = 0; i < bvh->leaf_tri_count; i++) {
-        const struct tri *t = &w->tris[bvh->tris[i]];
-
-        bvh->leaf_tris[i] =
-            (struct leaf_tri){w->positions[t->v[0]], w->positions[t->v[1]],
-                              w->positions[t->v[2]], bvh->tris[i]};
-    }
-    return true;
-}
-
-/* ---- instances ---- */
-
-/* Appends a tree to a joined one, whose arrays are large enough. */
-static void append(struct bvh *to, const struct bvh *from)
-{
-    for (uint32_t i = 0; i < from->node_count; i++) {
-        struct node *n = &to->nodes[to->node_count + i];
-
-        *n = from->nodes[i];
-        n->next += n->count == 0 ? to->node_count : to->leaf_tri_count;
-    }
-    for (uint32_t i = 0; i < from->leaf_tri_count; i++) {
-        to->leaf_tris[to->leaf_tri_count + i] = from->leaf_tris[i];
-        to->tris[to->leaf_tri_count + i] = from->tris[i];
-    }
-    to->node_count += from->node_count;
-    to->leaf_tri_count += from->leaf_tri_count;
-    if (from->depth > to->depth)
-        to->depth = from->depth;
-}
-
-/* Makes the leaves of the first tree, that of the stand-ins, lead to the other
- * trees. */
-static void link_stand_ins(struct bvh *bvh, uint32_t node_count,
-                           const struct world *w, const uint32_t *roots,
-                           uint32_t mesh_count)
-{
-    for (uint32_t i = 0; i < node_count; i++) {
-        struct node *n = &bvh->nodes[i];
-        uint32_t instance;
-
-        if (n->count == 0)
-            continue;
-        instance = bvh->tris[n->next];
-        if (instance < w->settings.instance_count) {
-            n->next = instance;
-            n->count = roots[w->instances[instance].mesh];
-        } else {
-            n->next = NO_INDEX;
-            n->count = roots[mesh_count - 1];
-        }
-    }
-}
-
-/* Joins the tree of the stand-ins, trees[0], and those of the meshes. */
-static bool join_trees(struct bvh *bvh, const struct world *w,
-                       const struct bvh *trees, uint32_t mesh_count)
-{
-    uint32_t *roots = alloc_array(mesh_count, sizeof *roots);
-    size_t nodes = 0, tris = 0;
-
-    for (uint32_t i = 0; i <= mesh_count; i++) {
-        nodes += trees[i].node_count;
-        tris += trees[i].leaf_tri_count;
-    }
-    bvh->nodes =
-        nodes < NO_INDEX ? alloc_aligned(nodes, sizeof *bvh->nodes) : NULL;
-    bvh->tris = alloc_aligned(tris, sizeof *bvh->tris);
-    bvh->leaf_tris = alloc_aligned(tris, sizeof *bvh->leaf_tris);
-    if (roots != NULL && bvh->nodes != NULL && bvh->tris != NULL &&
-        bvh->leaf_tris != NULL) {
-        append(bvh, &trees[0]);
-        for (uint32_t i = 0; i < mesh_count; i++) {
-            roots[i] = bvh->node_count;
-            append(bvh, &trees[1 + i]);
-        }
-        link_stand_ins(bvh, trees[0].node_count, w, roots, mesh_count);
-        free(roots);
-        return true;
-    }
-    free(roots);
-    return false;
-}
-
-static bool build_all(struct bvh *bvh, const struct world *w,
-                      const struct instance_trees *t, struct pool *pool,
-                      struct error *err)
-{
-    struct bvh *trees = alloc_array((size_t)t->mesh_count + 1, sizeof *trees);
-    bool ok = trees != NULL || fail_for(bvh, w, err);
-
-    ok = ok && build_one(&trees[0], &t->stand_ins, 1, pool, err);
-    for (uint32_t i = 0; ok && i < t->mesh_count; i++)
-        ok = build_one(&trees[1 + i], &t->meshes[i], LEAF_TRIS, pool, err);
-    ok = ok &&
-         (join_trees(bvh, w, trees, t->mesh_count) || fail_for(bvh, w, err));
-    for (uint32_t i = 0; trees != NULL && i <= t->mesh_count; i++)
-        bvh_free(&trees[i]);
-    free(trees);
-    return ok;
-}
-
-bool bvh_build(struct bvh *bvh, const struct world *w, struct pool *pool,
-               struct error *err)
-{
-    struct instance_trees trees;
-    bool ok;
-
-    if (w->settings.instance_count == 0)
-        return build_one(bvh, w, LEAF_TRIS, pool, err);
-    bvh_free(bvh);
-    if (!instance_trees_init(&trees, w, pool))
-        return fail_for(bvh, w, err);
-    ok = build_all(bvh, w, &trees, pool, err);
-    instance_trees_free(&trees);
-    return ok;
-}
-
-uint64_t bvh_bytes(const struct bvh *bvh)
-{
-    return bvh->node_count * (uint64_t)sizeof *bvh->nodes +
-           bvh->leaf_tri_count *
-               (uint64_t)(sizeof *bvh->tris + (bvh->leaf_tris != NULL
-                                                   ? sizeof *bvh->leaf_tris
-                                                   : 0));
-}
-
 void bvh_free(struct bvh *bvh)
 {
     free(bvh->nodes);
     free(bvh->tris);
-    free(bvh->leaf_tris);
     memset(bvh, 0, sizeof *bvh);
 }

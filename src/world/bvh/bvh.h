@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * bvh.h - the binary bounding volume hierarchy: binned SAH, stored depth-first
+ * bvh.h - the binary bounding volume hierarchy, of which bvh8.h makes the tree
+ * of eight: binned SAH, stored depth-first
  *
  * Wald, Boulos and Shirley 2007, "Ray tracing deformable scenes using dynamic
  * bounding volume hierarchies"; Wald 2007 (binning); Pharr et al., PBR 4th
@@ -12,7 +13,7 @@
  *
  * Units:     normalised scene units
  * Ownership: bvh_free() frees; a zeroed struct is a tree without triangles
- * Threads:   bvh_build() uses those of its pool; read only after
+ * Threads:   bvh_split() uses those of its pool; read only after
  * Errors:    memory
  */
 #ifndef GLIM_BVH_H
@@ -22,13 +23,20 @@
 #include "base/thread_pool.h"
 #include "kernels/types.h"
 
+/* Nodes are stored depth-first: the left child of node i is node i + 1. */
+struct node {
+    struct vec3 lo;
+    uint32_t next; /* inner node: right child; leaf: its first place in tris */
+    struct vec3 hi;
+    uint32_t count; /* inner node: 0; leaf: triangles */
+};
+
 struct bvh {
     struct node *nodes;
     uint32_t node_count;
-    uint32_t *tris; /* indices of triangles, in the order of the leaves */
-    struct leaf_tri *leaf_tris; /* the same with corners, or NULL */
-    uint32_t leaf_tri_count;    /* copies of triangles may have no leaf */
-    uint32_t depth;             /* greatest depth of a leaf */
+    uint32_t *tris;     /* indices of triangles, in the order of the leaves */
+    uint32_t tri_count; /* copies of triangles may have no leaf */
+    uint32_t depth;     /* greatest depth of a leaf */
 };
 
 /* Parameters of leaves. A block is 1 << block_bits triangles that are tested at
@@ -40,14 +48,8 @@ struct bvh_leaves {
     uint32_t most;       /* most triangles of a leaf */
 };
 
-/* Builds the tree for queries that test one triangle after the other, with
- * leaf_tris; with instances the joined trees of struct node. Without a pool the
- * calling thread builds. */
-bool bvh_build(struct bvh *bvh, const struct world *world, struct pool *pool,
-               struct error *err);
-
-/* Builds a tree by splits from the top down, with such leaves and without
- * leaf_tris. */
+/* Builds a tree by splits from the top down, with such leaves. Without a pool
+ * the calling thread builds. */
 bool bvh_split(struct bvh *bvh, const struct world *world,
                const struct bvh_leaves *leaves, struct pool *pool,
                struct error *err);
@@ -56,8 +58,6 @@ bool bvh_split(struct bvh *bvh, const struct world *world,
 bool bvh_build_nodes(struct bvh *bvh, const struct world *world,
                      const struct bvh_leaves *leaves, struct pool *pool,
                      struct error *err);
-
-uint64_t bvh_bytes(const struct bvh *bvh);
 
 void bvh_free(struct bvh *bvh);
 

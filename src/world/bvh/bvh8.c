@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "world/bvh/instance_trees.h"
@@ -24,7 +25,7 @@ struct bvh8_collapse {
 
 static inline uint32_t bvh8_blocks(uint32_t tri_count)
 {
-    return (tri_count + BLOCK_TRIS - 1) / BLOCK_TRIS;
+    return (tri_count + BVH8_BLOCK_TRIS - 1) / BVH8_BLOCK_TRIS;
 }
 
 /* Largest number of triangles in a subtree that one thread builds. */
@@ -216,9 +217,9 @@ static void bvh8_collapse_free(struct bvh8_collapse *f)
     *f = (struct bvh8_collapse){.costs = NULL};
 }
 
-/* Returns true if the node is to be a leaf. */
 /* ---- choices ---- */
 
+/* Returns true if the node is to be a leaf. */
 static bool bvh8_collapse_leaf(const struct bvh8_collapse *f, uint32_t node)
 {
     return leaf_cost(f, node) <= f->costs[node].costs[0];
@@ -292,8 +293,8 @@ static void sort_children(const struct bvh8_collapse *f, uint32_t *children,
     }
 }
 
-/* Finds the children of a node, in their order. Returns their count. */
-/* Called for a leaf only if that is the root. */
+/* Finds the children of a node, in their order. Returns their count. Called for
+ * a leaf only if that is the root. */
 static uint32_t bvh8_collapse_children(const struct bvh8_collapse *f,
                                        uint32_t node,
                                        uint32_t children[BVH8_CHILDREN])
@@ -446,8 +447,8 @@ static uint32_t fill_leaf(const struct builder *b, uint32_t node,
     uint32_t count = tris_below(b, node);
     uint32_t block_count = bvh8_blocks(count);
 
-    for (uint32_t i = 0; i < block_count * BLOCK_TRIS; i++)
-        fill_tri(b->world, &blocks[i / BLOCK_TRIS], i % BLOCK_TRIS,
+    for (uint32_t i = 0; i < block_count * BVH8_BLOCK_TRIS; i++)
+        fill_tri(b->world, &blocks[i / BVH8_BLOCK_TRIS], i % BVH8_BLOCK_TRIS,
                  i < count ? tris[i] : NO_INDEX);
     return child_at(b->wide, blocks) | BVH8_LEAF | (block_count - 1);
 }
@@ -529,14 +530,20 @@ static void fill_subtree(void *context, uint32_t item, int worker)
 
 /* ---- the whole ---- */
 
-/* Allocates nodes and blocks. Returns NULL if memory is out, or if the tree is
- * too large for the offsets of children. */
-static void *alloc_tree(size_t node_count, size_t block_count)
+/* Allocates nodes and blocks. Returns false if memory is out, or if the tree is
+ * too large for the places of children. */
+static bool alloc_tree(struct bvh8 *wide)
 {
-    size_t size = node_count * sizeof(struct bvh8_node) +
-                  block_count * sizeof(struct tri_block);
+    size_t size = wide->node_count * sizeof *wide->nodes +
+                  wide->block_count * sizeof *wide->blocks;
 
-    return size / BVH8_UNIT < UINT32_MAX / 8 ? alloc_aligned(size, 1) : NULL;
+    if (size / BVH8_UNIT < UINT32_MAX / 8)
+        wide->nodes = alloc_aligned(size, 1);
+    if (wide->nodes == NULL)
+        return false;
+    wide->size_bytes = size;
+    wide->blocks = (void *)(wide->nodes + wide->node_count);
+    return true;
 }
 
 static bool build(struct builder *b, uint32_t leaf_tris, struct pool *pool)
@@ -544,13 +551,9 @@ static bool build(struct builder *b, uint32_t leaf_tris, struct pool *pool)
     struct bvh8 *wide = b->wide;
 
     if (!bvh8_collapse_init(&b->collapse, b->bvh, leaf_tris, pool) ||
-        !collapse_all(b, pool))
+        !collapse_all(b, pool) || !alloc_tree(wide))
         return false;
-    wide->nodes = alloc_tree(wide->node_count, wide->block_count);
-    if (wide->nodes == NULL)
-        return false;
-    wide->blocks = (void *)(wide->nodes + wide->node_count);
-    for (uint32_t i = 0; i < BLOCK_TRIS; i++)
+    for (uint32_t i = 0; i < BVH8_BLOCK_TRIS; i++)
         fill_tri(b->world, &wide->blocks[wide->block_count - 1], i, NO_INDEX);
     pool_each(pool, b->subtree_count + 1, fill_subtree, b);
     return true;
@@ -583,27 +586,78 @@ static bool build_one(struct bvh8 *wide, const struct world *w,
 
     if (!bvh_build_nodes(&bvh, w, leaves, pool, err))
         return false;
-    wide->lacks_copies |= bvh.leaf_tri_count < w->settings.tri_count;
+    wide->lacks_copies = bvh.tri_count < w->settings.tri_count;
     ok = bvh.node_count == 0 || build(&b, leaves->most, pool);
     end(&b);
     bvh_free(&bvh);
     return ok || fail_for(wide, w, err);
 }
 
-static bool build_all(struct bvh8 *wide, const struct instance_trees *t,
-                      struct pool *pool, struct error *err)
+/* ---- instances ---- */
+
+/* Appends a tree to the allocation, which is large enough, and frees it.
+ * Returns where it is, in units. */
+static uint32_t append(struct bvh8 *wide, struct bvh8 *tree)
 {
-    wide->meshes = alloc_array(t->mesh_count, sizeof *wide->meshes);
-    if (wide->meshes == NULL)
-        return fail_for(wide, &t->stand_ins, err);
-    wide->mesh_count = t->mesh_count;
+    size_t at = wide->size_bytes;
+
+    if (tree->size_bytes > 0)
+        memcpy((char *)wide->nodes + at, tree->nodes, tree->size_bytes);
+    wide->size_bytes += tree->size_bytes;
+    wide->lacks_copies |= tree->lacks_copies;
+    bvh8_free(tree);
+    return (uint32_t)(at / BVH8_UNIT);
+}
+
+/* Joins the tree of the stand-ins, which is the last, and those of meshes.
+ * Returns false if memory is out, or if they are too large for roots. */
+static bool join_trees(struct bvh8 *wide, const struct instance_trees *t,
+                       const struct world *w, struct bvh8 *trees)
+{
+    struct bvh8 *stand_ins = &trees[t->mesh_count];
+    uint32_t *places = alloc_array(t->mesh_count, sizeof *places);
+    uint32_t instance_count = w->settings.instance_count;
+    size_t size = 0;
+
+    for (uint32_t i = 0; i <= t->mesh_count; i++)
+        size += trees[i].size_bytes;
+    wide->roots = alloc_array((size_t)instance_count + 1, sizeof *wide->roots);
+    wide->nodes =
+        size / BVH8_UNIT <= UINT32_MAX ? alloc_aligned(size, 1) : NULL;
+    if (places == NULL || wide->roots == NULL || wide->nodes == NULL) {
+        free(places);
+        return false;
+    }
+    wide->root_count = instance_count + 1;
+    wide->node_count = stand_ins->node_count;
+    wide->block_count = stand_ins->block_count;
+    wide->blocks = (void *)(wide->nodes + wide->node_count);
+    append(wide, stand_ins);
     for (uint32_t i = 0; i < t->mesh_count; i++)
-        if (!build_one(&wide->meshes[i], &t->meshes[i], &bvh8_leaves, pool,
-                       err))
-            return false;
-    for (uint32_t i = 0; i < t->mesh_count; i++)
-        wide->lacks_copies |= wide->meshes[i].lacks_copies;
-    return build_one(wide, &t->stand_ins, &stand_in_leaves, pool, err);
+        places[i] = append(wide, &trees[i]);
+    for (uint32_t i = 0; i < instance_count; i++)
+        wide->roots[i] = places[w->instances[i].mesh];
+    wide->roots[instance_count] = places[t->mesh_count - 1];
+    free(places);
+    return true;
+}
+
+static bool build_all(struct bvh8 *wide, const struct instance_trees *t,
+                      const struct world *w, struct pool *pool,
+                      struct error *err)
+{
+    struct bvh8 *trees = alloc_array((size_t)t->mesh_count + 1, sizeof *trees);
+    bool ok = trees != NULL || fail_for(wide, w, err);
+
+    for (uint32_t i = 0; ok && i < t->mesh_count; i++)
+        ok = build_one(&trees[i], &t->meshes[i], &bvh8_leaves, pool, err);
+    ok = ok && build_one(&trees[t->mesh_count], &t->stand_ins, &stand_in_leaves,
+                         pool, err);
+    ok = ok && (join_trees(wide, t, w, trees) || fail_for(wide, w, err));
+    for (uint32_t i = 0; trees != NULL && i <= t->mesh_count; i++)
+        bvh8_free(&trees[i]);
+    free(trees);
+    return ok;
 }
 
 bool bvh8_build(struct bvh8 *wide, const struct world *w, struct pool *pool,
@@ -617,32 +671,30 @@ bool bvh8_build(struct bvh8 *wide, const struct world *w, struct pool *pool,
         return build_one(wide, w, &bvh8_leaves, pool, err);
     if (!instance_trees_init(&trees, w, pool))
         return fail_for(wide, w, err);
-    ok = build_all(wide, &trees, pool, err);
+    ok = build_all(wide, &trees, w, pool, err);
     instance_trees_free(&trees);
-    if (!ok)
-        bvh8_free(wide);
     return ok;
+}
+
+void bvh8_lend(const struct bvh8 *wide, struct world *w)
+{
+    w->nodes = wide->nodes;
+    w->roots = wide->roots;
 }
 
 uint64_t bvh8_bytes(const struct bvh8 *wide)
 {
-    uint64_t sum = wide->node_count * (uint64_t)sizeof *wide->nodes +
-                   wide->block_count * (uint64_t)sizeof *wide->blocks;
-
-    for (uint32_t i = 0; i < wide->mesh_count; i++)
-        sum += bvh8_bytes(&wide->meshes[i]);
-    return sum;
+    return wide->size_bytes + (uint64_t)wide->root_count * sizeof *wide->roots;
 }
 
 void bvh8_free(struct bvh8 *wide)
 {
-    for (uint32_t i = 0; i < wide->mesh_count; i++)
-        free(wide->meshes[i].nodes);
-    free(wide->meshes);
     free(wide->nodes);
+    free(wide->roots);
     wide->nodes = NULL;
     wide->blocks = NULL;
-    wide->meshes = NULL;
-    wide->node_count = wide->block_count = wide->mesh_count = 0;
+    wide->roots = NULL;
+    wide->size_bytes = 0;
+    wide->node_count = wide->block_count = wide->root_count = 0;
     wide->lacks_copies = false;
 }

@@ -2,9 +2,9 @@
 /*
  * bvh8.h - the tree of eight children a node, for vector units
  *
- * It is made from the binary tree. The boxes of a node's children are arrays of
- * eight, so that one step tests all. Up to four triangles lie side by side in a
- * block (Wald, Benthin and Boulos 2008, "Getting rid of packets").
+ * It is made from the binary tree. CPU and devices traverse the same bytes:
+ * kernels/traverse.h. The boxes of a node's children are arrays of eight, so
+ * that one step tests all. Up to four triangles lie side by side in a block.
  *
  *     one allocation, in units of 32 bytes
  *     +--------+--------+-----+---------+---------+-----+-------------+
@@ -26,56 +26,29 @@
 #define GLIM_BVH8_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "world/bvh/bvh.h"
 
-#define BVH8_CHILDREN 8
-#define BLOCK_TRIS    4
-
-/* The parts of a child, see above. One shift makes its distance a byte offset.
- */
-#define BVH8_UNIT 32
-#define BVH8_LEAF 4u
-#define BVH8_MORE 3u
+_Static_assert(sizeof(struct bvh8_node) % BVH8_UNIT == 0, "see BVH8_UNIT");
+_Static_assert(sizeof(struct tri_block) % BVH8_UNIT == 0, "see BVH8_UNIT");
 
 /* Largest number of triangles in a leaf. */
-#define BVH8_LEAF_TRIS ((BVH8_MORE + 1) * BLOCK_TRIS)
-
-struct bvh8_node {
-    /* the signs of a ray choose near and far planes; [axis][low or high] */
-    float planes[3][2][BVH8_CHILDREN]; /* no child: infinite */
-    uint32_t child[BVH8_CHILDREN];     /* no child: the empty block */
-};
-
-_Static_assert(sizeof(struct bvh8_node) % BVH8_UNIT == 0, "see BVH8_UNIT");
-
-/* Triangles of a leaf, with their corners as [corner][axis][triangle]. NaN and
- * NO_INDEX fill the places of missing triangles. */
-struct tri_block {
-    float corners[3][3][BLOCK_TRIS];
-    uint32_t tri[BLOCK_TRIS];
-};
-
-_Static_assert(sizeof(struct tri_block) % BVH8_UNIT == 0, "see BVH8_UNIT");
+#define BVH8_LEAF_TRIS ((BVH8_MORE + 1) * BVH8_BLOCK_TRIS)
 
 struct bvh8 {
     struct bvh8_node *nodes; /* nodes[0] is the root */
     uint32_t node_count;
     struct tri_block *blocks; /* in the same allocation */
     uint32_t block_count;     /* with the empty one */
+    size_t size_bytes;        /* of the allocation */
     bool lacks_copies;        /* of triangles, or of instances */
     /* With instances the tree above has the stand-ins of instance_trees.h, one
-     * in a leaf, and these are the trees that they lead to; otherwise NULL. */
-    struct bvh8 *meshes;
-    uint32_t mesh_count;
-};
-
-/* The world of the CPU's ray queries, which get a pointer to its first member.
- */
-struct bvh8_world {
-    struct world world; /* first member */
-    const struct bvh8 *tree;
+     * in a leaf, and the trees of meshes follow it in the allocation; see
+     * struct world. Otherwise NULL. */
+    uint32_t *roots;
+    uint32_t root_count;
 };
 
 /* Parameters of the binary tree. */
@@ -90,6 +63,10 @@ extern const struct bvh_leaves bvh8_leaves;
  * calling thread builds. */
 bool bvh8_build(struct bvh8 *wide, const struct world *world, struct pool *pool,
                 struct error *err);
+
+/* Lends the tree to a world, for ray queries. */
+void bvh8_lend(const struct bvh8 *wide, struct world *world);
+
 uint64_t bvh8_bytes(const struct bvh8 *wide);
 
 void bvh8_free(struct bvh8 *wide);

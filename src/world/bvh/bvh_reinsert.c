@@ -121,7 +121,7 @@ static void copy_nodes(const struct writer *w, const struct branch *n)
 {
     const struct node *from = &w->from->nodes[n->first];
     uint32_t first_tri = first_leaf(from)->next;
-    uint32_t tris_on = w->to->leaf_tri_count - first_tri;
+    uint32_t tris_on = w->to->tri_count - first_tri;
     uint32_t nodes_on = w->to->node_count - n->first;
     uint32_t tri_count = 0;
 
@@ -132,9 +132,9 @@ static void copy_nodes(const struct writer *w, const struct branch *n)
         to->next += to->count != 0 ? tris_on : nodes_on;
         tri_count += to->count;
     }
-    memcpy(w->to->tris + w->to->leaf_tri_count, w->from->tris + first_tri,
+    memcpy(w->to->tris + w->to->tri_count, w->from->tris + first_tri,
            tri_count * sizeof *w->to->tris);
-    w->to->leaf_tri_count += tri_count;
+    w->to->tri_count += tri_count;
 }
 
 /* Writes a subtree. Recursion is as deep as the tree, below TRAVERSE_STACK. */
@@ -300,7 +300,7 @@ bool bvh_reinsert(struct bvh *bvh)
         return true;
     t.nodes = alloc_aligned((size_t)bvh->node_count + 1, sizeof *t.nodes);
     to.nodes = alloc_aligned(bvh->node_count, sizeof *to.nodes);
-    to.tris = alloc_aligned(bvh->leaf_tri_count, sizeof *to.tris);
+    to.tris = alloc_aligned(bvh->tri_count, sizeof *to.tris);
     if (t.nodes == NULL || to.nodes == NULL || to.tris == NULL) {
         free(t.nodes);
         bvh_free(&to);

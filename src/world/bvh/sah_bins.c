@@ -201,7 +201,7 @@ struct split bins_split(const struct bins *bins, uint32_t block_bits)
     s.cost = f_min(f_min(least[0], least[1]), least[2]);
     if (!(s.cost < INFINITY))
         return s;
-    while (!(found = 7 & f4_mask_le(costs[s.bin], f4_set1(s.cost))))
+    while (!(found = 7 & f4_bits(f4_le(costs[s.bin], f4_set1(s.cost)))))
         s.bin++;
     s.axis = found & 1 ? 0 : found & 2 ? 1 : 2;
     return s;

@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "image/color.h"
-#include "world/bvh/bvh8_traverse.h"
+#include "world/bvh/ray_queries.h"
 #include "kernels/attenuation.h"
 #include "kernels/camera.h"
 #include "kernels/light.h"
@@ -382,14 +382,14 @@ static bool path_leave(const struct light_paths *paths, const struct world *w,
 
 struct aiming {
     const struct light_paths *paths;
-    const struct bvh8_world *w;
+    const struct world *w;
     double *light; /* of each cluster */
 };
 
 static void find_light(void *context, uint32_t cluster, int worker)
 {
     const struct aiming *a = context;
-    const struct world *w = &a->w->world;
+    const struct world *w = a->w;
 
     (void)worker;
     for (uint32_t i = 0; i < AIM_PATHS; i++) {
@@ -408,7 +408,7 @@ static void find_light(void *context, uint32_t cluster, int worker)
     }
 }
 
-void light_paths_aim(struct light_paths *paths, const struct bvh8_world *w,
+void light_paths_aim(struct light_paths *paths, const struct world *w,
                      struct pool *pool)
 {
     struct casters *c = &paths->casters;
@@ -469,7 +469,7 @@ static bool see(const struct camera *c, struct vec3 point, struct vec2 u,
 
 struct tracing {
     const struct light_paths *paths;
-    const struct bvh8_world *w;
+    const struct world *w;
     uint64_t first;
     uint32_t count;
     struct light_film film;
@@ -479,7 +479,7 @@ struct tracing {
 static void connect(const struct tracing *t, struct light_path *p,
                     const struct material *m, struct hit h, uint32_t vertex)
 {
-    const struct world *w = &t->w->world;
+    const struct world *w = t->w;
     struct placed_tri tri = tri_placed(w, h.tri);
     struct vec3 l = v3_neg(p->ray.d), error, wo, wi, f;
     struct vec3 point = hit_point(h, tri.p[0], tri.p[1], tri.p[2], &error);
@@ -598,7 +598,7 @@ static void deposit(const struct tracing *t, const struct light_path *p,
 
 static void follow(const struct tracing *t, struct light_path *p)
 {
-    const struct world *w = &t->w->world;
+    const struct world *w = t->w;
     uint32_t last = w->settings.max_vertices - 1;
 
     for (uint32_t vertex = 1; vertex <= VERTICES_MAX && vertex <= last;
@@ -636,7 +636,7 @@ static void follow(const struct tracing *t, struct light_path *p)
 static void trace_block(void *context, uint32_t item, int worker)
 {
     const struct tracing *t = context;
-    const struct world *w = &t->w->world;
+    const struct world *w = t->w;
     uint32_t begin = item * BLOCK;
     uint32_t end = t->count - begin < BLOCK ? t->count : begin + BLOCK;
     uint64_t rays = 0;
@@ -661,9 +661,8 @@ static void trace_block(void *context, uint32_t item, int worker)
     atomic_fetch_add_explicit(&t->film.image->rays, rays, memory_order_relaxed);
 }
 
-bool light_paths_trace(const struct light_paths *paths,
-                       const struct bvh8_world *w, uint64_t first,
-                       uint32_t count, struct pool *pool,
+bool light_paths_trace(const struct light_paths *paths, const struct world *w,
+                       uint64_t first, uint32_t count, struct pool *pool,
                        const struct cancel *cancel, struct light_film film)
 {
     struct tracing t = {paths, w, first, count, film};

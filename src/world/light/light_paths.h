@@ -56,7 +56,7 @@ void light_paths_free(struct light_paths *paths);
 
 /* Aims the light paths of a world, with its tree, where the light of its lamps
  * arrives. The pool may be NULL. */
-void light_paths_aim(struct light_paths *paths, const struct bvh8_world *w,
+void light_paths_aim(struct light_paths *paths, const struct world *w,
                      struct pool *pool);
 
 enum { LIGHT_LOCKS = 64 };
@@ -83,9 +83,8 @@ struct light_film {
 /* Traces light paths first to first + count - 1 of each half, and adds their
  * light. A path is a pure function of its number, its half and the seed.
  * Returns false after a cancel. */
-bool light_paths_trace(const struct light_paths *paths,
-                       const struct bvh8_world *w, uint64_t first,
-                       uint32_t count, struct pool *pool,
+bool light_paths_trace(const struct light_paths *paths, const struct world *w,
+                       uint64_t first, uint32_t count, struct pool *pool,
                        const struct cancel *cancel, struct light_film film);
 
 /* Writes the mean of `count` light paths of each half: 3 numbers for each pixel

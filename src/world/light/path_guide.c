@@ -41,7 +41,7 @@ static bool wants_portals(const struct path_guide *g, double sky)
     return g->portals.open.flux == NULL && sky > 0;
 }
 
-static bool find_portals(struct path_guide *g, const struct bvh8_world *w,
+static bool find_portals(struct path_guide *g, const struct world *w,
                          const struct lights *lights, double sky,
                          struct pool *pool)
 {
@@ -49,7 +49,7 @@ static bool find_portals(struct path_guide *g, const struct bvh8_world *w,
 
     if (!wants_portals(g, sky))
         return true;
-    box = guide_grid_init(&g->grid, &w->world, &overlap);
+    box = guide_grid_init(&g->grid, w, &overlap);
     g->lights = 2 * lights_power(lights) / box;
     return sky_portals_find(w, &g->grid, overlap, pool, &g->portals);
 }
@@ -163,18 +163,18 @@ static void take_table(struct path_guide *g, struct table *t)
     g->grid.table_count = t->count;
 }
 
-static bool update(struct path_guide *g, const struct bvh8_world *w,
+static bool update(struct path_guide *g, const struct world *w,
                    const struct lights *lights, double sky, struct pool *pool)
 {
     struct table t = {.cells = NULL};
 
-    if (w->world.settings.tri_count > 0 && sky > 0) {
+    if (w->settings.tri_count > 0 && sky > 0) {
         struct other o;
 
         if (!find_portals(g, w, lights, sky, pool))
             return false;
         o = (struct other){g->lights / sky,
-                           sky_portals_bounces(&g->portals, &w->world)};
+                           sky_portals_bounces(&g->portals, w)};
         if (!make_table(g, &o, &t)) {
             free(t.cells);
             free(t.sums);
@@ -202,7 +202,7 @@ bool path_guide_needs_rays(const struct path_guide *g, const struct world *w,
            wants_portals(g, sky);
 }
 
-bool path_guide_update(struct path_guide *g, const struct bvh8_world *w,
+bool path_guide_update(struct path_guide *g, const struct world *w,
                        const struct lights *lights, double sky,
                        struct pool *pool, struct error *err)
 {

@@ -48,7 +48,7 @@ bool path_guide_needs_rays(const struct path_guide *guide,
  * of this mean radiance. Searches only what has not been searched since
  * path_guide_outdate(). The old arrays are freed when the new ones are ready.
  */
-bool path_guide_update(struct path_guide *guide, const struct bvh8_world *world,
+bool path_guide_update(struct path_guide *guide, const struct world *world,
                        const struct lights *lights, double sky,
                        struct pool *pool, struct error *err);
 

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "image/color.h"
-#include "world/bvh/bvh8_traverse.h"
+#include "world/bvh/ray_queries.h"
 #include "world/light/triangle_cdf.h"
 #include "kernels/guide.h"
 #include "kernels/light.h"
@@ -92,7 +92,7 @@ struct portal_ray {
 };
 
 struct search {
-    const struct bvh8_world *w;
+    const struct world *w;
     uint32_t probe_count;
     const struct guide_grid *grid;
     struct sky_portals *found;
@@ -190,7 +190,7 @@ static struct portal_point exit_box(const struct guide_grid *g, struct ray r)
 static void trace_probe_ray(const struct search *s, struct visibility_probe *l,
                             uint32_t k)
 {
-    const struct world *w = &s->w->world;
+    const struct world *w = s->w;
     struct ray *r = &l->point.ray;
     struct hit met;
     bool is_blocked;
@@ -216,7 +216,7 @@ static void trace_probe(void *context, uint32_t i, int worker)
     p->at = triangle_point(probe_2d(i, DECISION_POINT));
     p->at.tri = triangle_cdf_choose(&s->surfaces, probe_2d(i, DECISION_TRI).x);
     p->ray.key = hash_u32(i);
-    p->n = leave_surface(&s->w->world, p->at,
+    p->n = leave_surface(s->w, p->at,
                          guide_direction(side.x * (float)GUIDE_SIDE,
                                          side.y * (float)GUIDE_SIDE),
                          &p->ray);
@@ -262,7 +262,7 @@ static struct portal_ray trace_portal_ray(const struct search *s,
     cosine = v3_dot(r.d, p->n);
     if (!(cosine > 0.0f))
         return b;
-    panes = panes_to_sky(&s->w->world, r, &met);
+    panes = panes_to_sky(s->w, r, &met);
     if (panes != HIDDEN) {
         b.is_glazed = panes > 0;
         b.bin = guide_bin(r.d);
@@ -362,19 +362,19 @@ static bool has_glass(const struct world *w)
     return has;
 }
 
-static bool portals_init(struct sky_portals *o, const struct bvh8_world *w,
+static bool portals_init(struct sky_portals *o, const struct world *w,
                          const struct guide_grid *grid)
 {
     o->bounced = alloc_array(guide_cell_count(grid), sizeof *o->bounced);
     o->walls = alloc_array(PROBES, sizeof *o->walls);
     return o->bounced != NULL && o->walls != NULL &&
            guide_flux_init(&o->open, grid) &&
-           (!has_glass(&w->world) || guide_flux_init(&o->glazed, grid));
+           (!has_glass(w) || guide_flux_init(&o->glazed, grid));
 }
 
 static bool search_init(struct search *s, struct pool *pool)
 {
-    const struct world *w = &s->w->world;
+    const struct world *w = s->w;
     uint32_t count = guide_cell_count(s->grid);
 
     s->probes = alloc_array(PROBES, sizeof *s->probes);
@@ -405,7 +405,7 @@ static void find(struct search *s, struct pool *pool)
     finish(s);
 }
 
-bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
+bool sky_portals_find(const struct world *w, const struct guide_grid *grid,
                       double overlap, struct pool *pool,
                       struct sky_portals *portals)
 {

@@ -43,7 +43,7 @@ struct sky_portals {
 
 /* Searches, with a sky of radiance 1 in all directions. grid and overlap are of
  * guide_grid_init(). */
-bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
+bool sky_portals_find(const struct world *w, const struct guide_grid *grid,
                       double overlap, struct pool *pool,
                       struct sky_portals *portals);
 

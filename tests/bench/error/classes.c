@@ -21,9 +21,8 @@
 enum { ALL, WITHOUT_PATHS, WITHOUT_CELLS, RADIANCE, STEPS };
 
 /* Adds up the samples of a pixel. */
-static void add_pixel(const struct bvh8_world *w,
-                      const struct cpu_kernel *paths, uint32_t x, uint32_t y,
-                      double *sum, double *square)
+static void add_pixel(const struct world *w, const struct cpu_kernel *paths,
+                      uint32_t x, uint32_t y, double *sum, double *square)
 {
     struct sample_id ids[SAMPLE_BLOCK];
     struct path_sample samples[SAMPLE_BLOCK];
@@ -33,7 +32,7 @@ static void add_pixel(const struct bvh8_world *w,
     for (uint32_t first = 0; first < SPP; first += SAMPLE_BLOCK) {
         for (uint32_t i = 0; i < SAMPLE_BLOCK; i++)
             ids[i] = (struct sample_id){x, y, first + i};
-        paths->samples(&w->world, ids, SAMPLE_BLOCK, samples, surfaces, NULL);
+        paths->samples(w, ids, SAMPLE_BLOCK, samples, surfaces, NULL);
         for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
             double light = color_mean(samples[i].radiance);
 
@@ -45,12 +44,12 @@ static void add_pixel(const struct bvh8_world *w,
 
 /* Returns the sum of the pixels' variances, each over the square of its mean,
  * which `means` has. The first step sets them. */
-static double measure_step(const struct bvh8_world *w,
+static double measure_step(const struct world *w,
                            const struct cpu_kernel *paths, bool is_first,
                            double *means)
 {
-    uint32_t width = (uint32_t)w->world.settings.camera.width;
-    uint32_t count = width * (uint32_t)w->world.settings.camera.height;
+    uint32_t width = (uint32_t)w->settings.camera.width;
+    uint32_t count = width * (uint32_t)w->settings.camera.height;
     double *variances = alloc_array(count, sizeof *variances);
     double mean = 0, all = 0;
 
@@ -73,30 +72,29 @@ static double measure_step(const struct bvh8_world *w,
 }
 
 /* Trains radiance cells for a world, and lends them to it. */
-static bool add_radiance(struct light_cells *cells, struct bvh8_world *w)
+static bool add_radiance(struct light_cells *cells, struct world *w)
 {
     static const struct cancel never;
     struct error err;
     struct pool *pool = pool_create(1, &err);
-    bool ok = pool != NULL && light_cells_begin(cells, &w->world, 0, 1, pool) &&
+    bool ok = pool != NULL && light_cells_begin(cells, w, 0, 1, pool) &&
               radiance_training_run(cells, w, 0, TRAINING, pool, &never) &&
               light_cells_end(cells, 1, pool, &never);
 
     pool_destroy(pool);
     if (ok)
-        radiance_training_lend(&w->world, cells);
+        radiance_training_lend(w, cells);
     return ok;
 }
 
 bool class_variance_measure(const struct world *world,
-                            const struct host_world *host,
                             const struct cpu_kernel *paths,
                             struct class_variance *v, struct error *err)
 {
     /* grids of a width of 0 have no cells */
     static const struct light_cells none;
     struct light_cells cells = {.cells = NULL};
-    struct bvh8_world w = {*world, world_tree(host)};
+    struct world w = *world;
     const struct camera *c = &world->settings.camera;
     double *means =
         alloc_array((size_t)c->width * (size_t)c->height, sizeof *means);
@@ -105,8 +103,7 @@ bool class_variance_measure(const struct world *world,
 
     for (int i = 0; ok && i < STEPS; i++) {
         if (i == WITHOUT_PATHS || i == WITHOUT_CELLS)
-            w.world =
-                light_pilot_world(world, i == WITHOUT_CELLS ? &none : NULL);
+            w = light_pilot_world(world, i == WITHOUT_CELLS ? &none : NULL);
         ok = i != RADIANCE || add_radiance(&cells, &w);
         left[i] = measure_step(&w, paths, i == ALL, means);
         ok = ok && left[i] >= 0;

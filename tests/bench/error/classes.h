@@ -26,9 +26,8 @@ struct class_variance {
     double rest;
 };
 
-/* Measures samples of all pixels of a world, which is lent from the host. */
+/* Measures samples of all pixels of a world, which has its tree. */
 bool class_variance_measure(const struct world *world,
-                            const struct host_world *host,
                             const struct cpu_kernel *paths,
                             struct class_variance *v, struct error *err);
 

@@ -312,7 +312,8 @@ static bool print_classes(const struct measurement *m, struct error *err)
 
     if (!world_lend(&e->world, &e->scene, &m->session.edit.now.view, 1, &world,
                     err) ||
-        !class_variance_measure(&world, &e->world, &paths_whole, &v, err))
+        !world_ensure_tree(&e->world, &world, NULL, err) ||
+        !class_variance_measure(&world, &paths_whole, &v, err))
         return false;
     all = v.light_paths + v.light_cells + v.radiance_cells + v.rest;
     printf("variance of a sample of paths from the eye: %.3g; light paths take "

@@ -3,7 +3,7 @@
  * struct. */
 #include "racer.h"
 
-#include "world/bvh/bvh8_traverse.h"
+#include "world/bvh/ray_queries.h"
 
 #ifndef RACER
 #define RACER racer_plain
@@ -12,11 +12,11 @@
 static void closest(const void *tree, const struct ray *rays, uint32_t count,
                     struct answer *answers)
 {
-    const struct bvh8_world *w = tree;
+    const struct world *w = tree;
     struct hit h;
 
     for (uint32_t i = 0; i < count; i++) {
-        hit_closest(&w->world, rays[i], &h);
+        hit_closest(w, rays[i], &h);
         answers[i] = (struct answer){h.t, h.tri};
     }
 }
@@ -24,10 +24,10 @@ static void closest(const void *tree, const struct ray *rays, uint32_t count,
 static void any(const void *tree, const struct ray *rays, uint32_t count,
                 struct answer *answers)
 {
-    const struct bvh8_world *w = tree;
+    const struct world *w = tree;
 
     for (uint32_t i = 0; i < count; i++) {
-        bool found = hit_any(&w->world, rays[i], NO_INDEX);
+        bool found = hit_any(w, rays[i], NO_INDEX);
 
         answers[i] = (struct answer){0.0f, found ? 0 : NO_INDEX};
     }
@@ -36,14 +36,14 @@ static void any(const void *tree, const struct ray *rays, uint32_t count,
 static void coherent(const void *tree, const struct ray *rays, uint32_t count,
                      struct answer *answers)
 {
-    const struct bvh8_world *w = tree;
+    const struct world *w = tree;
     struct hit hits[PACKET_RAYS];
 
     for (uint32_t i = 0; i < count; i += PACKET_RAYS) {
         uint32_t left = count - i;
         uint32_t lanes = left < PACKET_RAYS ? left : PACKET_RAYS;
 
-        hits_closest(&w->world, rays + i, lanes, hits);
+        hits_closest(w, rays + i, lanes, hits);
         for (uint32_t k = 0; k < lanes; k++)
             answers[i + k] = (struct answer){hits[k].t, hits[k].tri};
     }

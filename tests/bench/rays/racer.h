@@ -34,7 +34,7 @@ struct racer {
     double bytes; /* size of the tree */
 };
 
-/* Queries of glim for an instruction set; the tree is a struct bvh8_world. */
+/* Queries of glim for an instruction set; the tree is a struct world. */
 extern const struct racer racer_plain;
 extern const struct racer racer_avx2; /* x86-64 only */
 extern const struct racer racer_avx512;

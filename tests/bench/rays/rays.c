@@ -55,7 +55,7 @@ static const enum embree_kind embree_kinds[BUILDERS] = {
 struct contest {
     struct shape shape;
     struct bvh8 tree;
-    struct bvh8_world world;
+    struct world world;
     struct embree embrees[BUILDERS]; /* GLIM's is empty */
     struct racer racers[RACERS];
     struct ray_set sets[SETS];
@@ -246,7 +246,8 @@ static bool build_glim(struct contest *c, const struct cpu_kernel *paths,
     bvh8_free(&c->tree);
     begin = spent_now();
     ok = bvh8_build(&c->tree, &c->shape.world, pool, err);
-    c->world = (struct bvh8_world){c->shape.world, &c->tree};
+    c->world = c->shape.world;
+    bvh8_lend(&c->tree, &c->world);
     c->racers[GLIM] = *racer_of(paths);
     c->racers[GLIM].tree = &c->world;
     c->racers[GLIM].build = spent_since(begin);

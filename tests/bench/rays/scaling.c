@@ -61,7 +61,7 @@ static bool time_size(struct racer r, struct pool *pool, uint32_t across,
     struct shape shape;
     struct bvh8 tree = {.nodes = NULL};
     struct ray_set sets[SETS];
-    struct bvh8_world world;
+    struct world world;
     struct answer *answers;
     uint64_t begin_ns;
     uint32_t count;
@@ -75,7 +75,8 @@ static bool time_size(struct racer r, struct pool *pool, uint32_t across,
     if (ok) {
         double build_s = seconds_between(begin_ns, clock_ns());
 
-        world = (struct bvh8_world){shape.world, &tree};
+        world = shape.world;
+        bvh8_lend(&tree, &world);
         r.tree = &world;
         sets_make(sets, &shape.world, &r);
         answers = xcalloc(sets[SET_PRIMARY].count, sizeof *answers);

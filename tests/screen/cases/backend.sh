@@ -73,7 +73,7 @@ start -t 1 --backend opencl flat.obj
 wait_for "LIVE"
 keys q
 expect_end 0
-# after a reload of another shape the device alone has a tree: picks need one
+# picks after a reload of another shape
 fresh
 lamp_scene
 start -t 1 --backend opencl lamp.obj

@@ -5,10 +5,20 @@ two_walls()
 {
     printf 'newmtl red\nKd 0 0 0\nKe 3 0 0\n' >walls.mtl
     printf 'newmtl green\nKd 0 0 0\nKe 0 1 0\n' >>walls.mtl
-    printf 'mtllib walls.mtl\nusemtl red\n' >walls.obj
-    printf 'v -20 -20 0\nv 0 -20 0\nv 0 20 0\nv -20 20 0\n' >>walls.obj
-    printf 'f 1 2 3 4\nusemtl green\n' >>walls.obj
-    printf 'v 20 -20 0\nv 20 20 0\nf 3 6 5 2\n' >>walls.obj
+    awk 'function wall(from, turned, x, y) {
+        for (x = from; x < from + 20; x += 4)
+            for (y = -20; y < 20; y += 4) {
+                print "v", x, y, 0 "\nv", x + 4, y, 0
+                print "v", x + 4, y + 4, 0 "\nv", x, y + 4, 0
+                print turned ? "f -1 -2 -3 -4" : "f -4 -3 -2 -1"
+            }
+    }
+    BEGIN {
+        print "mtllib walls.mtl\nusemtl red"
+        wall(-20, 0)
+        print "usemtl green"
+        wall(0, 1)
+    }' >walls.obj
     printf 'eye 0 0 5\nat 0 0 0\nres 100 50\nbackground 0 0 0\nexposure -4\n' \
         >walls.view
 }
@@ -75,11 +85,11 @@ keys r n n n n
 wait_for "LIVE"
 # boxes
 keys t
-wait_for "boxes of level 0 of [0-9]*: 1 node;"
+wait_for "boxes of level 1 of [2-9]: [2-8] boxes;"
 keys '>'
-wait_for "boxes of level 1 of"
+wait_for "boxes of level 2 of"
 keys '<' '<'
-wait_for "boxes of level 0 of"
+wait_for "boxes of level 1 of"
 keys p
 wait_for "saved walls-2.png 100x50, as it is shown"
 cmp -s walls.png walls-2.png && die "boxes are not in the file"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "kernels/traverse.h"
+#include "world/bvh/ray_queries.h"
+
+#include <string.h>
 
 #include "tests/unit/brute.h"
 #include "tests/unit/many.h"
-#include "tests/unit/trees.h"
 
 static struct bvh build_by(const struct world *w, int thread_count)
 {
@@ -12,7 +13,7 @@ static struct bvh build_by(const struct world *w, int thread_count)
     struct pool *pool =
         thread_count > 0 ? pool_create(thread_count, &err) : NULL;
 
-    assert_true(bvh_build(&bvh, w, pool, &err));
+    assert_true(bvh_build_nodes(&bvh, w, &bvh8_leaves, pool, &err));
     pool_destroy(pool);
     return bvh;
 }
@@ -33,8 +34,8 @@ static void threads_build_the_same_tree(void **state)
         assert_int_equal(one.depth, other.depth);
         assert_memory_equal(one.nodes, other.nodes,
                             one.node_count * sizeof *one.nodes);
-        assert_memory_equal(one.leaf_tris, other.leaf_tris,
-                            one.leaf_tri_count * sizeof *one.leaf_tris);
+        assert_memory_equal(one.tris, other.tris,
+                            one.tri_count * sizeof *one.tris);
         bvh_free(&other);
     }
     bvh_free(&one);
@@ -43,6 +44,7 @@ static void threads_build_the_same_tree(void **state)
 
 struct tree_check {
     const struct mesh *mesh;
+    const struct bvh *bvh;
     bool *tris;
     uint32_t nodes, depth;
 };
@@ -50,19 +52,17 @@ struct tree_check {
 static void visit_leaf(struct tree_check *s, const struct node *n)
 {
     for (uint32_t i = n->next; i < n->next + n->count; i++) {
-        const struct leaf_tri *t = &s->mesh->bvh.leaf_tris[i];
+        uint32_t tri = s->bvh->tris[i];
 
-        assert_false(s->tris[t->tri]);
-        s->tris[t->tri] = true;
-        assert_memory_equal(&t->p0, &s->mesh->positions[3 * t->tri],
-                            3 * sizeof t->p0);
-        assert_true(box_holds(n->lo, n->hi, &s->mesh->positions[3 * t->tri]));
+        assert_false(s->tris[tri]);
+        s->tris[tri] = true;
+        assert_true(box_holds(n->lo, n->hi, &s->mesh->positions[3 * tri]));
     }
 }
 
 static void visit_node(struct tree_check *s, uint32_t index, uint32_t depth)
 {
-    const struct node *n = &s->mesh->bvh.nodes[index];
+    const struct node *n = &s->bvh->nodes[index];
     uint32_t children[2] = {index + 1, n->next};
 
     s->nodes++;
@@ -72,7 +72,7 @@ static void visit_node(struct tree_check *s, uint32_t index, uint32_t depth)
         return;
     }
     for (int i = 0; i < 2; i++) {
-        const struct node *child = &s->mesh->bvh.nodes[children[i]];
+        const struct node *child = &s->bvh->nodes[children[i]];
 
         assert_true(v3_is_between(child->lo, n->lo, n->hi) &&
                     v3_is_between(child->hi, n->lo, n->hi));
@@ -83,17 +83,21 @@ static void visit_node(struct tree_check *s, uint32_t index, uint32_t depth)
 static void boxes_enclose_their_subtrees(void **state)
 {
     struct mesh m = {0};
-    struct tree_check s = {&m, calloc(MANY, sizeof *s.tris), 0, 0};
+    struct tree_check s = {.mesh = &m, .tris = calloc(MANY, sizeof *s.tris)};
+    struct bvh bvh;
 
     (void)state;
     mesh_add_many(&m, MANY, 4);
     mesh_finish(&m);
+    bvh = build_by(&m.world, 0);
+    s.bvh = &bvh;
     visit_node(&s, 0, 0);
-    assert_int_equal(s.nodes, m.bvh.node_count);
-    assert_in_range(m.bvh.depth, s.depth, TRAVERSE_STACK - 1);
+    assert_int_equal(s.nodes, bvh.node_count);
+    assert_in_range(bvh.depth, s.depth, TRAVERSE_STACK - 1);
     for (uint32_t i = 0; i < MANY; i++)
         assert_true(s.tris[i]);
     free(s.tris);
+    bvh_free(&bvh);
     mesh_free(&m);
 }
 
@@ -172,13 +176,16 @@ static void check_hits(const struct mesh *m)
 static void copies_have_one_leaf(void **state)
 {
     struct mesh m = {0};
+    struct bvh bvh;
 
     (void)state;
     add_copies(&m);
     mesh_finish(&m);
-    assert_int_equal(m.bvh.leaf_tri_count, 1000 + 2);
-    assert_true(m.wide.lacks_copies);
+    bvh = build_by(&m.world, 0);
+    assert_int_equal(bvh.tri_count, 1000 + 2);
+    assert_true(m.tree.lacks_copies);
     check_hits(&m);
+    bvh_free(&bvh);
     mesh_free(&m);
 }
 
@@ -186,13 +193,16 @@ static void copies_have_one_leaf(void **state)
 static void copies_that_let_rays_through_stay(void **state)
 {
     struct mesh m = {0};
+    struct bvh bvh;
 
     (void)state;
     add_copies(&m);
     m.materials[1].opacity = 0.9f;
     mesh_finish(&m);
-    assert_int_equal(m.bvh.leaf_tri_count, 1000 + 2 * COPIES);
-    assert_false(m.wide.lacks_copies);
+    bvh = build_by(&m.world, 0);
+    assert_int_equal(bvh.tri_count, 1000 + 2 * COPIES);
+    assert_false(m.tree.lacks_copies);
+    bvh_free(&bvh);
     mesh_free(&m);
 }
 
@@ -206,5 +216,5 @@ int main(void)
         cmocka_unit_test(large_triangles_are_in_separate_leaves),
     };
 
-    return run_trees() + cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

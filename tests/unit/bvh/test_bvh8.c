@@ -2,7 +2,7 @@
 /* This file is built for several instruction sets; ISA is the name of the
  * set. */
 #include "render/cpu_dispatch.h"
-#include "world/bvh/bvh8_traverse.h"
+#include "world/bvh/ray_queries.h"
 
 #include "tests/unit/trees.h"
 

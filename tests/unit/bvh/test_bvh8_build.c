@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "world/bvh/bvh8_traverse.h"
+#include "world/bvh/ray_queries.h"
 
 #include "tests/unit/many.h"
 
@@ -16,16 +16,27 @@ static void threads_build_the_same_tree(void **state)
         struct bvh8 other = {0};
 
         assert_true(bvh8_build(&other, &m.world, pool, &err));
-        assert_int_equal(m.wide.node_count, other.node_count);
-        assert_int_equal(m.wide.block_count, other.block_count);
-        assert_memory_equal(m.wide.nodes, other.nodes,
+        assert_int_equal(m.tree.node_count, other.node_count);
+        assert_int_equal(m.tree.block_count, other.block_count);
+        assert_memory_equal(m.tree.nodes, other.nodes,
                             other.node_count * sizeof *other.nodes);
-        assert_memory_equal(m.wide.blocks, other.blocks,
+        assert_memory_equal(m.tree.blocks, other.blocks,
                             other.block_count * sizeof *other.blocks);
         bvh8_free(&other);
         pool_destroy(pool);
     }
     mesh_free(&m);
+}
+
+static const void *node_at(const struct bvh8_node *nodes, uint32_t child)
+{
+    return (const char *)nodes + (size_t)(child / 8) * BVH8_UNIT;
+}
+
+static const struct tri_block *block_at(const struct bvh8_node *nodes,
+                                        uint32_t child)
+{
+    return node_at(nodes, child);
 }
 
 struct tree_check {
@@ -51,12 +62,12 @@ static double area(struct vec3 lo, struct vec3 hi)
 static void visit_leaf(struct tree_check *s, uint32_t child, struct vec3 lo,
                        struct vec3 hi)
 {
-    const struct tri_block *block = bvh8_block_at(s->mesh->wide.nodes, child);
+    const struct tri_block *block = block_at(s->mesh->tree.nodes, child);
     uint32_t count = (child & BVH8_MORE) + 1;
 
     s->cost += BVH8_BLOCK_COST * count * area(lo, hi);
-    for (uint32_t i = 0; i < count * BLOCK_TRIS; i++) {
-        uint32_t tri = block[i / BLOCK_TRIS].tri[i % BLOCK_TRIS];
+    for (uint32_t i = 0; i < count * BVH8_BLOCK_TRIS; i++) {
+        uint32_t tri = block[i / BVH8_BLOCK_TRIS].tri[i % BVH8_BLOCK_TRIS];
 
         if (tri == NO_INDEX)
             continue;
@@ -79,8 +90,7 @@ static void visit_node(struct tree_check *s, const struct bvh8_node *n,
         if ((n->child[i] & BVH8_LEAF) != 0)
             visit_leaf(s, n->child[i], low, high);
         else
-            visit_node(s, bvh8_node_at(s->mesh->wide.nodes, n->child[i]), low,
-                       high);
+            visit_node(s, node_at(s->mesh->tree.nodes, n->child[i]), low, high);
     }
 }
 
@@ -89,7 +99,7 @@ static double cost_of(const struct mesh *m, const struct node *root)
 {
     struct tree_check s = {m, calloc(m->tri_count, sizeof *s.tris), 0};
 
-    visit_node(&s, m->wide.nodes, root->lo, root->hi);
+    visit_node(&s, m->tree.nodes, root->lo, root->hi);
     for (uint32_t i = 0; i < m->tri_count; i++)
         assert_true(s.tris[i]);
     free(s.tris);
@@ -165,9 +175,9 @@ static double least_cost(const struct bvh *bvh, uint32_t node, bool is_root,
 
     if (!is_root && known[node] > 0)
         return known[node];
-    if (count <= (BVH8_MORE + 1) * BLOCK_TRIS)
+    if (count <= (BVH8_MORE + 1) * BVH8_BLOCK_TRIS)
         least = BVH8_BLOCK_COST * area(n->lo, n->hi) *
-                ((count + BLOCK_TRIS - 1) / BLOCK_TRIS);
+                ((count + BVH8_BLOCK_TRIS - 1) / BVH8_BLOCK_TRIS);
     if (n->count == 0)
         least = fmin(least,
                      area(n->lo, n->hi) + least_of_cuts(bvh, cut, 2, 0, known));

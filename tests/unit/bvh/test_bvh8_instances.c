@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "render/cpu_dispatch.h"
-#include "world/bvh/bvh8_traverse.h"
+#include "world/bvh/ray_queries.h"
 
 #include "tests/unit/instance_rays.h"
 
@@ -26,12 +26,12 @@ static const char room[] =
 /* Compares samples of both worlds with this kernel. */
 static void compare_samples(const struct cpu_kernel *kernel,
                             const struct instance_test *t,
-                            const struct bvh8_world *copies)
+                            const struct world *copies)
 {
-    uint32_t features = t->w.world.settings.features;
+    uint32_t features = t->w.settings.features;
     const struct cpu_kernel *full = cpu_kernel_fit(kernel, features);
     const struct cpu_kernel *part =
-        cpu_kernel_fit(kernel, copies->world.settings.features);
+        cpu_kernel_fit(kernel, copies->settings.features);
     double light = 0;
 
     for (uint32_t i = 0; i < SAMPLES; i++) {
@@ -39,8 +39,8 @@ static void compare_samples(const struct cpu_kernel *kernel,
         struct path_sample a = {.rays = 0}, b = {.rays = 0};
         struct first_surface surface;
 
-        full->samples(&t->w.world, &id, 1, &a, &surface, NULL);
-        part->samples(&copies->world, &id, 1, &b, &surface, NULL);
+        full->samples(&t->w, &id, 1, &a, &surface, NULL);
+        part->samples(copies, &id, 1, &b, &surface, NULL);
         assert_memory_equal(&a, &b, sizeof a);
         light += (double)a.radiance.x;
     }
@@ -52,7 +52,7 @@ static void samples_are_those_of_copies(void **state)
     struct instance_test t = {.positions = NULL};
     struct lights lights = {.lights = NULL};
     struct bvh8 tree = {0};
-    struct bvh8_world copies;
+    struct world copies;
     const struct cpu_kernel *kernel;
     uint64_t seed = 12;
     struct error err;
@@ -65,11 +65,12 @@ static void samples_are_those_of_copies(void **state)
         instanced_place(&t.scene, k % 4 == 0 ? 1 : 0, &a);
     }
     instance_test_finish(&t);
-    assert_true(t.w.world.settings.light_count > 8);
+    assert_true(t.w.settings.light_count > 8);
     assert_true(lights_build(&lights, &t.copies, &err));
     lights_lend(&lights, &t.copies);
     assert_true(bvh8_build(&tree, &t.copies, NULL, &err));
-    copies = (struct bvh8_world){t.copies, &tree};
+    copies = t.copies;
+    bvh8_lend(&tree, &copies);
     for (int i = 0; (kernel = cpu_kernel_at(i)) != NULL; i++)
         compare_samples(kernel, &t, &copies);
     bvh8_free(&tree);

@@ -2,7 +2,7 @@
 #include "tests/unit/check.h"
 
 #include "world/bvh/bvh_reinsert.h"
-#include "kernels/traverse.h"
+#include "world/bvh/ray_queries.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -48,9 +48,9 @@ static uint32_t add_leaf(struct tree *g, uint32_t leaf)
 {
     struct bvh *b = &g->bvh;
 
-    b->tris[b->leaf_tri_count] = leaf;
+    b->tris[b->tri_count] = leaf;
     b->nodes[b->node_count] =
-        (struct node){g->lo[leaf], b->leaf_tri_count++, g->hi[leaf], 1};
+        (struct node){g->lo[leaf], b->tri_count++, g->hi[leaf], 1};
     return b->node_count++;
 }
 
@@ -105,7 +105,7 @@ static double cost_of(const struct tree *g)
 
     assert_int_equal(leaves, g->count);
     assert_int_equal(g->bvh.node_count, 2 * g->count - 1);
-    assert_int_equal(g->bvh.leaf_tri_count, g->count);
+    assert_int_equal(g->bvh.tri_count, g->count);
     assert_int_equal(g->bvh.depth, deepest);
     assert_true(deepest < TRAVERSE_STACK);
     for (uint32_t i = 0; i < g->count; i++) {

@@ -22,7 +22,7 @@ static void render(const char *path, enum aov_kind kind, struct rect crop)
 {
     struct session s;
     struct view_mode show;
-    struct bvh8_world world;
+    struct world world;
     struct error err;
 
     options_init(&options);
@@ -239,7 +239,7 @@ static void instances_have_their_object_and_material(void **state)
 {
     struct host_world host = {0};
     struct warnings report = {0};
-    struct bvh8_world world;
+    struct world world;
     struct scene scene;
     struct view view;
     struct error err;
@@ -252,10 +252,9 @@ static void instances_have_their_object_and_material(void **state)
     view.pose.fovy_deg = 40;
     view_set_size(&view, SIDE, SIDE);
     check_or_say(world_init(&host, &scene, 1, &report, &err) &&
-                     world_lend(&host, &scene, &view, 0, &world.world, &err) &&
-                     world_ensure_tree(&host, &world.world, NULL, &err),
+                     world_lend(&host, &scene, &view, 0, &world, &err) &&
+                     world_ensure_tree(&host, &world, NULL, &err),
                  err.text);
-    world.tree = world_tree(&host);
     aov_picture_render(&a, NULL, numbers);
     for (int i = 0; i < SIDE * SIDE; i++)
         assert_int_equal(numbers[3 * i], i % SIDE < SIDE / 2 ? 1 : 2);

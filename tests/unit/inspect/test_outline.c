@@ -68,13 +68,13 @@ static void check_ring(int side, int reach)
 
     open_square(&m, side);
     assert_true(frame_init(&frame, side, side, &err));
-    outline_find(&o, &m.wide_world, &scene, 1, choices[0], &frame);
+    outline_find(&o, &m.world, &scene, 1, choices[0], &frame);
     outline_draw(&o, &frame);
     assert_int_equal(count_ring(&frame, reach), 4 * (side / 2) * reach);
     /* another choice is another mask: the wall reaches the border everywhere,
      * so that its outline is inside the square */
     memset(frame.rgb, 0, 3 * (size_t)side * (size_t)side);
-    outline_find(&o, &m.wide_world, &scene, 1, choices[1], &frame);
+    outline_find(&o, &m.world, &scene, 1, choices[1], &frame);
     outline_draw(&o, &frame);
     assert_int_equal(o.mask[0], true);
     assert_true(ORANGE(frame.rgb + 3 * ((side / 4) * side + side / 2)));
@@ -104,8 +104,8 @@ static void large_frames_have_coarse_masks(void **state)
     (void)state;
     open_square(&m, 800);
     assert_true(frame_init(&frame, 800, 800, &err));
-    outline_find(&o, &m.wide_world, &scene, 1,
-                 (struct outline_choice){false, 1}, &frame);
+    outline_find(&o, &m.world, &scene, 1, (struct outline_choice){false, 1},
+                 &frame);
     assert_in_range(o.width * o.height, OUTLINE_PLACES / 2, OUTLINE_PLACES);
     outline_draw(&o, &frame);
     count = count_ring(&frame, 12);

@@ -185,7 +185,22 @@ static void crops_show_the_same(void **state)
     }
 }
 
-/* Two walls far apart are the two boxes of level 1. Level 0 is one box. */
+/* Adds a wall of squares from (x, -1) to (x + 1, 1). */
+static void add_wall(struct mesh *m, float x)
+{
+    const float width = 1.0f / 16, height = 2.0f / 16;
+
+    for (int i = 0; i < 16 * 16; i++) {
+        float left = x + (float)(i % 16) * width;
+        float low = -1.0f + (float)(i / 16) * height;
+
+        mesh_add_quad(m, v3(left, low, 0), v3(left + width, low, 0),
+                      v3(left + width, low + height, 0),
+                      v3(left, low + height, 0), 0);
+    }
+}
+
+/* No box has triangles of two walls that are far apart. */
 static void levels_of_a_tree_have_their_boxes(void **state)
 {
     struct camera c = {.eye = {0, 0, 4},
@@ -198,27 +213,24 @@ static void levels_of_a_tree_have_their_boxes(void **state)
     struct frame f;
 
     (void)state;
-    for (int i = 0; i < 9; i++) {
-        mesh_add_quad(&m, v3(-2, -1, 0), v3(-1, -1, 0), v3(-1, 1, 0),
-                      v3(-2, 1, 0), 0);
-        mesh_add_quad(&m, v3(1, -1, 0), v3(2, -1, 0), v3(2, 1, 0), v3(1, 1, 0),
-                      0);
-    }
+    add_wall(&m, -2);
+    add_wall(&m, 1);
     mesh_finish(&m);
     open_frame(&f);
-    assert_int_equal(overlay_boxes(&f, &c, &m.bvh, 0), 1);
-    /* The root's edge continues between them: x = 0 is pixel 20, y = 1 is
-     * 15. */
-    assert_true(pixel(&f, 20, 15) != 0 || pixel(&f, 20, 14) != 0);
-    assert_int_equal(pixel(&f, 20, 20), 0);
-    memset(f.rgb, 0, 3 * SIDE * SIDE);
-    assert_int_equal(overlay_boxes(&f, &c, &m.bvh, 1), 2);
-    for (int y = 0; y < SIDE; y++)
-        assert_int_equal(pixel(&f, 20, y), 0);
-    /* x = -1 is pixel 15, x = 1 is pixel 25. */
-    assert_true(pixel(&f, 14, 20) != 0 || pixel(&f, 15, 20) != 0);
-    assert_true(pixel(&f, 25, 20) != 0 || pixel(&f, 24, 20) != 0);
-    assert_int_equal(overlay_boxes(&f, &c, &m.bvh, m.bvh.depth + 1), 0);
+    for (uint32_t level = 0; level < overlay_levels(&m.world); level++) {
+        uint32_t boxes = overlay_boxes(&f, &c, &m.world, level);
+
+        assert_in_range(boxes, 2, level == 0 ? 8 : 2 * 2 * 16 * 16);
+        /* no box is between the grids, and x = -1 is pixel 15, x = 1 is 25 */
+        for (int y = 0; y < SIDE; y++)
+            assert_int_equal(pixel(&f, 20, y), 0);
+        assert_true(pixel(&f, 14, 20) != 0 || pixel(&f, 15, 20) != 0);
+        assert_true(pixel(&f, 25, 20) != 0 || pixel(&f, 24, 20) != 0);
+        memset(f.rgb, 0, 3 * SIDE * SIDE);
+    }
+    assert_true(overlay_levels(&m.world) >= 2);
+    assert_int_equal(overlay_boxes(&f, &c, &m.world, overlay_levels(&m.world)),
+                     0);
     frame_free(&f);
     mesh_free(&m);
 }

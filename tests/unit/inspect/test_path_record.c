@@ -91,21 +91,17 @@ static void recorded_paths_are_the_render_s(void **state)
                                   .thread_count = 1};
         struct session s;
         struct world w;
-        struct bvh bvh = {0};
         struct error err;
         int bright = 0;
 
         check_or_say(session_open(&s, &options, clock_ns(), &err) &&
                          world_lend(&s.engine.world, &s.engine.scene,
                                     &s.edit.now.view, 3, &w, &err) &&
-                         bvh_build(&bvh, &w, NULL, &err),
+                         world_ensure_tree(&s.engine.world, &w, NULL, &err),
                      err.text);
-        w.nodes = bvh.nodes;
-        w.leaf_tris = bvh.leaf_tris;
         for (uint32_t k = 0; k < SIDE * SIDE; k += SAMPLE_STREAM)
             check_recorded_paths(&w, k, &bright);
         assert_true(bright > SIDE);
-        bvh_free(&bvh);
         session_close(&s);
     }
 }
@@ -189,9 +185,9 @@ static void count(const struct world *w, struct traversal_cost *costs)
     pool_destroy(pool);
 }
 
-/* A leaf costs its box, and its two triangles if the box is entered. With two
- * walls, one behind the other, the root and its two children are visited, and
- * of the farther wall only what the first hit does not hide. */
+/* A tree of one leaf costs its node, and a block of two triangles if the ray
+ * enters the box. Of two walls, one behind the other, only the leaves of the
+ * nearer one are visited. */
 static void costs_are_those_counted_by_hand(void **state)
 {
     struct traversal_cost costs[SIDE * SIDE];
@@ -199,17 +195,17 @@ static void costs_are_those_counted_by_hand(void **state)
 
     (void)state;
     open_wall(&m, mesh_material(MATERIAL_DIFFUSE, 0.5f));
-    assert_int_equal(m.bvh.node_count, 1);
+    assert_int_equal(m.tree.node_count, 1);
     count(&m.world, costs);
     for (int i = 0; i < SIDE * SIDE; i++) {
-        assert_int_equal(costs[i].boxes, 1);
-        assert_int_equal(costs[i].triangles, 2);
+        assert_int_equal(costs[i].nodes, 1);
+        assert_int_equal(costs[i].blocks, 1);
     }
     m.world.settings.camera.forward.z = 1;
     count(&m.world, costs);
     for (int i = 0; i < SIDE * SIDE; i++) {
-        assert_int_equal(costs[i].boxes, 1);
-        assert_int_equal(costs[i].triangles, 0);
+        assert_int_equal(costs[i].nodes, 1);
+        assert_int_equal(costs[i].blocks, 0);
     }
     mesh_free(&m);
     m = (struct mesh){0};
@@ -229,11 +225,10 @@ static void costs_are_those_counted_by_hand(void **state)
     mesh_finish(&m);
     count(&m.world, costs);
     for (int i = 0; i < SIDE * SIDE; i++) {
-        /* All 18 triangles at z = 1 and none at -9; two boxes for each pair of
-         * children. */
-        assert_int_equal(costs[i].triangles, 18);
-        assert_int_equal(costs[i].boxes % 2, 1);
-        assert_in_range(costs[i].boxes, 3, m.bvh.node_count);
+        /* The leaves of all 18 triangles at z = 1, in blocks of up to four, and
+         * none of those at -9. */
+        assert_int_equal(costs[i].nodes, 1);
+        assert_in_range(costs[i].blocks, 5, 9);
     }
     mesh_free(&m);
 }

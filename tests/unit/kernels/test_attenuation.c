@@ -201,11 +201,10 @@ static void files_state_colour_and_distance(void **state)
     struct host_world host = {0};
     struct warnings report = {0};
     struct view view;
-    struct bvh8_world w = {0};
+    struct world w = {0};
     struct path_sample s;
     struct error err;
     struct ray r = {{0.01f, 0.02f, 1}, {0, 0, -1}, FLOAT_MAX, 0, 0};
-    struct bvh bvh = {0};
 
     (void)state;
     put("a.mtl", mtl);
@@ -214,18 +213,15 @@ static void files_state_colour_and_distance(void **state)
     view.pose.eye[2] = 5;
     check_or_say(scene_load(&scene, "a.obj", SCENE_UP_OF_FILE, &report, &err) &&
                      world_init(&host, &scene, 1, &report, &err) &&
-                     world_lend(&host, &scene, &view, 0, &w.world, &err) &&
-                     bvh_build(&bvh, &w.world, NULL, &err),
+                     world_lend(&host, &scene, &view, 0, &w, &err) &&
+                     world_ensure_tree(&host, &w, NULL, &err),
                  err.text);
     assert_true(scene.scale != 1);
-    w.world.nodes = bvh.nodes;
-    w.world.leaf_tris = bvh.leaf_tris;
     assert_int_not_equal(world_features(&host) & FEATURE_ATTENUATION, 0);
-    s = trace_path(&w.world, r, sampler_start(0, 0, 0, 0), NULL);
+    s = trace_path(&w, r, sampler_start(0, 0, 0, 0), NULL);
     check_close((double)s.radiance.x, 0.25, 1e-5);
     check_close((double)s.radiance.y, 0.0625, 1e-5);
     check_close((double)s.radiance.z, 1, 1e-6);
-    bvh_free(&bvh);
     world_free(&host);
     scene_free(&scene);
     view_free(&view);

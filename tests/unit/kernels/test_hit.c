@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "kernels/traverse.h"
+#include "world/bvh/ray_queries.h"
 
 static float span(uint64_t *seed)
 {

@@ -59,7 +59,8 @@
       M(instance, pad) M(instance, inverse_error) M(instance, first_tri)      \
       M(instance, tri_count) M(instance, mesh_tri) M(instance, mesh)          \
       M(instance, material) M(instance, is_mirror)                            \
-    S(node) M(node, lo) M(node, next) M(node, hi) M(node, count)              \
+    S(bvh8_node) M(bvh8_node, planes) M(bvh8_node, child)                     \
+    S(tri_block) M(tri_block, corners) M(tri_block, tri)                      \
     S(leaf_tri) M(leaf_tri, p0) M(leaf_tri, p1) M(leaf_tri, p2)               \
       M(leaf_tri, tri)                                                        \
     S(light) M(light, tris) M(light, path) M(light, texture)                  \

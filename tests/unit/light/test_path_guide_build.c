@@ -21,7 +21,7 @@ static void build_guide(struct lit_mesh *s, float sky, struct path_guide *g)
     struct error err;
 
     path_guide_outdate(g);
-    check_or_say(path_guide_update(g, &s->mesh.wide_world, lent_lights(s),
+    check_or_say(path_guide_update(g, &s->mesh.world, lent_lights(s),
                                    (double)sky, NULL, &err),
                  err.text);
 }
@@ -180,8 +180,8 @@ static void white_rooms_are_guided_less(void **state)
             s.mesh.materials[0] =
                 mesh_material(MATERIAL_DIFFUSE, is_white ? .98f : .3f);
             path_guide_recolor(&g);
-            check_or_say(path_guide_update(&g, &s.mesh.wide_world,
-                                           lent_lights(&s), 1, NULL, NULL),
+            check_or_say(path_guide_update(&g, &s.mesh.world, lent_lights(&s),
+                                           1, NULL, NULL),
                          "");
             path_guide_lend(&g, &s.mesh.world);
             first =
@@ -239,12 +239,12 @@ static void tables_exist_only_where_the_sky_is_hidden(void **state)
     lit_mesh_finish(&s);
     build_guide(&s, 0, &g);
     assert_null(g.cells);
-    check_or_say(path_guide_update(&g, &s.mesh.wide_world, lent_lights(&s), 1,
-                                   NULL, &err),
+    check_or_say(path_guide_update(&g, &s.mesh.world, lent_lights(&s), 1, NULL,
+                                   &err),
                  err.text);
     assert_non_null(g.cells);
-    check_or_say(path_guide_update(&g, &s.mesh.wide_world, lent_lights(&s), 0,
-                                   NULL, &err),
+    check_or_say(path_guide_update(&g, &s.mesh.world, lent_lights(&s), 0, NULL,
+                                   &err),
                  err.text);
     assert_null(g.cells);
     lights_lend(&s.lights, &s.mesh.world);
@@ -293,7 +293,7 @@ static void thread_counts_give_the_same_tables(void **state)
         make_room(&s, has_pane);
         lit_mesh_finish(&s);
         build_guide(&s, 1, &alone);
-        check_or_say(path_guide_update(&together, &s.mesh.wide_world,
+        check_or_say(path_guide_update(&together, &s.mesh.world,
                                        lent_lights(&s), 1, pool, &err),
                      err.text);
         assert_non_null(alone.cells);

@@ -9,12 +9,11 @@
 #include "engine/scene_load.h"
 #include "studio/camera/framing.h"
 #include "studio/camera/pick_cursor.h"
+#include "tests/unit/brute.h"
 #include "tests/unit/check.h"
 #include "tests/unit/files.h"
-#include "world/bvh/bvh.h"
 #include "world/world.h"
 #include "kernels/camera.h"
-#include "kernels/traverse.h"
 
 static struct host_world host; /* the most recently loaded scene */
 
@@ -78,14 +77,13 @@ static void load_soup(struct scene *scene)
     free(text);
 }
 
-/* Compares with rays of the samples, traced as in the render. */
+/* Compares with the rays of samples, traced by brute force. */
 static void picks_hit_what_the_render_hits(void **state)
 {
     struct scene scene;
     struct surfaces surfaces = {&scene, &host};
     struct view view = view_from(72, 73, 78);
     struct world w;
-    struct bvh bvh = {0};
     struct error err;
     uint32_t hit_count = 0;
 
@@ -96,16 +94,13 @@ static void picks_hit_what_the_render_hits(void **state)
     view.pose.aperture = 1; /* a pick goes through the middle of the lens */
     assert_true(world_lend(&host, &scene, &view, 0, &w, &err));
     w.settings.camera.lens_radius = 0;
-    assert_true(bvh_build(&bvh, &w, NULL, &err));
-    w.nodes = bvh.nodes;
-    w.leaf_tris = bvh.leaf_tris;
     for (uint32_t i = 0; i < 1000; i++) {
         uint32_t x = i * 617 % 1024, y = i * 211 % 576;
         struct camera_sample start = camera_sample_begin(&w.settings, x, y, i);
         struct vec2 at = random_2d(start.sampler, DIMENSION_PIXEL);
         struct pick pick;
         struct hit hit;
-        bool is_hit = hit_closest(&w, start.ray, &hit);
+        bool is_hit = brute_force(&w, start.ray, &hit);
 
         assert_int_equal(surfaces_pick(&surfaces, &view, x + (double)at.x,
                                        y + (double)at.y, &pick),
@@ -117,7 +112,6 @@ static void picks_hit_what_the_render_hits(void **state)
         check_close(pick.distance * scene.scale, hit.t, 0);
     }
     assert_in_range(hit_count, 200, 800);
-    bvh_free(&bvh);
     unload(&scene);
 }
 

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
 /*
- * simd_triangle_template.h - the triangle test in four or eight lanes
+ * triangle_template.h - the triangle test in four or eight lanes
  *
  * This file is a template: each inclusion defines the test for one type of
- * vector. bvh8_leaf.h includes it for f4, with four triangles and one ray, and
- * ray_packet.h for f8, with one triangle and eight rays. Before the inclusion
- * define:
+ * vector. traverse_block.h includes it for f4, with four triangles and one ray,
+ * and src/world/bvh/ray_queries.h for f8, with one triangle and eight rays.
+ * Before the inclusion define:
  *
  *     LANES         the vector type, f4 or f8
  *     LANES_RAYS    the number of rays: 1, or one for each lane
- *     f4_corner()   loads a coordinate of a corner into all lanes from where
- *                   it is in the block (or f8_corner())
+ *     f4_corner()   loads a coordinate of a corner into all lanes from the
+ *                   block (or f8_corner())
  *     f4_ray()      the same for a component of the rays (or f8_ray())
+ *     LANES_BLOCK   what the corners are loaded from
  *
  * FN(name) is the function of that type: FN(sub) is f4_sub or f8_sub of
- * base/simd4.h and base/simd8.h. What the file defines has the prefix as well:
- * struct f4_rays, and f4_test(), which is the test.
+ * src/base/simd4.h and simd8.h, or simd_cl.h. What the file defines has the
+ * prefix as well: struct f4_rays, and f4_test(), which is the test.
  *
  * Lane by lane the test takes the steps of triangle_hit() in kernels/hit.h, and
  * gives the same bits. Where triangle_hit() would go on with pairs of floats,
@@ -25,19 +26,20 @@
  * Units:     normalised scene units
  * Threads:   any
  */
-#include "world/bvh/simd_hits.h"
+#include "kernels/simd_hits.h"
 
-#define LANES_JOIN_(lanes, name) lanes##_##name
+/* The name is joined first, as an OpenCL compiler may have a macro of it. */
+#define LANES_JOIN_(lanes, name) lanes##name
 #define LANES_JOIN(lanes, name)  LANES_JOIN_(lanes, name)
-#define FN(name)                 LANES_JOIN(LANES, name)
+#define FN(name)                 LANES_JOIN(LANES, _##name)
 #define RAYS                     FN(rays)
 #define CORNERS                  FN(corners)
 
 /* Rays, and their shears, which have the same axis. */
 struct RAYS {
-    _Alignas(4 * LANES_RAYS) float o[3][LANES_RAYS], d[3][LANES_RAYS];
-    _Alignas(4 * LANES_RAYS) float sx[LANES_RAYS], sy[LANES_RAYS],
-        sz[LANES_RAYS];
+    ALIGNED(4 * LANES_RAYS) float o[3][LANES_RAYS], d[3][LANES_RAYS];
+    ALIGNED(4 * LANES_RAYS)
+    float sx[LANES_RAYS], sy[LANES_RAYS], sz[LANES_RAYS];
     uint32_t axis;
 };
 
@@ -68,24 +70,20 @@ static inline LANES FN(sum)(const LANES v[3])
 }
 
 /* shear_apply() without the factor of z, which few blocks need. */
-static inline struct CORNERS FN(shear)(const struct tri_block *block,
-                                       uint32_t at, const struct RAYS *r)
+static inline struct CORNERS FN(shear)(LANES_BLOCK b, const struct RAYS *r)
 {
     uint32_t kz = r->axis;
     uint32_t kx = kz == 2 ? 0 : kz + 1;
     uint32_t ky = kx == 2 ? 0 : kx + 1;
     struct CORNERS c;
 
+    UNROLLED
     for (int i = 0; i < 3; i++) {
-        const float(*corner)[BLOCK_TRIS] = block->corners[i];
-
-        c.z[i] = FN(sub)(FN(corner)(&corner[kz][at]), FN(ray)(r->o[kz]));
-        c.x[i] =
-            FN(sub)(FN(sub)(FN(corner)(&corner[kx][at]), FN(ray)(r->o[kx])),
-                    FN(mul)(FN(ray)(r->sx), c.z[i]));
-        c.y[i] =
-            FN(sub)(FN(sub)(FN(corner)(&corner[ky][at]), FN(ray)(r->o[ky])),
-                    FN(mul)(FN(ray)(r->sy), c.z[i]));
+        c.z[i] = FN(sub)(FN(corner)(b, i, kz), FN(ray)(r->o[kz]));
+        c.x[i] = FN(sub)(FN(sub)(FN(corner)(b, i, kx), FN(ray)(r->o[kx])),
+                         FN(mul)(FN(ray)(r->sx), c.z[i]));
+        c.y[i] = FN(sub)(FN(sub)(FN(corner)(b, i, ky), FN(ray)(r->o[ky])),
+                         FN(mul)(FN(ray)(r->sy), c.z[i]));
     }
     return c;
 }
@@ -113,65 +111,72 @@ static inline LANES FN(error)(const struct CORNERS *c, LANES det)
 /* Computes the distances. *is_exact has the lanes where they are those of
  * triangle_hit(): triangles perpendicular to an axis by axis_distance(), others
  * by the edge functions if these are accurate enough. */
-static inline LANES FN(distance)(const struct tri_block *block, uint32_t at,
-                                 const struct RAYS *r, struct CORNERS *c,
-                                 const LANES edges[3], uint32_t *is_exact)
+static inline LANES FN(distance)(LANES_BLOCK b, const struct RAYS *r,
+                                 struct CORNERS *c, const LANES edges[3],
+                                 FN(mask) * is_exact)
 {
     LANES weighted[3], det = FN(sum)(edges);
-    LANES over, under = det, t;
-    uint32_t is_flat = 0;
+    LANES zero = FN(set1)(0.0f), over, under = det, t;
+    FN(mask) is_flat = FN(lt)(zero, zero);
 
+    UNROLLED
     for (int i = 0; i < 3; i++) {
         c->z[i] = FN(mul)(FN(ray)(r->sz), c->z[i]);
         weighted[i] = FN(mul)(edges[i], c->z[i]);
     }
     over = FN(sum)(weighted);
+    UNROLLED
     for (int i = 2; i >= 0; i--) {
-        LANES p0 = FN(corner)(&block->corners[0][i][at]);
-        LANES p1 = FN(corner)(&block->corners[1][i][at]);
-        LANES p2 = FN(corner)(&block->corners[2][i][at]);
+        LANES p0 = FN(corner)(b, 0, (uint32_t)i);
+        LANES p1 = FN(corner)(b, 1, (uint32_t)i);
+        LANES p2 = FN(corner)(b, 2, (uint32_t)i);
 
-        over =
-            FN(select_equal3)(p0, p1, p2, FN(sub)(p0, FN(ray)(r->o[i])), over);
-        under = FN(select_equal3)(p0, p1, p2, FN(ray)(r->d[i]), under);
-        is_flat |= FN(mask_equal3)(p0, p1, p2);
+        FN(mask) is_across = FN(equal3)(p0, p1, p2);
+
+        over = FN(select)(is_across, FN(sub)(p0, FN(ray)(r->o[i])), over);
+        under = FN(select)(is_across, FN(ray)(r->d[i]), under);
+        is_flat = FN(or)(is_flat, is_across);
     }
     t = FN(div)(over, under);
     *is_exact =
-        is_flat | FN(mask_lt)(FN(error)(c, det),
-                              FN(mul)(FN(abs)(t), FN(set1)(T_PRECISION)));
+        FN(or)(is_flat, FN(lt)(FN(error)(c, det),
+                               FN(mul)(FN(abs)(t), FN(set1)(T_PRECISION))));
     return t;
 }
 
-/* Tests rays against the triangles of a block from `at` on. Returns false if no
- * lane has a hit. Lanes that are not in `wanted` have none. */
-static inline bool FN(test)(const struct tri_block *block, uint32_t at,
-                            const struct RAYS *r, LANES t_max, uint32_t wanted,
-                            struct simd_hits *h)
+/* Tests rays against triangles. Returns false if no lane has a hit. Lanes that
+ * are `passed` have none. */
+static inline bool FN(test)(LANES_BLOCK b, const struct RAYS *r, LANES t_max,
+                            FN(mask) passed, struct simd_hits *h)
 {
-    struct CORNERS c = FN(shear)(block, at, r);
+    struct CORNERS c = FN(shear)(b, r);
     LANES zero = FN(set1)(0.0f);
     LANES edges[3] = {
         FN(sub)(FN(mul)(c.x[2], c.y[1]), FN(mul)(c.y[2], c.x[1])),
         FN(sub)(FN(mul)(c.x[0], c.y[2]), FN(mul)(c.y[0], c.x[2])),
         FN(sub)(FN(mul)(c.x[1], c.y[0]), FN(mul)(c.y[1], c.x[0])),
     };
-    uint32_t met = (FN(mask_le)(zero, FN(least)(edges)) |
-                    FN(mask_le)(FN(most)(edges), zero)) &
-                   wanted;
-    uint32_t is_exact;
+    FN(mask)
+    met = FN(but)(FN(or)(FN(le)(zero, FN(least)(edges)),
+                         FN(le)(FN(most)(edges), zero)),
+                  passed);
+    FN(mask) is_exact, is_near;
     LANES t;
 
-    if (met == 0)
+    if (FN(bits)(met) == 0)
         return false;
-    t = FN(distance)(block, at, r, &c, edges, &is_exact);
+    t = FN(distance)(b, r, &c, edges, &is_exact);
     /* an edge function of 0 has lost its sign; the product is also 0 if it
      * underflows, which only costs time */
-    is_exact &= ~FN(
-        mask_le)(FN(abs)(FN(mul)(FN(mul)(edges[0], edges[1]), edges[2])), zero);
-    h->unsure = met & ~is_exact;
-    h->sure = met & is_exact & FN(mask_lt)(zero, t) & FN(mask_le)(t, t_max);
+    is_exact =
+        FN(but)(is_exact,
+                FN(le)(FN(abs)(FN(mul)(FN(mul)(edges[0], edges[1]), edges[2])),
+                       zero));
+    is_near = FN(and)(FN(lt)(zero, t), FN(le)(t, t_max));
+    h->unsure = FN(bits)(FN(but)(met, is_exact));
+    h->sure = FN(bits)(FN(and)(FN(and)(met, is_exact), is_near));
     FN(store)(h->t, t);
+    UNROLLED
     for (int i = 0; i < 3; i++)
         FN(store)(h->edges[i], edges[i]);
     return true;
@@ -184,3 +189,4 @@ static inline bool FN(test)(const struct tri_block *block, uint32_t at,
 #undef LANES_JOIN_
 #undef LANES
 #undef LANES_RAYS
+#undef LANES_BLOCK
