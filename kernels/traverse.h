@@ -318,40 +318,50 @@ static INLINED bool walk_any(struct walk *k, uint32_t *stack,
 
 /* ---- instances ---- */
 
-/* The place of a walk with instances, and the rays that bound its ray there. */
+/* The place of a walk with instances, and the two rays that bound its rays
+ * there and outside of meshes. */
 struct instance_walk {
-    struct bvh8_ray outer; /* the ray outside of meshes */
-    struct bvh8_ray first, last;
+    struct bvh8_ray first, last, outer_first, outer_last;
     bool is_in_mesh; /* or among the triangles outside of meshes */
     GLOBAL const struct instance *at; /* NULL there */
 };
 
-static inline void instance_walk_begin(struct instance_walk *i, struct ray r)
+static inline void instance_walk_begin(struct instance_walk *i,
+                                       const struct bvh8_ray *first,
+                                       const struct bvh8_ray *last)
 {
-    i->outer = i->first = i->last = bvh8_ray_of(r);
+    i->first = i->outer_first = *first;
+    i->last = i->outer_last = *last;
     i->is_in_mesh = false;
     i->at = 0;
 }
 
-/* Enters the tree that the stand-in in a leaf leads to. There the boxes are
- * widened by instance_ray(). */
-static inline void instance_walk_enter(struct instance_walk *i, struct walk *k,
-                                       const struct world *w, struct ray r)
+/* Enters the tree that the stand-in in a leaf leads to. Returns true if that is
+ * of a mesh, where the rays are others. */
+static inline bool instance_walk_enter(struct instance_walk *i, struct walk *k,
+                                       const struct world *w)
 {
     uint32_t stand_in = walk_block(k)->tri[0];
-    struct mesh_ray m;
 
     if (stand_in == NO_INDEX)
-        return;
+        return false;
     i->is_in_mesh = true;
     k->base = k->depth;
     k->at = 0;
     k->nodes = (GLOBAL const void *)((GLOBAL const char *)w->nodes +
                                      (size_t)w->roots[stand_in] * BVH8_UNIT);
     if (stand_in == w->settings.instance_count)
-        return;
+        return false;
     i->at = &w->instances[stand_in];
-    m = instance_ray(*i->at, r);
+    return true;
+}
+
+/* Sets the rays that bound a ray in a mesh, whose boxes instance_ray() widens.
+ */
+static inline void instance_walk_aim(struct instance_walk *i, struct ray r)
+{
+    struct mesh_ray m = instance_ray(*i->at, r);
+
     m.widen = v3(copysignf(m.widen.x, m.d.x), copysignf(m.widen.y, m.d.y),
                  copysignf(m.widen.z, m.d.z));
     bvh8_ray_axis(&i->first, 0, m.o.x + m.widen.x, m.d.x);
@@ -371,7 +381,8 @@ static inline bool instance_walk_leave(struct instance_walk *i, struct walk *k,
         return false;
     i->is_in_mesh = false;
     i->at = 0;
-    i->first = i->last = i->outer;
+    i->first = i->outer_first;
+    i->last = i->outer_last;
     k->base = 0;
     k->at = BVH8_LEAF;
     k->nodes = w->nodes;
@@ -383,17 +394,19 @@ static RARE void instances_closest(const struct world *w, struct ray r,
                                    struct hit *hit)
 {
     struct block_ray ray = block_ray_of(r, NO_INDEX);
+    struct bvh8_ray boxes = bvh8_ray_of(r);
     struct walk k = walk_begin(w->nodes, r.t_max);
     uint64_t stack[BVH8_STACK];
     struct instance_walk i;
 
-    instance_walk_begin(&i, r);
+    instance_walk_begin(&i, &boxes, &boxes);
     do {
         while (walk_nearest(&k, stack, &i.first, &i.last)) {
             struct placed_block b = {walk_block(&k), i.at};
 
             if (!i.is_in_mesh) {
-                instance_walk_enter(&i, &k, w, r);
+                if (instance_walk_enter(&i, &k, w))
+                    instance_walk_aim(&i, r);
                 continue;
             }
             blocks_hit(w, &ray, b, walk_more(&k), false, hit);
@@ -408,18 +421,22 @@ static RARE bool instances_any(const struct world *w, struct ray r,
 {
     struct block_ray ray = block_ray_of(r, tri);
     struct hit h = {r.t_max, 0.0f, 0.0f, 0.0f, tri};
+    struct bvh8_ray boxes = bvh8_ray_of(r);
     struct walk k = walk_begin(w->nodes, r.t_max);
     uint32_t stack[BVH8_STACK];
     struct instance_walk i;
 
-    instance_walk_begin(&i, r);
+    instance_walk_begin(&i, &boxes, &boxes);
     do {
         while (walk_any(&k, stack, &i.first, &i.last)) {
             struct placed_block b = {walk_block(&k), i.at};
 
-            if (!i.is_in_mesh)
-                instance_walk_enter(&i, &k, w, r);
-            else if (blocks_hit(w, &ray, b, walk_more(&k), true, &h))
+            if (!i.is_in_mesh) {
+                if (instance_walk_enter(&i, &k, w))
+                    instance_walk_aim(&i, r);
+                continue;
+            }
+            if (blocks_hit(w, &ray, b, walk_more(&k), true, &h))
                 return true;
         }
     } while (instance_walk_leave(&i, &k, w));

@@ -647,14 +647,16 @@ static bool build_all(struct bvh8 *wide, const struct instance_trees *t,
                       struct error *err)
 {
     struct bvh8 *trees = alloc_array((size_t)t->mesh_count + 1, sizeof *trees);
-    bool ok = trees != NULL || fail_for(wide, w, err);
+    bool ok = true;
 
+    if (trees == NULL)
+        return fail_for(wide, w, err);
     for (uint32_t i = 0; ok && i < t->mesh_count; i++)
         ok = build_one(&trees[i], &t->meshes[i], &bvh8_leaves, pool, err);
     ok = ok && build_one(&trees[t->mesh_count], &t->stand_ins, &stand_in_leaves,
                          pool, err);
     ok = ok && (join_trees(wide, t, w, trees) || fail_for(wide, w, err));
-    for (uint32_t i = 0; trees != NULL && i <= t->mesh_count; i++)
+    for (uint32_t i = 0; i <= t->mesh_count; i++)
         bvh8_free(&trees[i]);
     free(trees);
     return ok;

@@ -17,9 +17,9 @@
 
 #define PACKET_RAYS 8
 
-/* A triangle of a block. */
+/* A triangle of a block: its place in each of the rows of four coordinates. */
 struct block_tri {
-    const struct tri_block *block;
+    const float (*corners)[3][BVH8_BLOCK_TRIS];
     uint32_t i;
 };
 
@@ -27,7 +27,7 @@ struct block_tri {
  */
 static inline f8 f8_corner(struct block_tri t, int k, uint32_t axis)
 {
-    return f8_set1(t.block->corners[k][axis][t.i]);
+    return f8_set1(t.corners[k][axis][t.i]);
 }
 
 static inline f8 f8_ray(const float *place)
@@ -123,9 +123,11 @@ static inline void packet_begin(struct ray_packet *g, const struct world *w,
     g->t_max = packet_t_max(g);
 }
 
-static inline void packet_intersect(struct ray_packet *g, struct block_tri t)
+/* Intersects the rays with a triangle of a block. */
+static inline void packet_intersect(struct ray_packet *g, struct placed_block b,
+                                    struct block_tri t)
 {
-    struct placed_block b = {t.block, NULL};
+    uint32_t tri = placed_first(b) + b.block->tri[t.i];
     f8 zero = f8_set1(0.0f);
     struct simd_hits h;
 
@@ -134,8 +136,7 @@ static inline void packet_intersect(struct ray_packet *g, struct block_tri t)
     for (; h.sure != 0; h.sure &= h.sure - 1) {
         uint32_t k = lowest_bit(h.sure);
 
-        lane_accept(g->world, &h, k, g->rays[k], t.block->tri[t.i],
-                    &g->hits[k]);
+        lane_accept(g->world, &h, k, g->rays[k], tri, &g->hits[k]);
         g->t[k] = g->hits[k].t;
     }
     for (; h.unsure != 0; h.unsure &= h.unsure - 1) {
@@ -155,39 +156,120 @@ static inline void packet_intersect(struct ray_packet *g, struct block_tri t)
 #define PACKET_MIN    2
 #define PACKET_SPREAD 0x1p-5f
 
-/* Sets an axis of the two rays that bound all rays of a packet. Returns false
- * if the directions differ in sign or the rays are too far apart. */
-static inline bool bvh8_bound(struct bvh8_ray *first, struct bvh8_ray *last,
-                              uint32_t axis, const struct ray_packet *g)
-{
-    const float *o = g->lanes.o[axis], *d = g->lanes.d[axis];
-    float o_lo = o[0], o_hi = o[0], d_lo = d[0], d_hi = d[0];
-    uint32_t is_down;
+/* Bounds of rays along an axis. */
+struct ray_bounds {
+    float o_lo, o_hi, d_lo, d_hi;
+};
 
-    for (uint32_t i = 1; i < g->count; i++) {
-        o_lo = f_min(o_lo, o[i]);
-        o_hi = f_max(o_hi, o[i]);
-        d_lo = f_min(d_lo, d[i]);
-        d_hi = f_max(d_hi, d[i]);
-    }
-    is_down = float_bits(d_lo) >> 31;
-    bvh8_ray_axis(first, axis, is_down ? o_lo : o_hi, is_down ? d_lo : d_hi);
-    bvh8_ray_axis(last, axis, is_down ? o_hi : o_lo, is_down ? d_hi : d_lo);
-    return is_down == float_bits(d_hi) >> 31 &&
-           (o_hi - o_lo) + (d_hi - d_lo) <= PACKET_SPREAD;
+static inline void bounds_add(struct ray_bounds *b, float o_lo, float o_hi,
+                              float d)
+{
+    b->o_lo = f_min(o_lo, b->o_lo);
+    b->o_hi = f_max(o_hi, b->o_hi);
+    b->d_lo = f_min(d, b->d_lo);
+    b->d_hi = f_max(d, b->d_hi);
 }
 
-static INLINED void packet_blocks(struct ray_packet *g,
-                                  const struct tri_block *block, uint32_t more)
+/* Sets an axis of the two rays that bound rays. Returns false if the directions
+ * differ in sign, and then lets all planes across the axis pass. */
+static inline bool bounds_set(const struct ray_bounds *b, uint32_t axis,
+                              struct bvh8_ray *first, struct bvh8_ray *last)
 {
-    for (;; more--, block++) {
+    bool is_down = float_bits(b->d_lo) >> 31 != 0;
+
+    bvh8_ray_axis(first, axis, is_down ? b->o_lo : b->o_hi,
+                  is_down ? b->d_lo : b->d_hi);
+    bvh8_ray_axis(last, axis, is_down ? b->o_hi : b->o_lo,
+                  is_down ? b->d_hi : b->d_lo);
+    if (is_down == (float_bits(b->d_hi) >> 31 != 0))
+        return true;
+    first->inverse[axis] = last->inverse[axis] = f8_set1(0.0f);
+    first->start[axis] = f8_set1(1.0f);
+    last->start[axis] = f8_set1(-0x1p100f);
+    return false;
+}
+
+static const struct ray_bounds no_bounds = {FLOAT_MAX, -FLOAT_MAX, FLOAT_MAX,
+                                            -FLOAT_MAX};
+
+/* Sets an axis of the two rays that bound all rays of a packet. Returns false
+ * if the directions differ in sign or the rays are too far apart. */
+static inline bool packet_bound(struct bvh8_ray *first, struct bvh8_ray *last,
+                                uint32_t axis, const struct ray_packet *g)
+{
+    const float *o = g->lanes.o[axis], *d = g->lanes.d[axis];
+    struct ray_bounds b = no_bounds;
+
+    for (uint32_t i = 0; i < g->count; i++)
+        bounds_add(&b, o[i], o[i], d[i]);
+    return bounds_set(&b, axis, first, last) &&
+           (b.o_hi - b.o_lo) + (b.d_hi - b.d_lo) <= PACKET_SPREAD;
+}
+
+/* Sets the rays that bound those of a packet in a mesh. */
+static inline void packet_aim(struct instance_walk *i,
+                              const struct ray_packet *g)
+{
+    struct ray_bounds x = no_bounds, y = no_bounds, z = no_bounds;
+
+    for (uint32_t l = 0; l < g->count; l++) {
+        struct mesh_ray m = instance_ray(*i->at, g->rays[l]);
+        struct vec3 lo = v3_sub(m.o, m.widen), hi = v3_add(m.o, m.widen);
+
+        bounds_add(&x, lo.x, hi.x, m.d.x);
+        bounds_add(&y, lo.y, hi.y, m.d.y);
+        bounds_add(&z, lo.z, hi.z, m.d.z);
+    }
+    bounds_set(&x, 0, &i->first, &i->last);
+    bounds_set(&y, 1, &i->first, &i->last);
+    bounds_set(&z, 2, &i->first, &i->last);
+}
+
+static INLINED void packet_blocks(struct ray_packet *g, struct placed_block b,
+                                  uint32_t more)
+{
+    _Alignas(16) float moved[3][3][BVH8_BLOCK_TRIS];
+
+    for (;; more--, b.block++) {
+        struct block_tri t = {b.block->corners, 0};
+
         COUNT_BLOCK();
-        for (uint32_t i = 0; i < BVH8_BLOCK_TRIS && block->tri[i] != NO_INDEX;
-             i++)
-            packet_intersect(g, (struct block_tri){block, i});
+        if (placed_is_moved(b)) {
+            for (int k = 0; k < 9; k++)
+                f4_store(moved[k / 3][k % 3],
+                         f4_corner(b, k / 3, (uint32_t)k % 3));
+            t.corners = (const float(*)[3][BVH8_BLOCK_TRIS])moved;
+        }
+        for (; t.i < BVH8_BLOCK_TRIS && b.block->tri[t.i] != NO_INDEX; t.i++)
+            packet_intersect(g, b, t);
         if (more == 0)
             return;
     }
+}
+
+/* Traces a packet in a world with instances. */
+static RARE void packet_instances(struct ray_packet *g,
+                                  const struct bvh8_ray *first,
+                                  const struct bvh8_ray *last)
+{
+    struct walk k = walk_begin(g->world->nodes, g->t_max);
+    uint64_t stack[BVH8_STACK];
+    struct instance_walk i;
+
+    instance_walk_begin(&i, first, last);
+    do {
+        while (walk_nearest(&k, stack, &i.first, &i.last)) {
+            struct placed_block b = {walk_block(&k), i.at};
+
+            if (!i.is_in_mesh) {
+                if (instance_walk_enter(&i, &k, g->world))
+                    packet_aim(&i, g);
+                continue;
+            }
+            packet_blocks(g, b, walk_more(&k));
+            k.t_far = bvh8_far(g->t_max);
+        }
+    } while (instance_walk_leave(&i, &k, g->world));
 }
 
 /* Traces rays as one packet. Returns false, with no answer, where they are too
@@ -200,18 +282,24 @@ static inline bool packet_closest(const struct world *w, const struct ray *rays,
     uint64_t stack[BVH8_STACK];
     struct walk k;
 
-    if (w->nodes == NULL || count < PACKET_MIN || has_instances(w))
+    if (w->nodes == NULL || count < PACKET_MIN)
         return false;
     packet_begin(&g, w, rays, count, hits);
-    if (!packet_is_finite(&g) || !bvh8_bound(&first, &last, 0, &g) ||
-        !bvh8_bound(&first, &last, 1, &g) ||
-        !bvh8_bound(&first, &last, 2, &g) || !packet_shear(&g.lanes))
+    if (!packet_is_finite(&g) || !packet_bound(&first, &last, 0, &g) ||
+        !packet_bound(&first, &last, 1, &g) ||
+        !packet_bound(&first, &last, 2, &g) || !packet_shear(&g.lanes))
         return false;
     for (uint32_t i = 0; i < count; i++)
         hits[i] = no_hit(rays[i]);
+    if (has_instances(w)) {
+        packet_instances(&g, &first, &last);
+        return true;
+    }
     k = walk_begin(w->nodes, g.t_max);
     while (walk_nearest(&k, stack, &first, &last)) {
-        packet_blocks(&g, walk_block(&k), walk_more(&k));
+        struct placed_block b = {walk_block(&k), NULL};
+
+        packet_blocks(&g, b, walk_more(&k));
         k.t_far = bvh8_far(g.t_max);
     }
     return true;
