@@ -12,6 +12,7 @@
 #include "kernels/guide.h"
 #include "kernels/light.h"
 #include "kernels/path_types.h"
+#include "kernels/rng.h"
 
 /* Number of vertices of a path whose random numbers are computed together if
  * there are vectors of eight, else each is computed when it is used. If those

@@ -108,16 +108,15 @@ static inline LANES FN(error)(const struct CORNERS *c, LANES det)
                    FN(mul)(FN(set1)(GAMMA(12)), reach_z));
 }
 
-/* Computes the distances. *is_exact has the lanes where they are those of
- * triangle_hit(): triangles perpendicular to an axis by axis_distance(), others
- * by the edge functions if these are accurate enough. */
+/* Computes the distances. *is_flat has the lanes with triangles perpendicular
+ * to an axis, whose distances are those of axis_distance(). */
 static inline LANES FN(distance)(LANES_BLOCK b, const struct RAYS *r,
                                  struct CORNERS *c, const LANES edges[3],
-                                 FN(mask) * is_exact)
+                                 FN(mask) * is_flat)
 {
-    LANES weighted[3], det = FN(sum)(edges);
-    LANES zero = FN(set1)(0.0f), over, under = det, t;
-    FN(mask) is_flat = FN(lt)(zero, zero);
+    LANES weighted[3], over, under = FN(sum)(edges);
+
+    *is_flat = FN(lt)(under, under); /* none */
 
     UNROLLED
     for (int i = 0; i < 3; i++) {
@@ -130,18 +129,13 @@ static inline LANES FN(distance)(LANES_BLOCK b, const struct RAYS *r,
         LANES p0 = FN(corner)(b, 0, (uint32_t)i);
         LANES p1 = FN(corner)(b, 1, (uint32_t)i);
         LANES p2 = FN(corner)(b, 2, (uint32_t)i);
-
         FN(mask) is_across = FN(equal3)(p0, p1, p2);
 
         over = FN(select)(is_across, FN(sub)(p0, FN(ray)(r->o[i])), over);
         under = FN(select)(is_across, FN(ray)(r->d[i]), under);
-        is_flat = FN(or)(is_flat, is_across);
+        *is_flat = FN(or)(*is_flat, is_across);
     }
-    t = FN(div)(over, under);
-    *is_exact =
-        FN(or)(is_flat, FN(lt)(FN(error)(c, det),
-                               FN(mul)(FN(abs)(t), FN(set1)(T_PRECISION))));
-    return t;
+    return FN(div)(over, under);
 }
 
 /* Tests rays against triangles. Returns false if no lane has a hit. Lanes that
@@ -160,12 +154,21 @@ static inline bool FN(test)(LANES_BLOCK b, const struct RAYS *r, LANES t_max,
     met = FN(but)(FN(or)(FN(le)(zero, FN(least)(edges)),
                          FN(le)(FN(most)(edges), zero)),
                   passed);
-    FN(mask) is_exact, is_near;
+    FN(mask) is_flat, is_exact, is_near, is_beyond;
     LANES t;
 
     if (FN(bits)(met) == 0)
         return false;
-    t = FN(distance)(b, r, &c, edges, &is_exact);
+    t = FN(distance)(b, r, &c, edges, &is_flat);
+    is_exact =
+        FN(or)(is_flat, FN(lt)(FN(error)(&c, FN(sum)(edges)),
+                               FN(mul)(FN(abs)(t), FN(set1)(T_PRECISION))));
+    /* triangle_hit() finds distances between those of the corners */
+    is_beyond =
+        FN(but)(FN(or)(FN(le)(FN(most)(c.z), zero),
+                       FN(lt)(t_max, FN(mul)(FN(least)(c.z),
+                                             FN(set1)(1.0f - T_PRECISION)))),
+                FN(or)(is_flat, is_exact));
     /* an edge function of 0 has lost its sign; the product is also 0 if it
      * underflows, which only costs time */
     is_exact =
@@ -173,7 +176,7 @@ static inline bool FN(test)(LANES_BLOCK b, const struct RAYS *r, LANES t_max,
                 FN(le)(FN(abs)(FN(mul)(FN(mul)(edges[0], edges[1]), edges[2])),
                        zero));
     is_near = FN(and)(FN(lt)(zero, t), FN(le)(t, t_max));
-    h->unsure = FN(bits)(FN(but)(met, is_exact));
+    h->unsure = FN(bits)(FN(but)(FN(but)(met, is_exact), is_beyond));
     h->sure = FN(bits)(FN(and)(FN(and)(met, is_exact), is_near));
     FN(store)(h->t, t);
     UNROLLED

@@ -11,8 +11,9 @@
 #include "image/color.h"
 #include "world/light/lights.h"
 #include "world/light/sky_table.h"
-#include "kernels/path_lights.h"
 #include "world/bvh/ray_queries.h"
+
+#include "kernels/path_lights.h"
 
 /* Roulette of the paths in this program: glim's, a plain one from the first
  * vertex on, or none. */

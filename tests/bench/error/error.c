@@ -303,9 +303,9 @@ static bool measure_round(struct measurement *m, int technique, int round,
 }
 
 /* Prints which paths have the variance of a sample. */
-static bool print_classes(const struct measurement *m, struct error *err)
+static bool print_classes(struct measurement *m, struct error *err)
 {
-    const struct engine *e = &m->session.engine;
+    struct engine *e = &m->session.engine;
     struct class_variance v;
     struct world world;
     double all;
