@@ -19,20 +19,21 @@ typedef ulong uint64_t;
 #define FLATTENED
 #define VECTORISED
 
-/* Vectors of eight integers; elements are v[0] to v[7]. */
+/* Vectors of eight numbers. Both compilers know the operators of C for them. */
 #define HAS_WIDE_VECTORS 1
 typedef uint8 u32x8;
+typedef float8 f32x8;
 
 #define APART
-#define INLINED    inline
-#define RARE       inline
-#define ALIGNED(n) __attribute__((aligned(n)))
-#define PREFETCH(p)
-#define UNROLLED _Pragma("unroll")
-#define GLOBAL   __global
-#define CONSTANT __constant
-#define sqrtf(x) sqrt(x)
-#define fabsf(x) fabs(x)
+#define INLINED     inline
+#define RARE        inline
+#define ALIGNED(n)  __attribute__((aligned(n)))
+#define PREFETCH(p) (void)(p)
+#define UNROLLED    _Pragma("unroll")
+#define GLOBAL      __global
+#define CONSTANT    __constant
+#define sqrtf(x)    sqrt(x)
+#define fabsf(x)    fabs(x)
 #ifdef __clang__ /* one instruction, where PoCL's floor() takes fifteen */
 #define floorf(x) __builtin_floorf(x)
 #else
@@ -40,6 +41,16 @@ typedef uint8 u32x8;
 #endif
 #define float_bits(x) as_uint(x)
 #define bits_float(x) as_float(x)
+
+static inline f32x8 f32x8_of(u32x8 x)
+{
+    return convert_float8(as_int8(x));
+}
+
+static inline void f32x8_store(float *to, f32x8 x)
+{
+    vstore8(x, 0, to);
+}
 
 /* That of PoCL takes ten instructions. */
 static inline float copysignf(float x, float y)
@@ -74,6 +85,19 @@ static inline uint lowest_bit(uint mask)
 #ifdef __AVX2__
 #define HAS_WIDE_VECTORS 1
 typedef uint32_t u32x8 __attribute__((vector_size(32)));
+typedef int32_t i32x8 __attribute__((vector_size(32)));
+typedef float f32x8 __attribute__((vector_size(32)));
+
+/* Converts integers below 2^31. */
+static inline f32x8 f32x8_of(u32x8 x)
+{
+    return __builtin_convertvector((i32x8)x, f32x8);
+}
+
+static inline void f32x8_store(float *to, f32x8 x)
+{
+    memcpy(to, &x, sizeof x);
+}
 #else
 #define HAS_WIDE_VECTORS 0
 #endif

@@ -34,7 +34,8 @@ struct path {
     struct ray ray;
     struct sampler sampler;
     uint32_t vertex; /* number of the next vertex; the first has 1 */
-    struct vec2 numbers[VERTICES_AHEAD * DIMENSION_KINDS];
+    /* x, then y of the points of VERTICES_AHEAD vertices */
+    float numbers[2][VERTICES_AHEAD * DIMENSION_KINDS];
     struct vec3 beta; /* throughput for Russian roulette */
     float scale;      /* factor of the throughput that roulette ignores */
     float pdf;        /* density of the ray's direction; 0 for the camera and
@@ -77,8 +78,9 @@ static inline struct vec2 vertex_2d(struct sampler s, uint32_t vertex,
 
 #if HAS_WIDE_VECTORS
 /* Computes all random numbers of VERTICES_AHEAD vertices. */
-static inline void vertices_2d(struct sampler s, uint32_t vertex,
-                               struct vec2 *numbers)
+static inline void
+vertices_2d(struct sampler s, uint32_t vertex,
+            float numbers[2][VERTICES_AHEAD * DIMENSION_KINDS])
 {
     const u32x8 vertices = {0, 0, 0, 0, 1, 1, 1, 1};
     const u32x8 kinds = {0, 1, 2, 3, 0, 1, 2, 3};
@@ -87,8 +89,8 @@ static inline void vertices_2d(struct sampler s, uint32_t vertex,
     struct bits2_8 p =
         sobol_point_8(indices, dimension_key_8(s.key, dimensions));
 
-    for (uint32_t i = 0; i < VERTICES_AHEAD * DIMENSION_KINDS; i++)
-        numbers[i] = v2(unit_float(p.x[i]), unit_float(p.y[i]));
+    f32x8_store(numbers[0], unit_float_8(p.x));
+    f32x8_store(numbers[1], unit_float_8(p.y));
 }
 #endif
 
@@ -107,9 +109,9 @@ static inline void path_prepare_2d(struct path *p)
 /* Returns two random numbers of the path's next vertex. */
 static inline struct vec2 path_2d(const struct path *p, uint32_t kind)
 {
-    uint32_t ahead = (p->vertex - 1) % VERTICES_AHEAD;
+    uint32_t at = (p->vertex - 1) % VERTICES_AHEAD * DIMENSION_KINDS + kind;
 
-    return HAS_WIDE_VECTORS ? p->numbers[ahead * DIMENSION_KINDS + kind]
+    return HAS_WIDE_VECTORS ? v2(p->numbers[0][at], p->numbers[1][at])
                             : vertex_2d(p->sampler, p->vertex, kind);
 }
 

@@ -71,6 +71,13 @@ static inline float unit_float(uint32_t bits)
     return (float)(bits >> 8) * 0x1p-24f;
 }
 
+#if HAS_WIDE_VECTORS
+static inline f32x8 unit_float_8(u32x8 bits)
+{
+    return f32x8_of(bits >> 8) * 0x1p-24f;
+}
+#endif
+
 static inline struct sampler sampler_start(uint32_t x, uint32_t y,
                                            uint64_t index, uint32_t seed)
 {
