@@ -43,6 +43,13 @@
  * f8_distance_lt() excludes equality. */
 #define WIDEN_STEPS 33
 
+/* False in a world without triangles, where devices have a buffer without
+ * nodes. */
+static inline bool has_tree(const struct world *w)
+{
+    return w->nodes != 0 && w->settings.tri_count > 0;
+}
+
 static inline struct hit no_hit(struct ray r)
 {
     struct hit none = {r.t_max, 0.0f, 0.0f, 0.0f, NO_INDEX};
@@ -455,7 +462,7 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     uint64_t stack[BVH8_STACK];
 
     *hit = no_hit(r);
-    if (w->nodes == 0 || !ray_is_finite(r))
+    if (!has_tree(w) || !ray_is_finite(r))
         return false;
     if (has_instances(w)) {
         instances_closest(w, r, hit);
@@ -482,7 +489,7 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
     struct walk k = walk_begin(w->nodes, r.t_max);
     uint32_t stack[BVH8_STACK];
 
-    if (w->nodes == 0 || !ray_is_finite(r))
+    if (!has_tree(w) || !ray_is_finite(r))
         return false;
     if (has_instances(w))
         return instances_any(w, r, tri);

@@ -282,7 +282,7 @@ static inline bool packet_closest(const struct world *w, const struct ray *rays,
     uint64_t stack[BVH8_STACK];
     struct walk k;
 
-    if (w->nodes == NULL || count < PACKET_MIN)
+    if (!has_tree(w) || count < PACKET_MIN)
         return false;
     packet_begin(&g, w, rays, count, hits);
     if (!packet_is_finite(&g) || !packet_bound(&first, &last, 0, &g) ||

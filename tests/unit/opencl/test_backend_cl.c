@@ -7,6 +7,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "render/opencl/cl_api.h"
 #include "render/opencl/cl_buffers.h"
@@ -58,6 +59,25 @@ static void pictures_of_all_options_are_equal(void **state)
     render_both(&p, (struct rect){0, 3, 130, 1}, 9, 5);
     render_both(&p, (struct rect){3, 0, 1, 71}, 9, 5);
     close_pair(&p);
+}
+
+/* A scene whose only triangle has no area shows its background. */
+static void pictures_without_triangles_are_equal(void **state)
+{
+    char path[] = "/tmp/glim-test-XXXXXX.obj";
+    int file = mkstemps(path, 4);
+    struct pair p;
+
+    (void)state;
+    assert_true(file >= 0);
+    assert_true(write(file, "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", 32) > 0);
+    close(file);
+    if (device) {
+        open_pair(&p, path, 40, 30);
+        render_both(&p, (struct rect){0, 0, 40, 30}, 3, 1);
+        close_pair(&p);
+    }
+    unlink(path);
 }
 
 /* Pixels have different numbers of samples. */
@@ -353,6 +373,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(surfaces_are_equal),
         cmocka_unit_test(pictures_of_all_options_are_equal),
+        cmocka_unit_test(pictures_without_triangles_are_equal),
         cmocka_unit_test(adaptive_pictures_are_equal),
         cmocka_unit_test(drafts_are_equal),
         cmocka_unit_test(feature_pictures_are_equal),
