@@ -17,7 +17,6 @@ typedef long int64_t;
 typedef ulong uint64_t;
 
 #define FLATTENED
-#define VECTORISED
 
 /* Vectors of eight numbers. Both compilers know the operators of C for them. */
 #define HAS_WIDE_VECTORS 1

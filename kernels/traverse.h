@@ -57,6 +57,24 @@ static inline struct hit no_hit(struct ray r)
     return none;
 }
 
+/* ---- children ---- */
+
+/* The node that a child names in the tree with this root. */
+static inline GLOBAL const struct bvh8_node *
+bvh8_node_at(GLOBAL const struct bvh8_node *root, uint32_t child)
+{
+    return (GLOBAL const void *)((GLOBAL const char *)root +
+                                 (size_t)child * (BVH8_UNIT / 8));
+}
+
+/* The first block of the leaf that a child names. */
+static inline GLOBAL const struct tri_block *
+bvh8_block_at(GLOBAL const struct bvh8_node *root, uint32_t child)
+{
+    return (GLOBAL const void *)bvh8_node_at(root,
+                                             child & ~(BVH8_LEAF | BVH8_MORE));
+}
+
 /* ---- boxes ---- */
 
 /* A ray, prepared for box tests: a plane at p is at distance p * inverse -
@@ -155,19 +173,13 @@ static inline struct walk walk_begin(GLOBAL const struct bvh8_node *nodes,
     return k;
 }
 
-static inline GLOBAL const struct bvh8_node *walk_node(const struct walk *k,
-                                                       uint32_t child)
-{
-    return (GLOBAL const void *)((GLOBAL const char *)k->nodes +
-                                 (size_t)child * (BVH8_UNIT / 8));
-}
-
-/* The first block of the leaf, and the number of those that follow. */
+/* The first block of the leaf that was found. */
 static inline GLOBAL const struct tri_block *walk_block(const struct walk *k)
 {
-    return (GLOBAL const void *)walk_node(k, k->at & ~(BVH8_LEAF | BVH8_MORE));
+    return bvh8_block_at(k->nodes, k->at);
 }
 
+/* The number of those that follow. */
 static inline uint32_t walk_more(const struct walk *k)
 {
     return k->at & BVH8_MORE;
@@ -176,7 +188,7 @@ static inline uint32_t walk_more(const struct walk *k)
 /* Prefetches a node, or a block and what follows it. */
 static inline void walk_prefetch(const struct walk *k, uint32_t child)
 {
-    GLOBAL const char *p = (GLOBAL const char *)walk_node(k, child);
+    GLOBAL const char *p = (GLOBAL const char *)bvh8_node_at(k->nodes, child);
 
     for (size_t i = 0; i < sizeof(struct bvh8_node); i += 64)
         PREFETCH(p + i);
@@ -268,7 +280,7 @@ static INLINED bool walk_nearest(struct walk *k, uint64_t *stack,
     if ((k->at & BVH8_LEAF) != 0 && !walk_pop(k, stack))
         return false;
     while ((k->at & BVH8_LEAF) == 0) {
-        GLOBAL const struct bvh8_node *n = walk_node(k, k->at);
+        GLOBAL const struct bvh8_node *n = bvh8_node_at(k->nodes, k->at);
         f8 enter;
         uint32_t mask = bvh8_enter(n, first, last, k->t_far, &enter);
 
@@ -303,7 +315,7 @@ static INLINED bool walk_any(struct walk *k, uint32_t *stack,
     if ((k->at & BVH8_LEAF) != 0 && !walk_pop_any(k, stack))
         return false;
     while ((k->at & BVH8_LEAF) == 0) {
-        GLOBAL const struct bvh8_node *n = walk_node(k, k->at);
+        GLOBAL const struct bvh8_node *n = bvh8_node_at(k->nodes, k->at);
         f8 enter;
         uint32_t mask = bvh8_enter(n, first, last, k->t_far, &enter);
 

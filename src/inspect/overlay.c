@@ -76,12 +76,10 @@ static bool has_child(const struct bvh8_node *n, uint32_t i)
     return n->planes[0][0][i] < INFINITY;
 }
 
-/* Returns the node below the root, or NULL if the child is a leaf. */
+/* Returns the node that the child names, or NULL if it is a leaf. */
 static const struct bvh8_node *node_below(const struct world *w, uint32_t child)
 {
-    return (child & BVH8_LEAF) != 0
-               ? NULL
-               : w->nodes + child / 8 * BVH8_UNIT / sizeof(struct bvh8_node);
+    return (child & BVH8_LEAF) != 0 ? NULL : bvh8_node_at(w->nodes, child);
 }
 
 /* Collects the boxes of the children that are `level` nodes below a node.

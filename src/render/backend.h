@@ -106,15 +106,15 @@ struct backend {
      * those of the plan */
     uint32_t pass_least;
     bool takes_light;    /* passes may have light */
-    uint64_t tree_bytes; /* size of the tree that load() built or found */
+    uint64_t tree_bytes; /* size of the host's tree, loaded */
     /* version of the loaded WORLD_SHAPE; 0 if none is loaded */
     uint64_t shape;
     uint64_t upload_count; /* arrays uploaded so far; 0 for the CPU */
     int rank_count;        /* processes that render; 0: this one alone */
 
-    /* Prepares a new shape for ray queries. A backend without a tree of its own
-     * uses the host's, and builds that if nobody has yet. `world` is lent from
-     * the host, as in begin(). */
+    /* Prepares a new shape for ray queries. Builds the host's tree if nobody
+     * has yet, and lends it to `world`, which is lent from the host, as in
+     * begin(). */
     bool (*load)(struct backend *b, struct host_world *host,
                  struct world *world, struct error *err);
 

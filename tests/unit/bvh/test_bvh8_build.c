@@ -28,17 +28,6 @@ static void threads_build_the_same_tree(void **state)
     mesh_free(&m);
 }
 
-static const void *node_at(const struct bvh8_node *nodes, uint32_t child)
-{
-    return (const char *)nodes + (size_t)(child / 8) * BVH8_UNIT;
-}
-
-static const struct tri_block *block_at(const struct bvh8_node *nodes,
-                                        uint32_t child)
-{
-    return node_at(nodes, child);
-}
-
 struct tree_check {
     const struct mesh *mesh;
     bool *tris;
@@ -62,7 +51,7 @@ static double area(struct vec3 lo, struct vec3 hi)
 static void visit_leaf(struct tree_check *s, uint32_t child, struct vec3 lo,
                        struct vec3 hi)
 {
-    const struct tri_block *block = block_at(s->mesh->tree.nodes, child);
+    const struct tri_block *block = bvh8_block_at(s->mesh->tree.nodes, child);
     uint32_t count = (child & BVH8_MORE) + 1;
 
     s->cost += BVH8_BLOCK_COST * count * area(lo, hi);
@@ -90,7 +79,8 @@ static void visit_node(struct tree_check *s, const struct bvh8_node *n,
         if ((n->child[i] & BVH8_LEAF) != 0)
             visit_leaf(s, n->child[i], low, high);
         else
-            visit_node(s, node_at(s->mesh->tree.nodes, n->child[i]), low, high);
+            visit_node(s, bvh8_node_at(s->mesh->tree.nodes, n->child[i]), low,
+                       high);
     }
 }
 

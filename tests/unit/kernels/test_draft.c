@@ -166,7 +166,7 @@ struct notes {
 };
 
 static bool note_load(struct backend *b, struct host_world *host,
-                      const struct world *world, struct error *err)
+                      struct world *world, struct error *err)
 {
     (void)b, (void)host, (void)world, (void)err;
     return true;
