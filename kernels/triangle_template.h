@@ -155,20 +155,19 @@ static inline bool FN(test)(LANES_BLOCK b, const struct RAYS *r, LANES t_max,
                          FN(le)(FN(most)(edges), zero)),
                   passed);
     FN(mask) is_flat, is_exact, is_near, is_beyond;
-    LANES t;
+    LANES t, error;
 
     if (FN(bits)(met) == 0)
         return false;
     t = FN(distance)(b, r, &c, edges, &is_flat);
-    is_exact =
-        FN(or)(is_flat, FN(lt)(FN(error)(&c, FN(sum)(edges)),
-                               FN(mul)(FN(abs)(t), FN(set1)(T_PRECISION))));
-    /* triangle_hit() finds distances between those of the corners */
-    is_beyond =
-        FN(but)(FN(or)(FN(le)(FN(most)(c.z), zero),
-                       FN(lt)(t_max, FN(mul)(FN(least)(c.z),
-                                             FN(set1)(1.0f - T_PRECISION)))),
-                FN(or)(is_flat, is_exact));
+    error = FN(error)(&c, FN(sum)(edges));
+    is_exact = FN(
+        or)(is_flat, FN(lt)(error, FN(mul)(FN(abs)(t), FN(set1)(T_PRECISION))));
+    /* Distances that are not exact are off by less than the bound. It is
+     * doubled, so that roundings of the sums do not count. */
+    error = FN(add)(error, error);
+    is_beyond = FN(or)(FN(lt)(FN(add)(t, error), zero),
+                       FN(lt)(t_max, FN(sub)(t, error)));
     /* an edge function of 0 has lost its sign; the product is also 0 if it
      * underflows, which only costs time */
     is_exact =

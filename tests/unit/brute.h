@@ -52,6 +52,16 @@ static inline struct vec3 random_point(uint64_t *seed, float half)
     return v3(x, y, z);
 }
 
+/* Returns a point of a triangle, or one 1e-9 to 1e-3 away. */
+static inline struct vec3 near_point(const struct vec3 p[3], uint64_t *seed)
+{
+    float u = (float)check_random(seed), v = (float)check_random(seed);
+    float away = powf(10.0f, -9.0f + 6.0f * (float)check_random(seed));
+
+    return v3_add(v3_lerp(v3_lerp(p[0], p[1], u), p[2], v),
+                  random_point(seed, away));
+}
+
 /* Returns a ray to a point of a triangle, often on its edge, from a point
  * almost in its plane. */
 static inline struct ray grazing_ray(const struct vec3 p[3], uint64_t *seed)

@@ -23,7 +23,8 @@
 
 /* Returns a random ray. Every fourth begins far outside, every eighth is along
  * an axis with zero components, every eighth grazes a triangle, every sixteenth
- * begins at a vertex. */
+ * begins at a vertex, and every sixteenth so close to a triangle that its
+ * distance may be lost in rounding. */
 static struct ray random_ray(const struct mesh *m, uint64_t *seed, int i)
 {
     struct ray r = {random_point(seed, i % 4 == 0 ? 50.0f : 1.2f),
@@ -39,6 +40,10 @@ static struct ray random_ray(const struct mesh *m, uint64_t *seed, int i)
             seed);
     if (i % 16 == 7)
         r.o = m->positions[(uint32_t)(check_random(seed) * 3 * m->tri_count)];
+    if (i % 16 == 15)
+        r.o = near_point(
+            &m->positions[3 * (uint32_t)(check_random(seed) * m->tri_count)],
+            seed);
     r.d = v3_unit(v3_sub(at, r.o));
     if (i % 8 == 3) {
         r.d = v3(i & 16 ? -0.0f : 0.0f, i & 32 ? 1.0f : -1.0f, 0.0f);

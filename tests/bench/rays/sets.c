@@ -142,6 +142,7 @@ void sets_make(struct ray_set sets[SETS], const struct world *world,
     answers = xcalloc(primary->count, sizeof *answers);
     racer->closest(racer->tree, primary->rays, primary->count, answers);
     make_next(&sets[SET_SHADOW], world, primary, answers, 0, shadow);
+    sets[SET_SHADOW].is_any = true;
     make_next(first, world, primary, answers, 2, bounce);
     racer->closest(racer->tree, first->rays, first->count, answers);
     make_next(&sets[SET_BOUNCE2], world, first, answers, 4, bounce);
@@ -152,6 +153,6 @@ void sets_free(struct ray_set sets[SETS])
 {
     for (int i = 0; i < SETS; i++) {
         free(sets[i].rays);
-        sets[i] = (struct ray_set){NULL, 0};
+        sets[i] = (struct ray_set){.rays = NULL};
     }
 }

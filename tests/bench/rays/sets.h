@@ -26,6 +26,7 @@ extern const char *const set_names[SETS];
 struct ray_set {
     struct ray *rays;
     uint32_t count;
+    bool is_any; /* any hit is enough */
 };
 
 /* The racer's tree is the world's. */
