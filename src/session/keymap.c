@@ -16,13 +16,13 @@ static const struct row {
     const char *title;
     enum action action;
     const char *name;
-    const char *shown;
-    const char *help;
+    const char *text;
+    const char *words;
     int keys[KEYMAP_MAX];
 } rows[] = {
 #define GROUP(title) {title, ACTION_NONE, NULL, NULL, NULL, {0}},
-#define KEY(action, name, shown, help, ...) \
-    {NULL, ACTION_##action, name, shown, help, {__VA_ARGS__}},
+#define KEY(action, name, text, words, ...) \
+    {NULL, ACTION_##action, name, text, words, {__VA_ARGS__}},
 #include "session/keymap_list.h"
 #undef GROUP
 #undef KEY
@@ -33,13 +33,13 @@ static const struct {
     enum action action;
     int keys[KEYMAP_MAX];
 } phoe_keys[] = {
-    {ACTION_FORWARD, {'Q'}},
+    {ACTION_FORWARD, {'q', 'Q'}},
     {ACTION_BACK, {'e', 'E'}},
     {ACTION_DOWN, {'s', 'S', TTY_KEY_PAGE_DOWN}},
     {ACTION_UP, {'w', 'W', TTY_KEY_PAGE_UP}},
 };
 
-/* Lines of the help for the panel. `keys` replaces the keys' names. */
+/* Rows of the panel's keys. `keys` replaces the keys' names. */
 #define PANEL_KEYS_MAX 13
 
 static const struct panel_line {
@@ -61,7 +61,7 @@ static const struct panel_line {
      {{TTY_KEY_PAGE_UP, PANEL_PAGE_UP}, {TTY_KEY_PAGE_DOWN, PANEL_PAGE_DOWN}}},
     {NULL,
      "change by ten steps",
-     {{'[', PANEL_MUCH_LESS}, {']', PANEL_MUCH_MORE}}},
+     {{'(', PANEL_MUCH_LESS}, {')', PANEL_MUCH_MORE}}},
     {NULL, "to the values; type, switch", {{'\r', PANEL_ENTER}}},
     {"0-9.-#",
      "type a value",
@@ -80,11 +80,14 @@ static const struct panel_line {
       {'#', PANEL_TYPE}}},
     {NULL, "colours by HSV, by RGB", {{'h', PANEL_HSV}}},
     {NULL, "next of the three pages", {{'\t', PANEL_NEXT_PAGE}}},
-    {NULL, "copy material, add a light", {{'n', PANEL_COPY}}},
-    {NULL, "remove the light", {{'N', PANEL_REMOVE}}},
-    {NULL, "compare with the saved state", {{'x', PANEL_COMPARE}}},
-    {NULL, "save what was changed", {{CTRL('S'), PANEL_SAVE}}},
-    {NULL, "to the list; close the panel", {{ESCAPE, PANEL_LEAVE}}},
+    {NULL,
+     "copy material, add a light",
+     {{TTY_KEY_INSERT, PANEL_COPY}, {CTRL('N'), PANEL_COPY}}},
+    {NULL,
+     "remove the light",
+     {{TTY_KEY_DELETE, PANEL_REMOVE}, {CTRL('D'), PANEL_REMOVE}}},
+    {NULL, "compare with what is saved", {{'\\', PANEL_COMPARE}}},
+    {NULL, "to the list; out of it", {{ESCAPE, PANEL_LEAVE}}},
 };
 
 static const struct key_name {
@@ -103,6 +106,9 @@ static const struct key_name {
     {TTY_KEY_PAGE_UP, "PgUp"},
     {TTY_KEY_PAGE_DOWN, "PgDn"},
     {TTY_KEY_HOME, "Home"},
+    {TTY_KEY_END, "End"},
+    {TTY_KEY_INSERT, "Ins"},
+    {TTY_KEY_DELETE, "Del"},
     {TTY_KEY_F1, "F1"},
 };
 
@@ -209,11 +215,34 @@ struct keymap_name keymap_first_name(const struct keymap *k, enum action action)
     return (struct keymap_name){"no key"};
 }
 
-static void add_key(struct keymap_help *help, int key)
+struct keymap_names keymap_first_names(const struct keymap *k,
+                                       const enum action *actions, int count)
 {
-    size_t length = strlen(help->keys);
+    static const int arrows[] = {TTY_KEY_LEFT, TTY_KEY_RIGHT, TTY_KEY_UP,
+                                 TTY_KEY_DOWN};
+    struct keymap_names names = {""};
+    bool is_arrows = count == COUNT(arrows), is_short = count > 2;
+    size_t length = 0;
 
-    snprintf(help->keys + length, sizeof help->keys - length, "%s%s",
+    for (int i = 0; i < count; i++) {
+        is_arrows = is_arrows && k->keys[actions[i]][0] == arrows[i];
+        is_short = is_short && keymap_first_name(k, actions[i]).text[1] == '\0';
+    }
+    if (is_arrows)
+        return (struct keymap_names){"arrows"};
+    for (int i = 0; i < count; i++)
+        length +=
+            (size_t)snprintf(names.text + length, sizeof names.text - length,
+                             "%s%s", i > 0 && !is_short ? " " : "",
+                             keymap_first_name(k, actions[i]).text);
+    return names;
+}
+
+static void add_key(struct keymap_command *command, int key)
+{
+    size_t length = strlen(command->keys);
+
+    snprintf(command->keys + length, sizeof command->keys - length, "%s%s",
              length > 0 ? " " : "", keymap_key_name(key).text);
 }
 
@@ -231,60 +260,27 @@ static bool is_shown(const int keys[KEYMAP_MAX], int i)
     return true;
 }
 
-static void add_action(struct keymap_help *help, const struct keymap *k,
-                       enum action action, bool only_first)
+bool keymap_command(const struct keymap *k, int index,
+                    struct keymap_command *command)
 {
-    bool has_first = false;
+    const char *group = "";
 
-    for (int i = 0; i < KEYMAP_MAX; i++) {
-        if ((has_first && only_first) || !is_shown(k->keys[action], i))
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        const struct row *row = &rows[i];
+
+        group = row->title != NULL ? row->title : group;
+        if (row->text == NULL || index-- > 0)
             continue;
-        add_key(help, k->keys[action][i]);
-        has_first = true;
-    }
-}
-
-/* Returns the row behind the last action of a line that begins with this row.
- */
-static size_t line_end(size_t row)
-{
-    do
-        row++;
-    while (row < COUNT(rows) && rows[row].action != ACTION_NONE &&
-           rows[row].help == NULL);
-    return row;
-}
-
-/* Returns the first row of a line of the help, or COUNT(rows). */
-static size_t line_begin(int line)
-{
-    size_t row = 0;
-
-    for (; row < COUNT(rows); row++)
-        if (rows[row].help != NULL && rows[row].help[0] != '\0' && line-- == 0)
-            break;
-    return row;
-}
-
-bool keymap_help(const struct keymap *k, int line, struct keymap_help *help)
-{
-    size_t begin = line < 0 ? COUNT(rows) : line_begin(line), end;
-    bool is_chosen = false;
-
-    if (begin == COUNT(rows))
-        return false;
-    end = line_end(begin);
-    *help = (struct keymap_help){.text = rows[begin].help,
-                                 .group = rows[begin - 1].title};
-    for (size_t i = begin; i < end; i++)
-        is_chosen |= k->is_chosen[rows[i].action];
-    if (rows[begin].shown != NULL && !is_chosen) {
-        snprintf(help->keys, sizeof help->keys, "%s", rows[begin].shown);
+        *command = (struct keymap_command){.action = row->action,
+                                           .text = row->text,
+                                           .words = row->words,
+                                           .group = group};
+        for (int j = 0; j < KEYMAP_MAX; j++)
+            if (is_shown(k->keys[row->action], j))
+                add_key(command, k->keys[row->action][j]);
         return true;
     }
-    for (size_t i = begin; i < end; i++)
-        add_action(help, k, rows[i].action, end - begin > 1);
-    return true;
+    return false;
 }
 
 enum panel_action keymap_panel_action(int key)
@@ -298,18 +294,18 @@ enum panel_action keymap_panel_action(int key)
     return PANEL_NONE;
 }
 
-bool keymap_panel_help(int line, struct keymap_help *help)
+bool keymap_panel_command(int index, struct keymap_command *command)
 {
     const struct panel_line *l;
 
-    if (line < 0 || (size_t)line >= COUNT(panel_lines))
+    if (index < 0 || (size_t)index >= COUNT(panel_lines))
         return false;
-    l = &panel_lines[line];
-    *help = (struct keymap_help){.text = l->text,
-                                 .group = line == 0 ? "Panel" : NULL};
+    l = &panel_lines[index];
+    *command =
+        (struct keymap_command){.text = l->text, .words = "", .group = "Panel"};
     if (l->keys)
-        snprintf(help->keys, sizeof help->keys, "%s", l->keys);
+        snprintf(command->keys, sizeof command->keys, "%s", l->keys);
     for (int j = 0; !l->keys && l->does[j].key != 0; j++)
-        add_key(help, l->does[j].key);
+        add_key(command, l->does[j].key);
     return true;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * keymap.h - key bindings and the help text made from them
+ * keymap.h - the table of commands and their keys
  *
  * keymap_list.h is the table. The configuration file can give actions other
- * keys, except in the panel. The manual and the README repeat the help; a test
- * compares them.
+ * keys, except in the panel. The manual repeats the table; a test compares
+ * them.
  *
  * Units:     keys are bytes or enum tty_key; 0 is none
  * Ownership: strings live as long as the program
@@ -19,7 +19,7 @@
 enum action {
     ACTION_NONE,
 #define GROUP(title)
-#define KEY(action, name, shown, help, ...) ACTION_##action,
+#define KEY(action, name, text, words, ...) ACTION_##action,
 #include "session/keymap_list.h"
 #undef GROUP
 #undef KEY
@@ -44,7 +44,6 @@ enum panel_action {
     PANEL_COPY,
     PANEL_REMOVE,
     PANEL_COMPARE,
-    PANEL_SAVE,
     PANEL_LEAVE
 };
 
@@ -86,17 +85,31 @@ struct keymap_name keymap_key_name(int key);
 struct keymap_name keymap_first_name(const struct keymap *k,
                                      enum action action);
 
-struct keymap_help {
-    char keys[32];
-    const char *text;
-    const char *group; /* title of the group that it begins, or NULL */
+/* Names of up to six actions' first keys, as hints show them: "wasdqe", "Left
+ * Right", or "arrows" for these four. */
+struct keymap_names {
+    char text[48];
 };
 
-/* Fills line `line` of the help, from 0. Returns false after the last line. */
-bool keymap_help(const struct keymap *k, int line, struct keymap_help *help);
+struct keymap_names keymap_first_names(const struct keymap *k,
+                                       const enum action *actions, int count);
+
+/* A row of the list of commands. */
+struct keymap_command {
+    enum action action; /* ACTION_NONE: a key of the panel */
+    char keys[32];      /* names of all its keys, "" for none */
+    const char *text;   /* what it does */
+    const char *words;  /* other words for that */
+    const char *group;  /* title */
+};
+
+/* Fills row `index`, from 0, of the commands that are listed. Returns false
+ * after the last one. */
+bool keymap_command(const struct keymap *k, int index,
+                    struct keymap_command *command);
 
 /* Returns the panel's action of a key. */
 enum panel_action keymap_panel_action(int key);
-bool keymap_panel_help(int line, struct keymap_help *help);
+bool keymap_panel_command(int index, struct keymap_command *command);
 
 #endif

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "session/save.h"
 #include "studio/panel_draw.h"
 #include "terminal/gauge.h"
 
@@ -213,8 +212,7 @@ static void select_lamp(struct editor_panel *p, uint32_t lamp)
             break;
 }
 
-/* Copies the selected lamp, or adds a point light. */
-static void add_lamp(struct editor_panel *p)
+void editor_panel_add_lamp(struct editor_panel *p)
 {
     struct edit *e = edit_of(p);
     struct lamp lamp;
@@ -260,7 +258,7 @@ static void duplicate(struct editor_panel *p)
     uint32_t *material = &s->index[PAGE_MATERIALS];
 
     if (s->page == PAGE_LIGHT) {
-        add_lamp(p);
+        editor_panel_add_lamp(p);
         return;
     }
     if (!selection_has_one(s) || !may_change(p))
@@ -297,7 +295,7 @@ void editor_panel_close(struct editor_panel *p)
     p->is_typing = false;
 }
 
-static void show_page(struct editor_panel *p, enum selection_page page)
+void editor_panel_show(struct editor_panel *p, enum selection_page page)
 {
     p->selection.page = page;
     selection_settle(&p->selection);
@@ -388,9 +386,9 @@ static void click(struct editor_panel *p, int col, int row)
 
     p->is_typing = false;
     if (row == 0) {
-        show_page(p, col < PAGE_2   ? PAGE_MATERIALS
-                     : col < PAGE_3 ? PAGE_OBJECTS
-                                    : PAGE_LIGHT);
+        editor_panel_show(p, col < PAGE_2   ? PAGE_MATERIALS
+                             : col < PAGE_3 ? PAGE_OBJECTS
+                                            : PAGE_LIGHT);
     } else if (row <= p->list_rows && list_row < s->listed_count) {
         selection_move(s, list_row - s->row);
         p->is_in_parameters = false;
@@ -458,12 +456,12 @@ bool editor_panel_key(struct editor_panel *p, int key)
         break;
     case PANEL_HSV: p->selection.by_hsv = !p->selection.by_hsv; break;
     case PANEL_NEXT_PAGE:
-        show_page(p, (enum selection_page)((p->selection.page + 1) % (PAGES)));
+        editor_panel_show(p, (enum selection_page)((p->selection.page + 1) %
+                                                   (PAGES)));
         break;
     case PANEL_COPY: duplicate(p); break;
     case PANEL_REMOVE: remove_lamp(p); break;
     case PANEL_COMPARE: compare(p); break;
-    case PANEL_SAVE: save_edit(p->control); break;
     case PANEL_LEAVE: leave(p); break;
     }
     return true;

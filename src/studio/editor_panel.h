@@ -55,6 +55,12 @@ void editor_panel_init(struct editor_panel *p, struct live_render *control,
 void editor_panel_open(struct editor_panel *p);
 void editor_panel_close(struct editor_panel *p);
 
+/* Turns to a page. */
+void editor_panel_show(struct editor_panel *p, enum selection_page page);
+
+/* Copies the selected lamp of the page of light, or adds a point light. */
+void editor_panel_add_lamp(struct editor_panel *p);
+
 /* Adapts the panel to a scene that was loaded again: selects the material and
  * object with these names, and keeps the text that is being typed. */
 void editor_panel_renew(struct editor_panel *p,

@@ -384,6 +384,11 @@ void inspector_step(struct inspector *inspector)
     }
 }
 
+void inspector_show_light(struct inspector *inspector)
+{
+    show(inspector, SHOW_LIGHT);
+}
+
 void inspector_leave(struct inspector *inspector)
 {
     if (view_mode_sample(inspector->view_mode.kind) != SAMPLE_LIGHT)

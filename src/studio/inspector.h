@@ -83,6 +83,9 @@ void inspector_stop_drawing(struct inspector *inspector);
 /* Moves the drawings to a new pick, if there is one. */
 void inspector_step(struct inspector *inspector);
 
+/* Switches back to light. */
+void inspector_show_light(struct inspector *inspector);
+
 /* Switches back to light if the view mode has samples of its own, because
  * normal mode renders light only. */
 void inspector_leave(struct inspector *inspector);

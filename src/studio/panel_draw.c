@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/print.h"
-#include "studio/help.h"
+#include "studio/keys_bar.h"
 #include "studio/material_parameters.h"
 #include "terminal/gauge.h"
 #include "kernels/tone.h"
@@ -169,7 +169,7 @@ static void format_title(char text[LINE_BYTES], const struct selection *sel)
     char object[NAME_BYTES], material[NAME_BYTES];
 
     if (sel->edit->is_comparing) {
-        snprintf(text, LINE_BYTES, " as saved: x goes back ");
+        snprintf(text, LINE_BYTES, " as saved: \\ goes back ");
     } else if (sel->page == PAGE_LIGHT) {
         snprintf(text, LINE_BYTES, " Sky and picture%s ", title_note(sel));
     } else if (!selection_has_one(sel)) {
@@ -338,11 +338,11 @@ static const struct key_hint hints_typing[] = {{"Enter", "takes it"},
                                                {"", "#rrggbb, r g b, 3000K"},
                                                {NULL, NULL}};
 static const struct key_hint hints_parameters[] = {
-    {"Left Right", "change"}, {"[ ]", "tenfold"}, {"Esc", "back"},
+    {"Left Right", "change"}, {"( )", "tenfold"}, {"Esc", "back"},
     {"0-9 #", "type"},        {"h", "HSV"},       {"u", "undo"},
     {"^S", "save"},           {NULL, NULL}};
 static const struct key_hint hints_light[] = {{"Left Right", "change"},
-                                              {"n N", "new, remove"},
+                                              {"Ins Del", "new, remove"},
                                               {"Esc", "close"},
                                               {"0-9 #", "type"},
                                               {"h", "HSV"},
@@ -350,8 +350,8 @@ static const struct key_hint hints_light[] = {{"Left Right", "change"},
                                               {"^S", "save"},
                                               {NULL, NULL}};
 static const struct key_hint hints_list[] = {
-    {"Enter", "values"}, {"n", "copy"},  {"x", "compare"}, {"Esc", "close"},
-    {"u", "undo"},       {"^S", "save"}, {"Tab", "page"},  {NULL, NULL}};
+    {"Enter", "values"}, {"Ins", "copy"}, {"\\", "compare"}, {"Esc", "close"},
+    {"u", "undo"},       {"^S", "save"},  {"Tab", "page"},   {NULL, NULL}};
 
 static const struct key_hint *hints_of(const struct editor_panel *p)
 {

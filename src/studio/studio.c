@@ -33,11 +33,13 @@
  * sequence of another key otherwise. */
 #define ESCAPE_NS (50 * MS_NS)
 
+/* Factor of the speed of moves by capitals. */
+#define MOVES_FAST 10
+
 /* Most questions come before something is lost. */
 enum question {
     QUESTION_NONE,
-    QUESTION_QUIT,
-    QUESTION_EDIT, /* quit without saving edits */
+    QUESTION_QUIT, /* changes or a render are not saved */
     QUESTION_LIVE, /* leave normal mode */
     QUESTION_RESTART,
     QUESTION_NUMBER, /* number for a view */
@@ -51,6 +53,7 @@ struct studio {
     struct autosave autosave;
     struct tty_input input;
     uint64_t byte_ns; /* time of the last byte of input */
+    int pace;         /* of moves by the present key: 1, or MOVES_FAST */
     bool has_mouse;
     enum question question; /* question that waits for an answer */
     bool is_ending;
@@ -59,6 +62,7 @@ struct studio {
 };
 
 static void question_ask(struct studio *studio, enum question question);
+static void draw_panel(struct studio *studio);
 
 /* ---- commands that concern several parts ---- */
 
@@ -96,10 +100,16 @@ static bool would_lose_render(struct studio *studio)
            live_render_has_unsaved(&studio->control);
 }
 
+/* One level back, behind those of the parts: removes a message, or opens the
+ * menu. */
 static void cancel(struct studio *studio)
 {
-    if (!workspace_take_back_glyphs(&studio->workspace))
+    if (workspace_take_back_glyphs(&studio->workspace))
+        return;
+    if (studio->control.message.until_ns != 0)
         live_render_clear_message(&studio->control);
+    else
+        workspace_open_menu(&studio->workspace);
 }
 
 static void change_mode(struct studio *studio)
@@ -118,17 +128,30 @@ static void restart(struct studio *studio)
         live_render_restart(&studio->control);
 }
 
-/* Ends the loop. Asks first if something would be lost. */
+/* Ends the loop. Asks first, once, if something would be lost. */
 static void studio_quit(struct studio *studio)
 {
     if (!save_finish(&studio->control))
         return;
-    if (live_render_has_unsaved(&studio->control))
+    if (studio->question != QUESTION_QUIT &&
+        (live_render_has_unsaved(&studio->control) ||
+         live_render_has_unsaved_edit(&studio->control)))
         question_ask(studio, QUESTION_QUIT);
-    else if (live_render_has_unsaved_edit(&studio->control))
-        question_ask(studio, QUESTION_EDIT);
     else
         studio_end(studio, 0);
+}
+
+static void save_changes(struct studio *studio)
+{
+    save_edit(&studio->control);
+    draw_panel(studio);
+}
+
+static void add_lamp(struct studio *studio)
+{
+    workspace_open_light(&studio->workspace);
+    editor_panel_add_lamp(&studio->workspace.panel);
+    draw_panel(studio);
 }
 
 static void keep_view(struct studio *studio)
@@ -219,6 +242,9 @@ static const struct command commands[ACTIONS] = {
     [ACTION_LESS] = {.inspector_by = inspector_change, .by = -1},
     [ACTION_MORE] = {.inspector_by = inspector_change, .by = 1},
     [ACTION_PANEL] = {.workspace = workspace_open_panel},
+    [ACTION_LIGHT] = {.workspace = workspace_open_light},
+    [ACTION_ADD_LAMP] = {.studio = add_lamp},
+    [ACTION_SAVE_EDIT] = {.studio = save_changes},
     [ACTION_MODE] = {.studio = change_mode},
     [ACTION_START] = {.control = live_render_start_or_halt},
     [ACTION_STEP] = {.control = live_render_step},
@@ -229,14 +255,14 @@ static const struct command commands[ACTIONS] = {
     [ACTION_BACKEND] = {.control = live_render_switch_backend},
     [ACTION_RELOAD] = {.control = live_render_reload},
     [ACTION_COLORS] = {.workspace = workspace_next_colors},
+    [ACTION_THEME] = {.workspace = workspace_next_theme},
     [ACTION_GLYPHS] = {.workspace = workspace_next_glyphs},
     [ACTION_METER] = {.workspace = workspace_switch_progress},
     [ACTION_HIDE] = {.workspace = workspace_switch_status},
     [ACTION_MOUSE] = {.studio = switch_mouse},
     [ACTION_REDRAW] = {.workspace = workspace_layout},
-    [ACTION_HELP] = {.workspace = workspace_open_help},
+    [ACTION_HELP] = {.workspace = workspace_open_commands},
     [ACTION_SUSPEND] = {.studio = studio_suspend},
-    [ACTION_INTERRUPT] = {.end_signal = SIGINT},
     [ACTION_ABORT] = {.end_signal = SIGQUIT},
     [ACTION_QUIT] = {.studio = studio_quit},
 };
@@ -278,7 +304,10 @@ static void run(struct studio *studio, const struct command *c)
     struct camera_control *camera = &studio->camera;
 
     if (c->sign != 0) {
-        camera_control_move(camera, c->axis, c->sign);
+        camera_control_move(camera, c->axis,
+                            c->sign * (c->axis <= HELD_KEYS_FORWARD
+                                           ? studio->pace
+                                           : 1));
         return;
     }
     if (c->right != 0 || c->down != 0) {
@@ -340,15 +369,21 @@ static void save_render(struct studio *studio)
     save_picture(&studio->control, "png");
 }
 
+/* Saves the changes and the picture, and quits. */
 static void save_and_quit(struct studio *studio)
 {
-    if (save_edit(&studio->control))
+    bool is_saved = !live_render_has_unsaved_edit(&studio->control) ||
+                    save_edit(&studio->control);
+
+    if (is_saved && live_render_has_unsaved(&studio->control))
+        save_picture(&studio->control, "png");
+    if (is_saved)
         studio_quit(studio);
 }
 
 /* Table of the questions. The key y runs `yes`, the save key runs `save`, and
  * any other key means no. The narrowest window shows 39 columns of a text, so
- * that both keys are among them. */
+ * that both keys are among them. Texts of NULL depend on the state. */
 static const struct {
     const char *text;
     void (*yes)(struct studio *studio);
@@ -356,26 +391,37 @@ static const struct {
     void (*save)(struct studio *studio);
 } questions[] = {
     [QUESTION_NONE] = {0},
-    [QUESTION_QUIT] = {"Unsaved render. Quit? y: yes, p: save, other: no", end,
-                       'p', save_render},
-    [QUESTION_EDIT] = {"Unsaved changes. Quit? y: yes, s: save, other: no", end,
-                       's', save_and_quit},
+    [QUESTION_QUIT] = {NULL, end, 's', save_and_quit},
     [QUESTION_LIVE] = {"Unsaved render. Leave it? y: yes, p: save, other: no",
                        go_live, 'p', save_render},
     [QUESTION_RESTART] = {"Unsaved render. Restart it? y: yes, p: save, "
                           "other: no",
                           restart_unasked, 'p', save_render},
     [QUESTION_NUMBER] = {.text = "Number for this view? 1 to 9, other: none"},
-    [QUESTION_KEPT] = {0}, /* its text is that of autosave */
+    [QUESTION_KEPT] = {0},
 };
+
+static const char *question_text(const struct studio *studio,
+                                 enum question question)
+{
+    const struct live_render *control = &studio->control;
+
+    if (question == QUESTION_KEPT)
+        return studio->autosave.question;
+    if (question != QUESTION_QUIT)
+        return questions[question].text;
+    if (!live_render_has_unsaved(control))
+        return "Unsaved changes. Quit? y: yes, s: save, other: no";
+    return live_render_has_unsaved_edit(control)
+               ? "Render, changes unsaved. y: quit, s: save"
+               : "Unsaved render. Quit? y: yes, s: save, other: no";
+}
 
 /* Shows a question instead of the status line. QUESTION_NONE removes it. */
 static void question_ask(struct studio *studio, enum question question)
 {
     studio->question = question;
-    workspace_ask(&studio->workspace, question == QUESTION_KEPT
-                                          ? studio->autosave.question
-                                          : questions[question].text);
+    workspace_ask(&studio->workspace, question_text(studio, question));
 }
 
 /* Answers QUESTION_NUMBER: the key that goes to a view gives the number of that
@@ -477,22 +523,23 @@ static bool is_too_small(const struct studio *studio)
     return studio->workspace.screen.is_too_small;
 }
 
-static bool only_quits(struct studio *studio, int key, enum action action)
+static bool takes_nothing(struct studio *studio, int key, enum action action)
 {
+    (void)studio;
     (void)key;
-    studio_run(studio, action == ACTION_QUIT ? action : ACTION_NONE);
+    (void)action;
     return true;
 }
 
-static bool has_help(const struct studio *studio)
+static bool has_list(const struct studio *studio)
 {
-    return studio->workspace.help.is_open;
+    return studio->workspace.commands.list.is_open;
 }
 
-static bool help_takes(struct studio *studio, int key, enum action action)
+static bool list_takes(struct studio *studio, int key, enum action action)
 {
     (void)action;
-    workspace_help_key(&studio->workspace, key);
+    studio_run(studio, workspace_list_key(&studio->workspace, key));
     return true;
 }
 
@@ -550,14 +597,42 @@ static bool has_drawing(const struct studio *studio)
     return studio->workspace.inspector.drawing != INSPECTOR_NOTHING;
 }
 
+static bool drawing_takes(struct studio *studio, int key, enum action action)
+{
+    (void)key;
+    if (action != ACTION_CANCEL)
+        return false;
+    inspector_stop_drawing(&studio->workspace.inspector);
+    workspace_refresh(&studio->workspace);
+    return true;
+}
+
 static bool has_view(const struct studio *studio)
 {
     return studio->workspace.inspector.view_mode.kind != SHOW_LIGHT;
 }
 
+static bool view_takes(struct studio *studio, int key, enum action action)
+{
+    (void)key;
+    if (action != ACTION_CANCEL)
+        return false;
+    inspector_show_light(&studio->workspace.inspector);
+    return true;
+}
+
 static bool orbits(const struct studio *studio)
 {
     return studio->camera.input.is_orbiting;
+}
+
+static bool orbit_takes(struct studio *studio, int key, enum action action)
+{
+    (void)key;
+    if (action != ACTION_CANCEL)
+        return false;
+    camera_control_switch_orbit(&studio->camera);
+    return true;
 }
 
 static bool is_paused(const struct studio *studio)
@@ -579,15 +654,15 @@ static bool is_normal(const struct studio *studio)
  * takes it, and the bar shows the keys of the first one that has some. */
 static const struct part parts[] = {
     {asks, answers, KEYS_NONE},
-    {is_too_small, only_quits, KEYS_NONE},
-    {has_help, help_takes, KEYS_NONE},
+    {is_too_small, takes_nothing, KEYS_NONE},
+    {has_list, list_takes, KEYS_NONE},
     {has_cursor, cursor_takes, KEYS_CURSOR},
     {has_live_panel, panel_takes, KEYS_PANEL},
     {has_panel, panel_takes, KEYS_PANEL_NORMAL},
     {compares, wipe_takes_key, KEYS_COMPARE},
-    {has_drawing, NULL, KEYS_DRAWING},
-    {has_view, NULL, KEYS_VIEW},
-    {orbits, NULL, KEYS_ORBIT},
+    {has_drawing, drawing_takes, KEYS_DRAWING},
+    {has_view, view_takes, KEYS_VIEW},
+    {orbits, orbit_takes, KEYS_ORBIT},
     {is_paused, NULL, KEYS_PAUSED},
     {is_live, NULL, KEYS_LIVE},
     {is_normal, NULL, KEYS_NORMAL},
@@ -605,7 +680,7 @@ static enum keys_state keys_of_now(const struct studio *studio)
 
 static bool is_urgent(enum action action)
 {
-    return action == ACTION_INTERRUPT || action == ACTION_ABORT ||
+    return action == ACTION_QUIT || action == ACTION_ABORT ||
            action == ACTION_SUSPEND || action == ACTION_REDRAW;
 }
 
@@ -617,6 +692,7 @@ static void take_key(struct studio *studio, int key)
     bool is_taken = false;
 
     live_render_acknowledge_error(&studio->control);
+    studio->pace = key >= 'A' && key <= 'Z' ? MOVES_FAST : 1;
     for (size_t i = 0; i < PARTS && !is_taken && !is_urgent(action); i++)
         is_taken = parts[i].takes != NULL && parts[i].is_open(studio) &&
                    parts[i].takes(studio, key, action);
@@ -645,7 +721,9 @@ static bool wipe_takes(struct studio *studio, const struct event *event)
 
 static void take_mouse(struct studio *studio, const struct event *event)
 {
-    if (editor_panel_mouse(&studio->workspace.panel, event))
+    if (has_list(studio))
+        studio_run(studio, workspace_list_mouse(&studio->workspace, event));
+    else if (editor_panel_mouse(&studio->workspace.panel, event))
         draw_panel(studio);
     else if (!wipe_takes(studio, event))
         camera_control_mouse(&studio->camera, event);
@@ -661,8 +739,7 @@ static void take_event(struct studio *studio, const struct event *event)
     if (event->kind == EVENT_KEY) {
         take_key(studio, event->key);
     } else if (event->kind == EVENT_MOUSE) {
-        if (studio->has_mouse && !workspace->help.is_open &&
-            !workspace->screen.is_too_small)
+        if (studio->has_mouse && !workspace->screen.is_too_small)
             take_mouse(studio, event);
     } else {
         bool is_other = screen_answer(&workspace->screen, event);
@@ -861,7 +938,7 @@ static void loop(struct studio *studio)
 
 static void close_screen(struct studio *studio)
 {
-    /* Ctrl-C and Ctrl-\ are typed, as q is */
+    /* Ctrl-\ is typed, as Ctrl-Q is */
     bool is_lost =
         studio->status == 128 + SIGHUP || studio->status == 128 + SIGTERM;
 

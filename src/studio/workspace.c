@@ -126,29 +126,20 @@ static bool resize_frame(struct workspace *workspace, struct error *err)
                       screen->frame_height, err);
 }
 
-static void draw_help(struct workspace *workspace)
+static const struct keymap *keys_of(const struct workspace *workspace)
 {
-    const struct frame_pacing *pace = &workspace->screen.pace;
-    char note[64], away[32] = "";
-
-    if (pace->state == FRAME_PACING_ANSWERS)
-        snprintf(away, sizeof away, ", %.3g ms away",
-                 (double)pace->rtt_min_ns * 1e-6);
-    snprintf(note, sizeof note, "%s, %s%s",
-             palette_name(workspace->screen.display.palette),
-             screen_glyphs_name(&workspace->screen), away);
-    help_draw(&workspace->help, &workspace->control->session->options->keys,
-              workspace->panel.is_open, note, &workspace->screen);
-    workspace_refresh(workspace);
+    return &workspace->control->session->options->keys;
 }
 
-/* Opens the help if a person reads it, and the inspector's table otherwise. */
+/* Opens the list of commands if a person reads it, and the inspector's table
+ * otherwise. */
 static void open_window(struct workspace *workspace)
 {
-    if (!workspace->help.is_open)
+    if (!workspace->commands.list.is_open)
         inspector_open_table(&workspace->inspector);
     else if (!workspace->screen.is_too_small)
-        draw_help(workspace);
+        command_list_reopen(&workspace->commands, keys_of(workspace),
+                            &workspace->screen);
 }
 
 void workspace_layout(struct workspace *workspace)
@@ -221,7 +212,8 @@ static bool shows_progress(const struct workspace *workspace)
 {
     struct window_rect room;
 
-    return !workspace->help.is_open && !workspace->screen.is_too_small &&
+    return !workspace->commands.list.is_open &&
+           !workspace->screen.is_too_small &&
            (workspace->progress_panel.is_on || progress_bar(workspace, &room));
 }
 
@@ -266,6 +258,19 @@ void workspace_next_colors(struct workspace *workspace)
     workspace_layout(workspace);
 }
 
+void workspace_next_theme(struct workspace *workspace)
+{
+    static const char *const names[] = {[THEME_DARK] = "dark",
+                                        [THEME_LIGHT] = "light",
+                                        [THEME_PLAIN] = "plain"};
+    enum theme *theme = &workspace->screen.display.theme;
+
+    *theme = (enum theme)((*theme + 1) % (THEME_PLAIN + 1));
+    workspace->screen.display.theme_is_final = true;
+    live_render_say(workspace->control, "text: %s", names[*theme]);
+    workspace_layout(workspace);
+}
+
 void workspace_next_glyphs(struct workspace *workspace)
 {
     glyph_choice_next(&workspace->glyph_choice);
@@ -298,20 +303,55 @@ void workspace_open_panel(struct workspace *workspace)
     workspace_layout(workspace);
 }
 
-void workspace_open_help(struct workspace *workspace)
+void workspace_open_light(struct workspace *workspace)
+{
+    editor_panel_show(&workspace->panel, PAGE_LIGHT);
+    workspace_open_panel(workspace);
+}
+
+static void open_list(struct workspace *workspace, bool is_menu)
 {
     inspector_close_table(&workspace->inspector);
     screen_close_window(&workspace->screen); /* of the progress */
-    workspace->help = (struct help){.is_open = true};
-    draw_help(workspace);
+    command_list_open(&workspace->commands, keys_of(workspace),
+                      &workspace->screen, is_menu, workspace->panel.is_open);
+    workspace_refresh(workspace);
 }
 
-void workspace_help_key(struct workspace *workspace, int key)
+void workspace_open_commands(struct workspace *workspace)
 {
-    help_key(&workspace->help, key);
-    screen_close_window(&workspace->screen);
-    open_window(workspace);
-    workspace_refresh(workspace);
+    open_list(workspace, false);
+}
+
+void workspace_open_menu(struct workspace *workspace)
+{
+    open_list(workspace, true);
+}
+
+/* Closes the window of a list that is closed. */
+static enum action end_list(struct workspace *workspace, enum action chosen)
+{
+    if (!workspace->commands.list.is_open) {
+        screen_close_window(&workspace->screen);
+        open_window(workspace);
+        workspace_refresh(workspace);
+    }
+    return chosen;
+}
+
+enum action workspace_list_key(struct workspace *workspace, int key)
+{
+    return end_list(workspace,
+                    command_list_key(&workspace->commands, keys_of(workspace),
+                                     &workspace->screen, key));
+}
+
+enum action workspace_list_mouse(struct workspace *workspace,
+                                 const struct event *event)
+{
+    return end_list(workspace,
+                    command_list_mouse(&workspace->commands, keys_of(workspace),
+                                       &workspace->screen, event));
 }
 
 /* ---- drawing ---- */
@@ -464,7 +504,7 @@ static void paint(struct workspace *workspace)
         inspector_preview(&workspace->inspector, &workspace->frame);
         outline_selection(workspace);
     }
-    if (workspace->help.is_open)
+    if (workspace->commands.list.is_open)
         dim(&workspace->frame);
 }
 

@@ -3,9 +3,9 @@
  * workspace.h - the layout of the screen: the picture, the editor panel beside
  * it, one window over it and the status line; and when each is drawn
  *
- * The help, the progress panel and the inspector's table share the window. The
- * help hides the others while it is open. A window of progress and the editor
- * panel exclude each other, as there is room for one of them.
+ * The list of commands, the progress panel and the inspector's table share the
+ * window. The list hides the others while it is open. A window of progress and
+ * the editor panel exclude each other, as there is room for one of them.
  *
  * Units:     nanoseconds of clock_ns()
  * Ownership: control and camera stay the caller's and outlive it;
@@ -24,8 +24,9 @@
 #include "studio/comparison.h"
 #include "studio/editor_panel.h"
 #include "studio/glyph_choice.h"
-#include "studio/help.h"
 #include "studio/inspector.h"
+#include "studio/keys_bar.h"
+#include "studio/command_list.h"
 #include "studio/progress_panel.h"
 #include "terminal/screen.h"
 
@@ -37,8 +38,8 @@ struct workspace {
     struct inspector inspector;
     struct comparison comparison;
     struct editor_panel panel;
-    struct progress_panel progress_panel; /* hidden while the help is open */
-    struct help help;
+    struct progress_panel progress_panel; /* hidden while the list is open */
+    struct command_list commands;
     struct keys_bar keys_bar;
     struct glyph_choice glyph_choice;
     const char *prompt;   /* a question in the last line; NULL: none */
@@ -77,8 +78,12 @@ void workspace_ask(struct workspace *workspace, const char *prompt);
 
 void workspace_switch_progress(struct workspace *workspace);
 void workspace_open_panel(struct workspace *workspace);
+
+/* Opens the panel at the page of light. */
+void workspace_open_light(struct workspace *workspace);
 void workspace_next_drawing(struct workspace *workspace);
 void workspace_next_colors(struct workspace *workspace);
+void workspace_next_theme(struct workspace *workspace);
 
 void workspace_next_glyphs(struct workspace *workspace);
 
@@ -89,10 +94,14 @@ bool workspace_take_back_glyphs(struct workspace *workspace);
 /* Shows the status line, or lets the picture have its row. */
 void workspace_switch_status(struct workspace *workspace);
 
-void workspace_open_help(struct workspace *workspace);
+void workspace_open_commands(struct workspace *workspace);
+void workspace_open_menu(struct workspace *workspace);
 
-/* Gives a key to the open help. */
-void workspace_help_key(struct workspace *workspace, int key);
+/* Give a key or the mouse to the open list. Return the action of a command that
+ * is chosen, or ACTION_NONE. */
+enum action workspace_list_key(struct workspace *workspace, int key);
+enum action workspace_list_mouse(struct workspace *workspace,
+                                 const struct event *event);
 
 /* Takes a scene that was loaded anew; what had these names stays selected. */
 void workspace_renew(struct workspace *workspace,

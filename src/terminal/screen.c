@@ -270,12 +270,16 @@ static void cover(struct screen *screen, struct window_rect r)
     screen->must_update = true;
 }
 
-void screen_open_window(struct screen *screen, enum window_place place,
-                        const char *title, const char *const *texts,
-                        int text_count)
+struct window_rect screen_open_window(struct screen *screen,
+                                      enum window_place place,
+                                      const char *title,
+                                      const char *const *texts, int text_count)
 {
-    cover(screen,
-          windows_open(place, screen->foot_rows, title, texts, text_count));
+    struct window_rect r =
+        windows_open(place, screen->foot_rows, title, texts, text_count);
+
+    cover(screen, r);
+    return r;
 }
 
 void screen_set_window(struct screen *screen, const char *const *texts,

@@ -97,10 +97,12 @@ bool screen_is_hidden(const struct screen *screen);
  * have left room for it. */
 void screen_begin_panel(struct screen *screen);
 
-/* Opens a window with these lines. One window is open at a time. */
-void screen_open_window(struct screen *screen, enum window_place place,
-                        const char *title, const char *const *texts,
-                        int text_count);
+/* Opens a window with these lines and returns where it is. One window is open
+ * at a time. */
+struct window_rect screen_open_window(struct screen *screen,
+                                      enum window_place place,
+                                      const char *title,
+                                      const char *const *texts, int text_count);
 
 /* Replaces the lines of the window by as many. */
 void screen_set_window(struct screen *screen, const char *const *texts,

@@ -95,6 +95,7 @@ static int key_of_letter(unsigned char letter)
     case 'B': return TTY_KEY_DOWN;
     case 'C': return TTY_KEY_RIGHT;
     case 'D': return TTY_KEY_LEFT;
+    case 'F': return TTY_KEY_END;
     case 'H': return TTY_KEY_HOME;
     case 'P': return TTY_KEY_F1;
     case 'M': return '\r'; /* Enter of the keypad */
@@ -107,6 +108,10 @@ static int key_of_number(int number)
     switch (number) {
     case 1:
     case 7: return TTY_KEY_HOME;
+    case 2: return TTY_KEY_INSERT;
+    case 3: return TTY_KEY_DELETE;
+    case 4:
+    case 8: return TTY_KEY_END;
     case 5: return TTY_KEY_PAGE_UP;
     case 6: return TTY_KEY_PAGE_DOWN;
     case 11: return TTY_KEY_F1;

@@ -23,6 +23,9 @@ enum tty_key {
     TTY_KEY_PAGE_UP,
     TTY_KEY_PAGE_DOWN,
     TTY_KEY_HOME,
+    TTY_KEY_END,
+    TTY_KEY_INSERT,
+    TTY_KEY_DELETE,
     TTY_KEY_F1,
     TTY_KEY_OTHER /* a key that glim does not use */
 };

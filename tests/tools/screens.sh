@@ -36,14 +36,15 @@ objects 1.5 Escape Tab Down Down
 light 1 Tab
 help 1 Escape question
 search 1 n o i s e
-progress 4 Escape g
-compare 1.5 g K Tab Tab Down Down Down Down Down Down Return Down Down bracketleft bracketleft bracketleft bracketleft Escape Escape
+progress 4 Escape Escape g
+compare 1.5 g K Tab Tab Down Down Down Down Down Down Return Down Down parenleft parenleft parenleft parenleft Escape Escape
 differences 5 y
 normals 2 Escape n n
 path 2 N N t t t greater greater
 boxes 1.5 t t t greater greater greater
-question 1 t t t t q
-normal 3 n space Return
+question 1 t t t t ctrl+q
+menu 1 n Escape
+normal 3 Escape space Return
 '
 
 # Presses keys and saves the window of the terminal.

@@ -41,7 +41,7 @@ keys b
 device_is_there
 keys Space b
 wait_for "the backend changes only in live mode"
-keys q
+keys C-q
 expect_end 0
 fresh
 start --backend opencl -s 3 flat.obj
@@ -50,7 +50,7 @@ keys Space Enter
 wait_for "NORMAL done  3/3 spp .* OpenCL"
 keys p
 wait_for "saved flat.png 100x50, 3 spp"
-keys q
+keys C-q
 expect_end 0
 fresh
 start_line "OCL_ICD_VENDORS=/nonexistent TERM=tmux-256color glim --device 1 flat.obj"
@@ -58,20 +58,20 @@ wait_for "OpenCL: found no platform"
 wait_for_rows 20 "48;2;188;124;0"
 keys '~'
 wait_for "LIVE"
-keys q
+keys C-q
 expect_end 0
 # one that is not there
 fresh
 start --device nosuch flat.obj
 wait_for "found no device 'nosuch', expected one of 1 'pthread"
 wait_for_rows 20 "48;2;188;124;0"
-keys q
+keys C-q
 expect_end 0
 # closed while the device is on its way
 fresh
 start -t 1 --backend opencl flat.obj
 wait_for "LIVE"
-keys q
+keys C-q
 expect_end 0
 # picks after a reload of another shape
 fresh
@@ -84,5 +84,5 @@ keys l
 wait_for "loaded lamp.obj"
 keys v
 wait_for "face 1, 5[0-9.]* away"
-keys q
+keys C-q
 expect_end 0

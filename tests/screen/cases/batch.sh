@@ -62,7 +62,7 @@ keys Down k 5
 wait_for "stored as view 5"
 expect "│>    colour     #000000$"
 # Esc is Esc
-raw_keys "$(printf '\033\033q')"
+raw_keys "$(printf '\033\033\021')"
 expect_end 0
 fresh
 # an error that comes while somebody types is seen
@@ -74,5 +74,5 @@ keys g
 wait_for "progress"
 expect "wall.*png: File to"
 wait_for "LIVE .* spp" # at its time
-keys q
+keys C-q
 expect_end 0

@@ -6,6 +6,6 @@ sed -i 's/^background.*/background 1e20 1e20 1e20/' flat.view
 size=130x21
 start flat.obj
 wait_for 'samples were too bright: sums above 2^63 are cut'
-keys q
+keys C-q
 expect_end 0
 expect '^[0-9]* samples were too bright'

@@ -63,7 +63,7 @@ closer() # presses w; true when the triangle is as large as from 4 ahead
 }
 wait_until closer
 moved w eye 3 '<' 4.5
-keys q
+keys C-q
 expect_end 0
 fresh
 lamp_scene
@@ -71,5 +71,5 @@ start --phoe-keys lamp.obj
 wait_for "▀"
 moved w eye 2 '>' 0.01
 moved Q eye 3 '<' 4.99
-keys q
+keys C-q
 expect_end 0

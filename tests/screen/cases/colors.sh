@@ -17,7 +17,7 @@ wait_for "mono"
 wait_for "⠅⠅⠅" # light of a quarter: two dots of eight
 keys C
 has '48;2;188;124;0m'
-keys q
+keys C-q
 expect_end 0
 # Some of these have no second screen to come back from: it is cleared.
 for case in "GLIM_COLOR=256:256 colours" "NO_COLOR=1:mono" \
@@ -28,7 +28,7 @@ for case in "GLIM_COLOR=256:256 colours" "NO_COLOR=1:mono" \
     fresh
     start_line "export TERM=tmux-256color; env ${case%:*} glim flat.obj"
     wait_for "LIVE .*  ${case#*:} "
-    keys q
+    keys C-q
     expect_end 0 cleared
     reject "LIVE"
     reject "▀▀▀"
@@ -37,7 +37,7 @@ done
 fresh
 start_line "TERM=tmux-256color NO_COLOR=1 glim --color=24bit flat.obj"
 wait_for "LIVE .*  24 bit "
-keys q
+keys C-q
 expect_end 0
 fresh
 start_line "TERM=tmux-256color GLIM_COLOR=red glim flat.obj"

@@ -56,7 +56,7 @@ keys y
 wait_for "COMPARE  left: kept 1 of 2"
 keys y y
 wait_for "LIVE .* spp"
-keys q n q
+keys C-q n C-q
 wait_for "Unsaved changes. Quit?"
 keys y
 expect_end 0

@@ -10,13 +10,14 @@ wait_for "LIVE.*F1 help  x quit"
 reject "▀"
 keys '?' # does nothing now
 keys y
-wait_for "Esc closes"
-keys Down
-expect "F1 y *this help"
-expect "x *quit"
+wait_for "Esc back"
+raw_keys 'commands'
+wait_for "F1 y *all commands and keys"
+keys Escape End
+wait_for "x *quit"
 keys Escape
-wait_until_gone "Esc closes"
-keys q # no more
+wait_until_gone "Esc back"
+keys C-q # no more
 keys C
 wait_for "  mono" # what is next after 16
 keys x

@@ -9,5 +9,5 @@ screen_colors | grep -q '38;2;' || die "no 24-bit colours"
 mux resize-window -x 60 -y 20
 wait_for "▀"
 wait_for "LIVE"
-keys q
+keys C-q
 expect_end 0

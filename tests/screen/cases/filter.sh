@@ -19,7 +19,7 @@ keys N
 wait_for "LIVE  filtered "
 keys Space Enter
 wait_for "NORMAL done  16/16 spp"
-keys q y
+keys C-q y
 expect_end 0
 fresh
 start --no-filter lamp.obj
@@ -28,5 +28,5 @@ keys F
 wait_for "the screen's picture is filtered"
 keys Escape
 wait_for "LIVE  filtered "
-keys q
+keys C-q
 expect_end 0

@@ -20,7 +20,7 @@ keys G # this terminal has no pixels: round to the first
 wait_for "half blocks"
 wait_for "[▀▄]"
 reject "@@@"
-keys q
+keys C-q
 expect_end 0
 for case in "upper:▀" "lower:▄" "sextant:[🬕🬂🬎🬁🬓]" "ascii:@@@" \
     "braille --color mono:⣿⣿" "quadrant --color mono:[▟▙]" \
@@ -28,7 +28,7 @@ for case in "upper:▀" "lower:▄" "sextant:[🬕🬂🬎🬁🬓]" "ascii:@@@"
     fresh
     start "--glyph ${case%%:*}" lamp.obj
     wait_for "${case#*:}"
-    keys q
+    keys C-q
     expect_end 0
 done
 # A message tells that requested pixels are not supported.
@@ -37,7 +37,7 @@ for case in "sixel:sixels" "kitty:kitty pixels"; do
     start --glyph ${case%%:*} lamp.obj
     wait_for "half blocks: the terminal reports no ${case#*:}"
     wait_for "[▀▄]"
-    keys q
+    keys C-q
     expect_end 0
 done
 mkdir -p config/glim
@@ -45,12 +45,12 @@ echo 'option glyph sixel' >config/glim/config
 fresh
 start_line "XDG_CONFIG_HOME=\$PWD/config TERM=tmux-256color glim lamp.obj"
 wait_for "half blocks: the terminal reports no sixels"
-keys q
+keys C-q
 expect_end 0
 fresh
 start --glyph sixel --color mono lamp.obj
 wait_for "braille: sixels need colours"
-keys q
+keys C-q
 expect_end 0
 # Without colours dots come first, then letters.
 fresh
@@ -58,13 +58,13 @@ start_line "TERM=tmux-256color glim --color mono lamp.obj"
 wait_for "⣿⣿"
 keys G
 wait_for "letters"
-keys q
+keys C-q
 expect_end 0
 fresh
 start --glyph ascii lamp.obj
 wait_for "@@@"
 reject "▀"
-keys q
+keys C-q
 expect_end 0
 rm "$XDG_STATE_HOME/glim/glyphs"
 fresh
@@ -77,7 +77,7 @@ wait_for "@@@"
 keys G
 wait_for "blanks"
 reject "@@@"
-keys q
+keys C-q
 expect_end 0
 rm -f "$XDG_STATE_HOME/glim/glyphs"
 # G is remembered for this terminal, and Escape takes it back while the message
@@ -97,12 +97,12 @@ wait_for "[▀▄]"
 reject "[🬕🬂🬎🬁🬓]"
 keys G
 wait_for "quadrants from now on"
-keys q
+keys C-q
 expect_end 0
 fresh
 start_line "$lamp"
 wait_for "[▖▗▘▙▛▜▝▞▟▌▐]"
-keys q
+keys C-q
 expect_end 0
 for case in "half:[▀▄]" "auto:[▀▄]" "braille:[⢀⡀⣀⣠⣄⠘⠉⣤⢠⡄⠙⠋⠛]"; do
     fresh
@@ -110,19 +110,19 @@ for case in "half:[▀▄]" "auto:[▀▄]" "braille:[⢀⡀⣀⣠⣄⠘⠉⣤�
     wait_for "LIVE .* spp"
     wait_for "${case#*:}"
     reject "[▖▗▘▙▛▜▝▞▟▌▐]"
-    keys q
+    keys C-q
     expect_end 0
 done
 echo 'option glyph sextant' >config/glim/config
 fresh
 start_line "XDG_CONFIG_HOME=\$PWD/config $lamp"
 wait_for "[🬕🬂🬎🬁🬓]"
-keys q
+keys C-q
 expect_end 0
 # Another terminal has its own.
 fresh
 start_line "TERM=screen-256color TMUX= glim lamp.obj"
 wait_for "LIVE .* spp"
 wait_for "[▀▄]"
-keys q
+keys C-q
 expect_end 0

@@ -87,7 +87,7 @@ is_tidy 1
 fresh
 
 # the question stays for the next session if it has no answer
-for key in q C-c; do
+for key in C-q C-c; do
     start scenes/lamp.obj
     wait_for "$asks"
     keys $key
@@ -102,7 +102,7 @@ wait_for "$asks"
 keys Enter
 wait_for "seed"
 keys Escape
-keys q
+keys C-q
 expect_end 0
 is_tidy 0
 fresh
@@ -166,7 +166,7 @@ wait_for "unsaved changes kept"
 keys r
 wait_until_gone "unsaved changes kept"
 shows '255;255;255'
-keys q
+keys C-q
 expect_end 0
 is_tidy 0
 fresh
@@ -185,7 +185,7 @@ keys Enter
 wait_for "restored"
 keys Escape
 wait_for "NORMAL  [1-9][0-9][0-9][0-9]*/1000000000 spp"
-keys q
+keys C-q
 wait_for "Unsaved render. Quit?"
 keys y
 expect_end 0
@@ -197,7 +197,7 @@ for text in 'glim session 1' 'something else' ''; do
     echo "$text" >"state/glim/sessions/$(basename "$file")"
     start scenes/lamp.obj
     wait_for "session.* expected"
-    keys q
+    keys C-q
     expect_end 0
     is_tidy 0
     fresh

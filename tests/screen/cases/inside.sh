@@ -96,7 +96,7 @@ cmp -s walls.png walls-2.png && die "boxes are not in the file"
 # what is in the middle, until something is picked
 keys t
 wait_for "directions from pixel 50 25"
-expect "^ t next drawing, none" # the window is above the row of keys
+expect "^ Esc ends  t next drawing" # the window is above the row of keys
 expect "green, seen [01].[0-9] degrees off n"
 expect "n normal, green .* 0.000  *0.000  *1.000"
 keys v Left Left Left Left Left Left Enter
@@ -114,7 +114,7 @@ keys '<'
 wait_for "sample 0 of pixel"
 # help closes and opens it, a resize leaves it
 keys '?'
-wait_for "Esc closes"
+wait_for "Esc back"
 reject "sample 0 of"
 keys Escape
 wait_for "sample 0 of pixel"
@@ -137,5 +137,5 @@ keys n
 wait_until_gone "ERROR"
 # tmux restores the shell's screen whole only at the size that it had
 mux resize-window -x 60 -y 21
-keys q
+keys C-q
 expect_end 0

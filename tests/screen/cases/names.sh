@@ -25,7 +25,7 @@ expect "│     of 日本語の材料名 日本語の材料"
 expect "│     of tab?and?\[31m   tab?and?\[31m"
 # every row has the bar
 wait_until eval "screen | grep -c '│' | grep -qx 23"
-keys q
+keys C-q
 wait_for "^exit 0"
 fresh
 
@@ -41,7 +41,7 @@ keys c
 wait_for 'wrote the view to q?\]0;X??1m.view'
 keys p
 wait_for 'saved q?\]0;X??1m.png'
-keys q
+keys C-q
 wait_for "^exit 0"
 expect '^wrote the view to q?\]0;X??1m.view'
 expect '^saved q?\]0;X??1m.png'

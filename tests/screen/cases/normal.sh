@@ -10,7 +10,7 @@ wait_for "normal mode: Enter starts the render"
 keys w
 wait_for "the camera moves only in live mode"
 wait_for "NORMAL ready"
-keys q # nothing was rendered: no question
+keys C-q # nothing was rendered: no question
 expect_end 0
 fresh
 start -s 5 lamp.obj
@@ -20,7 +20,7 @@ wait_for "NORMAL done  5/5 spp  100 %"
 wait_until rests
 keys Enter
 wait_for "the render is done"
-keys q
+keys C-q
 wait_for "Unsaved render. Quit?"
 keys n
 wait_for "NORMAL done"
@@ -30,7 +30,7 @@ keys n
 wait_for "NORMAL done"
 keys p
 wait_for "saved lamp.png 100x50, 5 spp"
-keys q
+keys C-q
 expect_end 0
 expect "^saved lamp.png 100x50, 5 spp"
 [ "$(head -c 8 lamp.png | od -An -c | tr -d ' ')" = '211PNG\r\n032\n' ] ||
@@ -46,7 +46,7 @@ wait_until rests # a halted render does not go on
 expect "NORMAL paused"
 keys Enter
 wait_for "NORMAL  [1-9]"
-keys q
+keys C-q
 wait_for "Unsaved render. Quit?"
 keys y
 expect_end 0
@@ -57,7 +57,7 @@ start -e 20% --stats run.json lamp.obj
 wait_for LIVE
 keys Space Enter
 wait_for "NORMAL done  [0-9]* spp  100 %  noise [0-9]"
-keys q y
+keys C-q y
 expect_end 0
 grep -q '"stopped_by": "error",' run.json || die "not stopped by the error"
 # a pause is not time of rendering
@@ -74,7 +74,7 @@ keys Enter
 wait_for "NORMAL  .* left [12] s"
 wait_for "NORMAL done"
 without_pause_ms=$((($(date +%s%N) - begin_ns) / 1000000 - 2100))
-keys q y
+keys C-q y
 expect_end 0
 grep -q '"stopped_by": "time",' run.json || die "not stopped by the time"
 awk -F'[:,]' -v most_ms=$without_pause_ms \

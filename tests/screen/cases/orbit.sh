@@ -35,7 +35,9 @@ wait_for "as it was opened"
 keys o
 raw_keys "$(printf '\033[<0;30;10M\033[<32;20;10M\033[<0;20;10m')"
 orbited 1
-keys Escape
 wait_for "LIVE  orbit"
-keys q
+keys Escape # leaves it
+wait_for "look around"
+reject "LIVE  orbit"
+keys C-q
 expect_end 0

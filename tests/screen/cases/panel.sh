@@ -18,7 +18,7 @@ expect "     light      1        ███▋"
 wait_for "LIVE"
 # the help begins with the panel's own keys
 keys '?'
-wait_for "arrows  choose; change by a step"
+wait_for "arrows *choose; change by a step"
 keys Escape
 wait_until_gone "choose; change"
 # by hand: red light, typed
@@ -63,13 +63,13 @@ wait_for "nothing to undo"
 keys U
 shows '255;0;0'
 # compare with what is saved
-keys x
-wait_for "as saved: x goes back"
+raw_keys '\'
+wait_for 'as saved: . goes back'
 shows '255;255;255'
-keys x
+raw_keys '\'
 shows '255;0;0'
 # quitting asks, saving changes only what was changed
-keys q
+keys C-q
 wait_for "Unsaved changes. Quit?"
 keys n
 wait_for LIVE
@@ -81,7 +81,7 @@ printf '# mine\nnewmtl l\nKd 0 0 0 # black\nKe 1 0 0\naniso .5\n' |
 keys Tab
 wait_for "─ (no name) / l "
 expect "│>    (no name)         l$"
-keys n
+keys IC
 wait_for "has its own material now: l.2"
 keys Tab Tab
 wait_for "│>    l.2               diffuse"
@@ -94,7 +94,7 @@ wait_for "wrote 1 material to lamp.mtl, and lamp.view"
 grep -q '^assign "" l.2$' lamp.view || die "lamp.view: $(cat lamp.view)"
 # sky and exposure
 keys Escape
-wait_for "n copy"
+wait_for "Ins copy"
 keys Tab Tab
 wait_for "─ Sky and picture"
 expect "│>    sun        off"
@@ -108,7 +108,7 @@ keys Enter
 wait_for "found '91', expected a number from -90 to 90"
 keys Escape
 wait_until_gone "91_"
-keys ']'
+keys ')'
 wait_for "│>    elevation  55"
 keys Up Up Left
 wait_for "│>    sun        off"
@@ -126,7 +126,7 @@ keys Enter
 wait_for "found '1x', expected a number from -100 to 100"
 keys Escape Escape
 wait_until_gone "│"
-keys q
+keys C-q
 wait_for "Unsaved changes. Quit?"
 keys s
 expect_end 0
@@ -164,7 +164,7 @@ keys Tab
 wait_for "Sky and picture"
 raw_keys "$(printf '\033[<0;22;8M\033[<0;22;8m')"
 wait_for "│>    l\.2 "
-keys q
+keys C-q
 expect_end 0
 # it is all there again; monochrome has the numbers
 fresh
@@ -181,7 +181,7 @@ keys Enter Down
 wait_for "│>.*colour     #"
 keys Escape Escape
 wait_until_gone "│"
-keys q
+keys C-q
 expect_end 0
 # in normal mode nothing moves or is edited; the row of keys knows
 fresh
@@ -194,5 +194,5 @@ keys Space
 wait_for "^ space live mode"
 expect "│ space live mode, to edit"
 reject "wasdqe"
-keys q
+keys C-q
 expect_end 0

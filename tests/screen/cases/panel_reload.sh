@@ -50,7 +50,7 @@ keys Tab
 wait_for "Materials"
 reject "progress"
 # what was picked is of the scene before
-keys Escape Escape
+keys Escape
 wait_until_gone "Materials"
 keys v Enter
 wait_for "orbit, "
@@ -58,5 +58,5 @@ printf 'newmtl l\nKd 0 0 0\nKe 1 1 1\n' >lamp.mtl
 wait_for "loaded lamp.obj"
 keys f
 wait_for "nothing is picked"
-keys q
+keys C-q
 expect_end 0

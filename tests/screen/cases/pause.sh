@@ -38,7 +38,7 @@ wait_for "NORMAL done  16/16 spp"
 wait_until rests
 keys .
 wait_for "the render is done"
-keys q
+keys C-q
 wait_for "Unsaved render. Quit?"
 keys y
 expect_end 0

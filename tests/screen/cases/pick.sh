@@ -81,7 +81,7 @@ raw_keys "$(printf '\033[<0;30;10M\033[<32;40;10M\033[<0;40;10m')"
 wait_for "the camera moves only in live mode" # and nothing is picked there
 keys f
 wait_for "the camera moves only in live mode"
-keys q
+keys C-q
 expect_end 0
 fresh
 # a cut-out of the picture: its middle is elsewhere
@@ -95,5 +95,5 @@ keys -N 60 Left
 keys -N 30 Up
 keys Left Up
 wait_until eval 'screen | head -1 | grep -q "^ *+\]"'
-keys q
+keys C-q
 expect_end 0

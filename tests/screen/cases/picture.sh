@@ -21,7 +21,7 @@ wait_until_gone "LIVE"
 wait_for_rows 15 "48;2;188;124;0"
 keys i
 wait_for "LIVE"
-keys q
+keys C-q
 expect_end 0
 # in a wide window it is beside the picture, at the right
 fresh
@@ -42,5 +42,5 @@ keys g
 wait_until_gone "no limit"
 keys g
 wait_for "  [0-9]* spp  *no limit"
-keys q
+keys C-q
 expect_end 0

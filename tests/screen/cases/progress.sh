@@ -17,7 +17,7 @@ wait_for "samples  *200 k .*/s"
 wait_for "busy 0 %"
 # it is still there after the help and after another size, and at rest
 keys '?'
-wait_for "Esc closes"
+wait_for "Esc back"
 reject "progress ─"
 keys Escape
 wait_for "┌─ progress ─"
@@ -35,7 +35,7 @@ reject "NORMAL"
 keys i
 wait_for "NORMAL done"
 reject "progress"
-keys q y
+keys C-q y
 expect_end 0
 for line in '"spp": 40,' '"samples": 200000,' '"percent": 100,' '"left_s": 0,' \
     '"stopped": false,'; do
@@ -61,7 +61,7 @@ wait_for "progress"
 wait_for "samples/s .*, most "
 wait_for " [#|:.][#|:.]* "
 wait_for "1 thread  *busy"
-keys q
+keys C-q
 expect_end 0 cleared
 expect '"percent": null,'
 

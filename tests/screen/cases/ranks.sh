@@ -26,5 +26,5 @@ wait_for "2 ranks  *1 late"
 wait_for "rank 1 .* late [0-9]* s"
 kill -CONT "$worker"
 wait_for "rank 1  *[0-9.]* [kMG] .* [kMG]/s"
-keys q
+keys C-q
 expect_end 0

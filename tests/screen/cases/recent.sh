@@ -9,7 +9,7 @@ for scene in flat lamp; do
     fresh
     start $scene.obj
     wait_for "LIVE .* spp"
-    keys q
+    keys C-q
     expect_end 0
 done
 fresh
@@ -24,7 +24,7 @@ wait_for "7: no such scene"
 keys 2 Enter
 wait_for "LIVE .* spp"
 wait_for_rows 20 "48;2;188;124;0"
-keys q
+keys C-q
 expect_end 0
 fresh
 start_line "TERM=tmux-256color glim"
@@ -39,7 +39,7 @@ wait_for "^number or file of a scene"
 expect "^  1  .*/flat.obj"
 keys Enter
 wait_for "LIVE .* mono "
-keys q
+keys C-q
 expect_end 0
 # What is wrong with them is said before anybody has to choose.
 fresh

@@ -23,19 +23,19 @@ wait_for_rows 15 "48;2;188;124;0"
 wait_for "LIVE"
 # The help stays open: tmux may tell the program of a size after the key.
 keys '?'
-wait_for "Esc closes"
+wait_for "Esc back"
 raw_keys 'png'
-wait_for "search: png_"
+wait_for ": png_"
 mux resize-window -x 39 -y 31
 wait_for "window 39x31: at least 40x12 is needed"
 keys x # is not searched for
 mux resize-window -x 80 -y 31
-wait_for "search: png_"
-expect "save a new PNG"
-keys Escape
-wait_until_gone "search"
+wait_for ": png_"
+expect "save a PNG"
+keys Escape Escape
+wait_until_gone "save a PNG"
 wait_for_rows 20 "48;2;188;124;0"
 mux resize-window -x 39 -y 31
 wait_for "window 39x31"
-keys q
+keys C-q
 expect_end 0

@@ -39,7 +39,7 @@ cp sub/flat.view mine.view
 keys c
 wait_for "wrote the view to sub/flat.view, the old one is"
 cmp sub/flat.view~ mine.view || die "the view before is lost"
-keys q
+keys C-q
 expect_end 0
 expect "^saved flat.png"
 expect "^saved flat-2.png"
@@ -62,5 +62,5 @@ wait_until rests
 expect "flat.png: "
 keys '~'
 wait_for "LIVE"
-keys q
+keys C-q
 expect_end 0

@@ -11,7 +11,7 @@ TSAN_OPTIONS=handle_segv=0:handle_abort=0 TERM=tmux-256color glim flat.obj"
     kill -"${case%:*}" "$(program_pid)"
     expect_end "${case#*:}"
 done
-for case in C-c:130 'C-\:131' q:0; do
+for case in C-c:0 'C-\:131' C-q:0; do
     fresh
     start flat.obj
     wait_for "LIVE .* spp"

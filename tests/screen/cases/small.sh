@@ -6,20 +6,17 @@ start --cell-aspect 2 flat.obj
 wait_for_rows 10 "48;2;188;124;0"
 expect "LIVE"
 keys '?'
-wait_for "keys 1/9"
-expect "w s *move forward, back"
-keys Down
-wait_for "keys 2/9"
+wait_for "w *move forward"
+keys End
+wait_for "\^Q \^C *quit"
+reject "move forward"
+keys Home
+wait_for "w *move forward"
 keys Escape
-wait_until_gone "keys 2/9"
-keys '?' Up
-wait_for "keys 9/9"
-expect "q *quit"
-keys Enter
-wait_until_gone "keys 9/9"
+wait_until_gone "move forward"
 keys g # the window leaves the status line
 wait_for "progress"
-expect "LIVE .*q quit"
+expect "LIVE .*? help"
 keys g
 keys v
 wait_for "\[+\]"
@@ -31,13 +28,13 @@ wait_for "window 40x11: at least 40x12 is needed"
 mux resize-window -x 80 -y 24
 wait_for_rows 20 "48;2;188;124;0"
 keys '?'
-wait_for "keys 1/2"
-expect "w s *move forward, back"
-raw_keys 'quit' # a search: one page
-wait_for "search: quit_"
-expect "q *quit"
+wait_for "w *move forward"
+raw_keys 'leave' # another word for it
+wait_for "\^Q \^C *quit"
 reject "move forward"
+keys Escape # the search, then the list
+wait_for "move forward"
 keys Escape
-wait_until_gone "search"
-keys q
+wait_until_gone "move forward"
+keys C-q
 expect_end 0

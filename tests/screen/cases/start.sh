@@ -15,14 +15,17 @@ expect_end 2
 fresh
 start_line "until [ -e go ]; do sleep 0.05; done; TERM=tmux-256color glim -b -w 2 -h 2 -s 1 -o x.png flat.obj
 TERM=tmux-256color glim flat.obj"
-keys q # before the program
+keys c # before the program
 : >go
+wait_for "wrote the view"
+rm flat.view
+keys C-q
 expect_end 0
 fresh
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >dark.obj
 start dark.obj
 wait_for "no light in the scene: lit by a soft sky"
-keys q
+keys C-q
 expect_end 0
 # who waits for a scene is told so, and can end it
 mkfifo slow.obj

@@ -26,7 +26,7 @@ raw_keys "$(printf '\032q')"
 wait_for "Stopped"
 keys fg Enter
 wait_for "LIVE"
-keys q
+keys C-q
 wait_for "glim flat.obj"
 keys exit Enter
 expect_end 0 cleared

@@ -10,7 +10,7 @@ keys C
 wait_for "256 colours"
 keys x
 wait_for "saved flat-2.ans, text of 60x15"
-keys q
+keys C-q
 expect_end 0
 expect "^saved flat.ans"
 glim -b --ansi 60x20 flat.obj 2>/dev/null | cmp - flat.ans

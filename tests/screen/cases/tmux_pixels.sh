@@ -37,14 +37,14 @@ wait_until has_bytes "_Ga=T,f=24,[^;]*,U=1,q=2"
 wait_until has_bytes "$placeholder"
 keys w
 wait_until has_bytes "_Ga=d,d=I,i=[0-9]*,q=2"
-keys q
+keys C-q
 expect_end 0
 # A terminal without placeholders does not answer.
 fresh
 begin
 wait_for "the terminal reports no kitty pixels"
 wait_for "[▀▄]"
-keys q
+keys C-q
 expect_end 0
 if has_bytes "a=T" || has_bytes "$placeholder"; then
     die "images were sent that the terminal does not show"

@@ -55,7 +55,7 @@ wait_for "  view 3"
 [ "$(line eye)" = "eye 0 0 5" ] || die "not at view 3: $(line eye)"
 want="view 3 eye 0 0 5 at 0 0 0 up 0 1 0 fovy 40 aperture 0 focus 0"
 [ "$(line 'view 3')" = "$want" ] || die "found $(line 'view 3')"
-keys q
+keys C-q
 expect_end 0
 fresh
 # from the file
@@ -68,5 +68,5 @@ wait_for "  view 7"
 keys r
 wait_for "as it was opened"
 [ "$(line 'view 7' | cut -c -18)" = "view 7 eye 0 0 9 a" ] || die "view 7 is lost"
-keys q
+keys C-q
 expect_end 0

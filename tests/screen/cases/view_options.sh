@@ -7,7 +7,7 @@ start --eye 0.25,0,3 --at 0,0,0 --fov 30 --exposure 1 flat.obj
 wait_for "LIVE .* [1-9][0-9]* spp"
 keys d
 keys r
-keys q
+keys C-q
 expect_end 0
 cmp flat.view mine.view || die "the view was written without c"
 fresh
@@ -17,7 +17,7 @@ keys d
 keys r
 keys c
 wait_for "wrote the view to flat.view"
-keys q
+keys C-q
 expect_end 0
 for line in 'eye 0.25 0 3' 'at 0 0 0' 'fovy 30' 'exposure 1'; do
     grep -qx "$line" flat.view || die "no $line: $(cat flat.view)"

@@ -46,5 +46,5 @@ z=$(eye_z)
 [ "$z" = 5.7 ] || die "r came to $z, expected 5.7"
 keys r
 wait_for "the whole scene"
-keys q
+keys C-q
 expect_end 0

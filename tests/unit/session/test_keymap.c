@@ -7,7 +7,6 @@
 
 #include "base/file.h"
 #include "session/keymap.h"
-#include "studio/help.h"
 #include "terminal/tty_input.h"
 #include "tests/unit/check.h"
 
@@ -36,12 +35,14 @@ static void key_tables_have_their_actions(void **state)
         {'s', ACTION_BACK, ACTION_DOWN},
         {'a', ACTION_LEFT, ACTION_LEFT},
         {'d', ACTION_RIGHT, ACTION_RIGHT},
+        {'q', ACTION_DOWN, ACTION_FORWARD},
         {'Q', ACTION_DOWN, ACTION_FORWARD},
         {'e', ACTION_UP, ACTION_BACK},
         {'E', ACTION_UP, ACTION_BACK},
-        {'q', ACTION_QUIT, ACTION_QUIT},
+        {17, ACTION_QUIT, ACTION_QUIT},
         {'?', ACTION_HELP, ACTION_HELP},
-        {3, ACTION_INTERRUPT, ACTION_INTERRUPT},
+        {':', ACTION_HELP, ACTION_HELP},
+        {3, ACTION_QUIT, ACTION_QUIT},
         {26, ACTION_SUSPEND, ACTION_SUSPEND},
         {'c', ACTION_SAVE_VIEW, ACTION_SAVE_VIEW},
         {'C', ACTION_COLORS, ACTION_COLORS},
@@ -69,7 +70,7 @@ static void capitals_keep_camera_actions(void **state)
     struct keymap k = table_keys(false);
 
     (void)state;
-    for (const char *p = "wasde"; *p; p++)
+    for (const char *p = "wasdqe"; *p; p++)
         assert_int_equal(keymap_action(&k, *p - 'a' + 'A'),
                          keymap_action(&k, *p));
 }
@@ -143,50 +144,63 @@ static void first_names_are_the_usual_ones(void **state)
     assert_string_equal(keymap_first_name(&k, ACTION_MOUSE).text, "no key");
 }
 
-/* Every action, except those of capitals, is in the help once, and lines
- * fit. */
-static void help_names_every_key(void **state)
+static bool is_numbered_view(int action)
 {
-    (void)state;
-    for (int phoe = 0; phoe < 2; phoe++) {
-        struct keymap k = table_keys(phoe);
-        struct keymap_help help;
-        char all[1024] = " ";
-
-        for (int i = 0; keymap_help(&k, i, &help); i++) {
-            assert_in_range(strlen(help.keys), 1, 7);
-            assert_in_range(strlen(help.text), 1, HELP_ENTRY_COLS - 8);
-            strcat(strcat(all, help.keys), " ");
-        }
-        for (int action = 1; action < ACTIONS; action++) {
-            char name[16];
-
-            if (action >= ACTION_LOOK_LEFT && action <= ACTION_LOOK_DOWN)
-                strcpy(name, " arrows");
-            else if (action >= ACTION_VIEW_1 && action <= ACTION_VIEW_9)
-                strcpy(name, " 1-9");
-            else
-                snprintf(name, sizeof name, " %s",
-                         keymap_key_name(k.keys[action][0]).text);
-            check_has(all, strcat(name, " "));
-        }
-    }
+    return action > ACTION_VIEW_1 && action <= ACTION_VIEW_9;
 }
 
-static void help_shows_chosen_keys(void **state)
+/* Every action is in the list once, but for the views from 2 on, and rows fit
+ * into a window of 40 columns. */
+static void list_has_every_action(void **state)
 {
-    struct keymap k = {0};
-    struct keymap_help help;
+    struct keymap k = table_keys(false);
+    struct keymap_command c;
+    int seen[ACTIONS] = {0};
 
     (void)state;
+    for (int i = 0; keymap_command(&k, i, &c); i++) {
+        assert_in_range(strlen(c.text), 1, 27);
+        assert_true(c.group[0] != '\0');
+        seen[c.action]++;
+    }
+    for (int action = 1; action < ACTIONS; action++)
+        assert_int_equal(seen[action], is_numbered_view(action) ? 0 : 1);
+}
+
+/* Returns the keys of an action in the list. */
+static struct keymap_command command_of(const struct keymap *k,
+                                        enum action action)
+{
+    struct keymap_command c = {.action = ACTION_NONE};
+
+    for (int i = 0; c.action != action; i++)
+        assert_true(keymap_command(k, i, &c));
+    return c;
+}
+
+static void list_shows_chosen_keys(void **state)
+{
+    static const enum action moves[] = {ACTION_FORWARD, ACTION_LEFT,
+                                        ACTION_BACK,    ACTION_RIGHT,
+                                        ACTION_DOWN,    ACTION_UP};
+    static const enum action looks[] = {ACTION_LOOK_LEFT, ACTION_LOOK_RIGHT,
+                                        ACTION_LOOK_UP, ACTION_LOOK_DOWN};
+    struct keymap k = table_keys(false);
+
+    (void)state;
+    assert_string_equal(command_of(&k, ACTION_DOWN).keys, "q PgDn");
+    assert_string_equal(command_of(&k, ACTION_LIGHT).keys, "");
+    assert_string_equal(keymap_first_names(&k, moves, 6).text, "wasdqe");
+    assert_string_equal(keymap_first_names(&k, looks, 4).text, "arrows");
+    assert_string_equal(keymap_first_names(&k, looks, 2).text, "Left Right");
+    k = (struct keymap){0};
     choose(&k, ACTION_BACK, 'x', 0);
     choose(&k, ACTION_LOOK_UP, 'i', 0);
     keymap_settle(&k, false);
-    assert_true(keymap_help(&k, 0, &help));
-    assert_string_equal(help.keys, "w x");
-    assert_true(keymap_help(&k, 3, &help));
-    assert_string_equal(help.keys, "Left Right i Down");
-    assert_false(keymap_help(&k, -1, &help));
+    assert_string_equal(command_of(&k, ACTION_BACK).keys, "x");
+    assert_string_equal(keymap_first_names(&k, moves, 6).text, "waxdqe");
+    assert_string_equal(keymap_first_names(&k, looks, 4).text,
+                        "Left Right i Down");
 }
 
 /* Returns the text from the line after `begin` up to `end`, for free(). */
@@ -229,85 +243,108 @@ static char manual_char(const char **p)
     return *(*p)++;
 }
 
-/* Compares the items of a section with lines of the help. */
-static void check_manual(const char *begin,
-                         bool line_of(int line, struct keymap_help *help))
+/* Reads the keys of the next item of a section. Returns false after the last
+ * one. */
+static bool next_item(const char **item, char keys[64])
 {
-    char *text = section("man/glim.1", begin, "\n.El\n");
-    char *item = text;
-    struct keymap_help help;
-    int line = 0;
+    size_t length = 0;
+    const char *p = strstr(*item, "\n.It Ic ");
 
-    for (; (item = strstr(item, "\n.It Ic ")); line++) {
-        char keys[64] = "";
-        size_t length = 0;
-        const char *p = item += strlen("\n.It Ic ");
+    if (p == NULL)
+        return false;
+    p += strlen("\n.It Ic ");
+    memset(keys, 0, 64);
+    while (*p != '\n' && length < 63)
+        keys[length++] = manual_char(&p);
+    *item = p;
+    return true;
+}
 
-        while (*p != '\n' && length < sizeof keys - 1)
-            keys[length++] = manual_char(&p);
-        assert_true(line_of(line, &help));
-        assert_string_equal(keys, help.keys);
+/* Items of the manual have the first key of one action or several. */
+static void manual_lists_the_same_keys(void **state)
+{
+    char *text = section("man/glim.1", ".Sh KEYS\n", "\n.El\n");
+    const char *item = text;
+    struct keymap k = table_keys(false);
+    char keys[64], all[1024] = " ";
+
+    (void)state;
+    while (next_item(&item, keys))
+        strcat(strcat(all, keys), " ");
+    for (int action = 1; action < ACTIONS; action++) {
+        char name[16];
+
+        if (k.keys[action][0] == 0)
+            continue;
+        snprintf(name, sizeof name, " %s ",
+                 keymap_key_name(k.keys[action][0]).text);
+        if (action >= ACTION_LOOK_LEFT && action <= ACTION_LOOK_DOWN)
+            strcpy(name, " arrows ");
+        if (action >= ACTION_VIEW_1 && action <= ACTION_VIEW_9)
+            strcpy(name, " 1-9 ");
+        check_has(all, name);
     }
-    assert_false(line_of(line, &help));
     free(text);
 }
 
-static bool table_help(int line, struct keymap_help *help)
+static void manual_lists_the_panels_keys(void **state)
+{
+    char *text = section("man/glim.1", ".Sh PANEL\n", "\n.El\n");
+    const char *item = text;
+    struct keymap_command c;
+    char keys[64];
+    int i = 0;
+
+    (void)state;
+    for (; next_item(&item, keys); i++) {
+        assert_true(keymap_panel_command(i, &c));
+        assert_string_equal(keys, c.keys);
+    }
+    assert_false(keymap_panel_command(i, &c));
+    free(text);
+}
+
+/* Each key of the panel has one meaning, and no letter of it has another one
+ * elsewhere. */
+static void panel_keys_are_its_own(void **state)
 {
     struct keymap k = table_keys(false);
-
-    return keymap_help(&k, line, help);
-}
-
-static void manual_lists_the_same_keys(void **state)
-{
-    (void)state;
-    check_manual(".Sh KEYS\n", table_help);
-    check_manual(".Sh PANEL\n", keymap_panel_help);
-}
-
-/* Each key of the panel has one meaning, and each line fits into the help. */
-static void panel_keys_are_in_the_help(void **state)
-{
-    struct keymap_help help;
-    int seen = 0;
+    struct keymap_command c;
 
     (void)state;
-    for (int i = 0; keymap_panel_help(i, &help); i++) {
-        assert_in_range(strlen(help.keys), 1, 7);
-        assert_in_range(strlen(help.text), 1, HELP_ENTRY_COLS - 8);
-    }
-    for (int key = 1; key <= TTY_KEY_F1; key++)
-        seen += keymap_panel_action(key) != PANEL_NONE;
-    assert_int_equal(seen, 4 + 2 + 2 + 1 + 13 + 7);
+    for (int i = 0; keymap_panel_command(i, &c); i++)
+        assert_in_range(strlen(c.text), 1, 27);
+    for (int key = 'A'; key <= 'z'; key++)
+        assert_true(keymap_panel_action(key) == PANEL_NONE ||
+                    keymap_action(&k, key) == ACTION_NONE);
     assert_int_equal(keymap_panel_action(0), PANEL_NONE);
     assert_int_equal(keymap_panel_action('w'), PANEL_NONE);
-    assert_int_equal(keymap_panel_action('x'), PANEL_COMPARE);
+    assert_int_equal(keymap_panel_action('\\'), PANEL_COMPARE);
 }
 
-static void readme_lists_the_same_keys(void **state)
+/* The README has the usual keys in at most 30 rows. */
+static void readme_has_keys(void **state)
 {
     struct keymap k = table_keys(false);
     char *text =
         section("README.md", "| key | on the screen |\n| --- | --- |", "\n\n");
-    char *row = text;
-    struct keymap_help help;
-    int line = 0;
+    int rows = 0;
 
     (void)state;
-    for (; (row = strstr(row, "\n| ")); line++) {
-        char keys[64] = "";
-        size_t length = 0;
+    for (char *row = text; (row = strstr(row, "\n| ")); rows++) {
+        char *end = strchr(row += 3, '|');
+        char *rest = row;
 
-        for (row += 3; *row != '|' && length < sizeof keys - 1; row++) {
-            if (*row != '`')
-                keys[length++] = *row;
-        }
-        keys[length - 1] = '\0'; /* the blank before the bar */
-        assert_true(keymap_help(&k, line, &help));
-        assert_string_equal(keys, help.keys);
+        *end = '\0';
+        for (char *key; (key = strsep(&rest, " `"));)
+            if (*key != '\0' && strcmp(key, "arrows") != 0 &&
+                strcmp(key, "1-9") != 0)
+                assert_true(
+                    keymap_action(&k, keymap_find_key(key, strlen(key))) !=
+                    ACTION_NONE);
+        row = end + 1;
     }
-    assert_false(keymap_help(&k, line, &help));
+    assert_in_range(rows, 15, 30);
     free(text);
 }
 
@@ -342,11 +379,12 @@ int main(void)
         cmocka_unit_test(chosen_keys_replace_those_of_the_table),
         cmocka_unit_test(names_of_keys_are_read_back),
         cmocka_unit_test(first_names_are_the_usual_ones),
-        cmocka_unit_test(help_names_every_key),
-        cmocka_unit_test(help_shows_chosen_keys),
+        cmocka_unit_test(list_has_every_action),
+        cmocka_unit_test(list_shows_chosen_keys),
         cmocka_unit_test(manual_lists_the_same_keys),
-        cmocka_unit_test(panel_keys_are_in_the_help),
-        cmocka_unit_test(readme_lists_the_same_keys),
+        cmocka_unit_test(manual_lists_the_panels_keys),
+        cmocka_unit_test(panel_keys_are_its_own),
+        cmocka_unit_test(readme_has_keys),
         cmocka_unit_test(manual_lists_the_actions),
     };
 

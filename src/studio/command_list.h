@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+/*
+ * command_list.h - the list of all commands with their keys, searched by
+ * ordinary words, and the menu, which is its short form
+ *
+ * Units:     terminal cells
+ * Ownership: screen and keys are the caller's
+ * Threads:   main only
+ */
+#ifndef GLIM_COMMAND_LIST_H
+#define GLIM_COMMAND_LIST_H
+
+#include "session/keymap.h"
+#include "studio/list_window.h"
+
+#define COMMANDS_MAX 128
+
+struct command_list {
+    struct list_window list;
+    bool is_menu;  /* while nothing is searched for: only what leaves */
+    bool in_panel; /* keys of the panel come first */
+    int all;       /* commands before the search */
+    int count;     /* those that match */
+    struct keymap_command commands[COMMANDS_MAX];
+};
+
+/* Opens the list, or the menu. */
+void command_list_open(struct command_list *p, const struct keymap *keys,
+                       struct screen *screen, bool is_menu, bool in_panel);
+
+/* Opens the window again after a new layout. */
+void command_list_reopen(struct command_list *p, const struct keymap *keys,
+                         struct screen *screen);
+
+/* Fills the commands that match the search, the best first. */
+void command_list_find(struct command_list *p, const struct keymap *keys);
+
+/* Takes a key or the mouse. Returns the action of a command that is chosen, or
+ * ACTION_NONE. */
+enum action command_list_key(struct command_list *p, const struct keymap *keys,
+                             struct screen *screen, int key);
+enum action command_list_mouse(struct command_list *p,
+                               const struct keymap *keys, struct screen *screen,
+                               const struct event *event);
+
+#endif

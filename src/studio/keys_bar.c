@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "studio/keys_bar.h"
+
+#include "base/print.h"
+#include "studio/progress_panel.h"
+
+/* ---- hints ---- */
+
+#define GAP 2
+
+const struct key_hint *key_hints_draw(enum window_part part, int row, int col,
+                                      int cols, const struct key_hint *hints)
+{
+    int end = col + cols;
+
+    for (; hints->does; hints++) {
+        int key_cols = text_width_of(hints->key);
+        int word_cols = text_width_of(hints->does);
+
+        if (col + key_cols + 1 + word_cols > end)
+            break;
+        windows_text(part, row, col, key_cols, ROLE_KEY, hints->key);
+        col += key_cols + 1;
+        windows_text(part, row, col, word_cols, ROLE_FAINT, hints->does);
+        col += word_cols + GAP;
+    }
+    return hints;
+}
+
+/* ---- the bar ---- */
+
+#define HINTS_MAX 10
+
+/* Columns of a bar beside the picture, at least: for a key and what it does. */
+#define BESIDE_MIN 24
+
+/* Rows of keys in a bar beside the picture, at most and beside the progress. */
+#define KEY_ROWS     HINTS_MAX
+#define KEY_ROWS_MIN 6
+
+/* Rows of the progress, at least. */
+#define ROOM_ROWS_MIN 4
+
+#define HINT_ACTIONS 6
+
+/* Actions with what they do together. */
+struct hint {
+    const char *does;
+    enum action actions[HINT_ACTIONS];
+};
+
+#define MOVES                                                                \
+    {                                                                        \
+        ACTION_FORWARD, ACTION_LEFT, ACTION_BACK, ACTION_RIGHT, ACTION_DOWN, \
+            ACTION_UP                                                        \
+    }
+#define LOOKS                                                                 \
+    {                                                                         \
+        ACTION_LOOK_LEFT, ACTION_LOOK_RIGHT, ACTION_LOOK_UP, ACTION_LOOK_DOWN \
+    }
+
+/* Hints of each state, the way out of it first. */
+static const struct hint hints[KEYS_STATES][HINTS_MAX] = {
+    [KEYS_LIVE] = {{"move", MOVES},
+                   {"look", LOOKS},
+                   {"pick", {ACTION_CURSOR}},
+                   {"materials", {ACTION_PANEL}},
+                   {"views", {ACTION_VIEW_NEXT}},
+                   {"compare", {ACTION_KEEP_RENDER}},
+                   {"save", {ACTION_SAVE}},
+                   {"normal mode", {ACTION_MODE}},
+                   {"menu", {ACTION_CANCEL}}},
+    [KEYS_PAUSED] = {{"goes on", {ACTION_START}},
+                     {"one sample", {ACTION_STEP}},
+                     {"materials", {ACTION_PANEL}},
+                     {"save", {ACTION_SAVE}},
+                     {"other mode", {ACTION_MODE}},
+                     {"menu", {ACTION_CANCEL}}},
+    [KEYS_NORMAL] = {{"live mode", {ACTION_MODE}},
+                     {"start, pause", {ACTION_START}},
+                     {"save", {ACTION_SAVE}},
+                     {"meters", {ACTION_METER}},
+                     {"compare", {ACTION_KEEP_RENDER}},
+                     {"menu", {ACTION_CANCEL}}},
+    [KEYS_CURSOR] = {{"leave", {ACTION_CANCEL}},
+                     {"move", LOOKS},
+                     {"pick", {ACTION_START}},
+                     {"orbit it", {ACTION_ORBIT}},
+                     {"frame it", {ACTION_FRAME}},
+                     {"focus", {ACTION_FOCUS}}},
+    [KEYS_PANEL] = {{"move", MOVES},
+                    {"pick", {ACTION_CURSOR}},
+                    {"meters", {ACTION_METER}},
+                    {"compare", {ACTION_KEEP_RENDER}},
+                    {"save", {ACTION_SAVE}}},
+    [KEYS_PANEL_NORMAL] = {{"live mode", {ACTION_MODE}},
+                           {"pick", {ACTION_CURSOR}},
+                           {"meters", {ACTION_METER}},
+                           {"compare", {ACTION_KEEP_RENDER}},
+                           {"save", {ACTION_SAVE}}},
+    [KEYS_ORBIT] = {{"leave the orbit", {ACTION_CANCEL}},
+                    {"around", LOOKS},
+                    {"near, far", {ACTION_FORWARD, ACTION_BACK}},
+                    {"down, up", {ACTION_DOWN, ACTION_UP}}},
+    [KEYS_VIEW] = {{"light", {ACTION_CANCEL}},
+                   {"next view", {ACTION_VIEW_NEXT}},
+                   {"view before", {ACTION_VIEW_BACK}},
+                   {"save it", {ACTION_SAVE}}},
+    [KEYS_DRAWING] = {{"ends", {ACTION_CANCEL}},
+                      {"next drawing", {ACTION_DRAWING}},
+                      {"less, more", {ACTION_LESS, ACTION_MORE}},
+                      {"elsewhere", {ACTION_CURSOR}}},
+    [KEYS_COMPARE] = {{"ends", {ACTION_CANCEL}},
+                      {"wipe", {ACTION_LOOK_LEFT, ACTION_LOOK_RIGHT}},
+                      {"others", {ACTION_LOOK_UP, ACTION_LOOK_DOWN}},
+                      {"wipe, differences", {ACTION_COMPARE}},
+                      {"keep", {ACTION_KEEP_RENDER}}},
+};
+
+void keys_bar_lay_out(struct keys_bar *bar, struct screen *screen)
+{
+    struct tty_size size = term_size();
+    struct cells_rect *fit = &screen->fit;
+    int cols = size.cols - screen->panel_cols, rows = size.rows - 1;
+
+    *bar = (struct keys_bar){.state = KEYS_NONE};
+    screen->foot_rows = 1;
+    if (screen->is_too_small || !screen->has_status_row || cols <= 0)
+        return;
+    if (cols - fit->cols >= BESIDE_MIN) {
+        fit->col = 0;
+        bar->area = (struct window_rect){fit->cols, 0, cols - fit->cols, rows};
+        bar->key_rows = rows - PROGRESS_TEXT_USUAL_ROWS;
+        bar->key_rows = bar->key_rows < KEY_ROWS_MIN ? KEY_ROWS_MIN
+                        : bar->key_rows > KEY_ROWS   ? KEY_ROWS
+                                                     : bar->key_rows;
+    } else if (rows > fit->rows) {
+        fit->row = 0;
+        bar->area = (struct window_rect){0, fit->rows, cols, rows - fit->rows};
+        bar->key_rows = 1;
+        screen->foot_rows = 2;
+    }
+}
+
+const struct window_rect *keys_bar_room(const struct keys_bar *bar,
+                                        struct window_rect *room)
+{
+    *room = bar->area;
+    room->rows -= bar->key_rows;
+    return room->rows >= ROOM_ROWS_MIN && room->cols > PROGRESS_TEXT_COLS
+               ? room
+               : NULL;
+}
+
+void keys_bar_draw(struct keys_bar *bar, const struct live_render *control,
+                   struct screen *screen, enum keys_state state)
+{
+    const struct keymap *keys = &control->session->options->keys;
+    struct keymap_names names[HINTS_MAX];
+    struct key_hint list[HINTS_MAX + 1] = {{NULL, NULL}};
+    const struct key_hint *left = list;
+
+    if (bar->area.cols == 0 || bar->state == state)
+        return;
+    for (int row = -bar->area.rows; row < 0 && bar->state == KEYS_NONE; row++)
+        windows_text(WINDOW_STATUS, row, bar->area.col, bar->area.cols,
+                     ROLE_TEXT, "");
+    bar->state = state;
+    for (int i = 0; i < HINTS_MAX && hints[state][i].does; i++) {
+        const struct hint *h = &hints[state][i];
+        int count = 0;
+
+        while (count < HINT_ACTIONS && h->actions[count] != ACTION_NONE)
+            count++;
+        names[i] = keymap_first_names(keys, h->actions, count);
+        list[i] = (struct key_hint){names[i].text, h->does};
+    }
+    for (int row = -bar->key_rows; row < 0; row++) {
+        struct key_hint one[2] = {*left, {NULL, NULL}};
+
+        windows_text(WINDOW_STATUS, row, bar->area.col, bar->area.cols,
+                     ROLE_FAINT, "");
+        key_hints_draw(WINDOW_STATUS, row, bar->area.col + 1,
+                       bar->area.cols - 1, bar->key_rows > 1 ? one : list);
+        left += left->does != NULL;
+    }
+    screen->must_update = true;
+}
