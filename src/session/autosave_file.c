@@ -329,6 +329,12 @@ char *autosave_path(const char *scene)
     return path;
 }
 
+char *autosave_path_aside(const char *path)
+{
+    return format_text("%.*s-before%s", (int)(strlen(path) - strlen(ending)),
+                       path, ending);
+}
+
 /* One file has the locks of all scenes: each locks the byte at the hash of its
  * path, far behind the end of the file, which is empty. */
 int autosave_lock(const char *path)

@@ -102,6 +102,10 @@ char *autosave_scene(const char *scene_path);
  * or NULL without a state folder. */
 char *autosave_path(const char *scene);
 
+/* Returns the path of a file of the same scene that is set aside, for free(),
+ * or NULL. */
+char *autosave_path_aside(const char *path);
+
 /* Locks the file for this process, until the descriptor that is returned is
  * closed. Returns -1 if another process has it. */
 int autosave_lock(const char *path);

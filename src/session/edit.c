@@ -322,6 +322,7 @@ static void exchange(struct edit *e, struct edit_step *s)
         break;
     }
     e->version += must_render;
+    e->changes++;
     if (s->kind != STEP_POSE && s->kind != STEP_SHOT)
         edit_compare(e, false); /* shows the change */
 }
@@ -661,6 +662,7 @@ void edit_saved_material(struct edit *e, uint32_t material)
     edit_compare(e, false);
     e->saved.sources[material] = e->now.sources[material];
     e->saved.is_there[material] = e->now.is_there[material];
+    e->changes++;
 }
 
 /* Updates the lines of objects of the scene. Lines of unknown objects stay. */
@@ -694,12 +696,14 @@ void edit_saved_lighting(struct edit *e, const struct view *written)
            lamps_copy(&e->saved.view.lamps, &written->lamps));
     memcpy(e->saved.assigned, e->now.assigned,
            e->object_count * sizeof *e->now.assigned);
+    e->changes++;
 }
 
 void edit_saved_view(struct edit *e, const struct view *written)
 {
     edit_saved_lighting(e, written);
     xcheck(view_copy(&e->saved.view, written));
+    e->changes++;
 }
 
 /* ---- reload ---- */
@@ -716,4 +720,5 @@ void edit_keep_camera(struct edit *e, const struct edit *before)
         edit_history_add(&e->history, step);
     edit_end_step(e);
     e->version = before->version + 1;
+    e->changes = before->changes + 1;
 }

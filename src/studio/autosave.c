@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "studio/autosave.h"
 
+#include <errno.h>
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/timerfd.h>
@@ -21,36 +23,43 @@
 #define FIRST_S    10
 #define INTERVAL_S 55
 
+/* Time from a change to its file. A key that is held makes a few files. */
+#define CHANGE_NS 200000000
+
 /* ---- begin ---- */
 
-/* Returns a timer, or -1: then files are written at the end only. */
-static int start_timer(void)
+/* Sets the timer to the next file and those after it. */
+static void set_timer(const struct autosave *k, struct timespec first)
 {
-    const struct itimerspec times = {.it_value.tv_sec = FIRST_S,
+    const struct itimerspec times = {.it_value = first,
                                      .it_interval.tv_sec = INTERVAL_S};
-    int fd = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
 
-    if (fd >= 0)
-        timerfd_settime(fd, 0, &times, NULL);
-    return fd;
+    if (k->timer_fd >= 0)
+        timerfd_settime(k->timer_fd, 0, &times, NULL);
 }
 
-static void find_offer(struct autosave *k)
+/* Offers a file if it is one of the scene. A damaged one is replaced. */
+static bool offer(struct autosave *k, const char *path)
 {
     char what[AUTOSAVE_TEXT_BYTES];
     struct error err;
 
-    if (access(k->path, F_OK) != 0)
-        return;
-    if (!autosave_file_read_head(&k->offer, k->path, &err)) {
+    autosave_file_free(&k->offer);
+    k->offer_path = NULL;
+    if (access(path, F_OK) != 0)
+        return false;
+    if (!autosave_file_read_head(&k->offer, path, &err)) {
         live_render_say_error(k->control, err.text);
-        k->has_file = true;
-    } else if (strcmp(k->offer.scene, k->scene) == 0) {
-        autosave_describe(what, &k->offer);
-        snprintf(k->question, sizeof k->question,
-                 "Enter goes on, r starts anew: %s kept", what);
-        k->has_offer = true;
+        unlink(path);
+        return false;
     }
+    if (strcmp(k->offer.scene, k->scene) != 0)
+        return false;
+    autosave_describe(what, &k->offer);
+    live_render_say_long(k->control, "kept: %s; %s goes on with it", what,
+                         live_render_key(k->control, ACTION_RESTORE).text);
+    k->offer_path = path;
+    return true;
 }
 
 void autosave_init(struct autosave *k, struct live_render *control,
@@ -64,12 +73,16 @@ void autosave_init(struct autosave *k, struct live_render *control,
                            .timer_fd = -1,
                            .scene = autosave_scene(s->options->scene_path)};
     k->path = k->scene != NULL ? autosave_path(k->scene) : NULL;
-    if (k->path != NULL)
+    k->aside = k->path != NULL ? autosave_path_aside(k->path) : NULL;
+    if (k->aside != NULL)
         k->lock_fd = autosave_lock(k->path);
     if (k->lock_fd < 0)
         return;
-    k->timer_fd = start_timer();
-    find_offer(k);
+    /* without a timer, files are written at the end only */
+    k->timer_fd = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+    set_timer(k, (struct timespec){.tv_sec = FIRST_S});
+    if (!offer(k, k->path))
+        offer(k, k->aside);
 }
 
 /* ---- write ---- */
@@ -111,6 +124,25 @@ static void remove_file(struct autosave *k)
     k->has_file = false;
 }
 
+/* Makes room for this session's file. */
+static bool set_offer_aside(struct autosave *k, struct error *err)
+{
+    if (k->offer_path != k->path)
+        return true;
+    if (rename(k->path, k->aside) != 0)
+        return fail(err, "%s: %s", k->aside, strerror(errno));
+    k->offer_path = k->aside;
+    return true;
+}
+
+/* Removes an offered file that was taken over, as the session has it now. */
+static void drop_aside(struct autosave *k)
+{
+    if (k->drops_aside)
+        unlink(k->aside);
+    k->drops_aside = false;
+}
+
 /* Starts to write the session. Returns false, with a message, on errors. */
 static bool begin(struct autosave *k)
 {
@@ -122,11 +154,15 @@ static bool begin(struct autosave *k)
     struct error err;
 
     ok = autosave_history_take(&kept, s, k->path, &err);
-    if (ok && !film && !kept.has_edits)
+    k->writes_edits = kept.has_edits;
+    if (ok && !film && !kept.has_edits) {
         remove_file(k);
-    else if (ok && !is_written(k, &kept, film))
-        ok = autosave_writer_begin(&k->control->keeping, s, &kept, k->path,
+        drop_aside(k);
+    } else if (ok && !is_written(k, &kept, film)) {
+        ok = set_offer_aside(k, &err) &&
+             autosave_writer_begin(&k->control->keeping, s, &kept, k->path,
                                    film, &err);
+    }
     autosave_file_free(&kept);
     if (!ok) {
         live_render_say_error(k->control, err.text);
@@ -141,8 +177,23 @@ void autosave_write(struct autosave *k)
 
     if (read(k->timer_fd, &count, sizeof count) < 0)
         return; /* it was read already */
-    if (!k->has_offer && !k->control->keeping.copying.is_busy)
+    k->is_hurried = false;
+    if (!k->control->keeping.copying.is_busy)
         begin(k);
+    else
+        k->changes--; /* again for what came meanwhile */
+}
+
+void autosave_note_changes(struct autosave *k)
+{
+    const struct edit *edit = &k->control->session->edit;
+
+    if (k->timer_fd < 0 || k->is_hurried || edit->changes == k->changes)
+        return;
+    k->changes = edit->changes;
+    k->is_hurried = k->writes_edits || live_render_has_unsaved_edit(k->control);
+    if (k->is_hurried)
+        set_timer(k, (struct timespec){.tv_nsec = CHANGE_NS});
 }
 
 void autosave_finish(struct autosave *k)
@@ -159,6 +210,7 @@ void autosave_finish(struct autosave *k)
             live_render_say_error(k->control, err.text);
         return;
     }
+    drop_aside(k);
     if (is_left_out && !k->has_said_large) {
         live_render_say(k->control,
                         "the picture is too large to be kept, except by "
@@ -195,10 +247,9 @@ void autosave_end(struct autosave *k, bool is_lost)
         return;
     if (w->copying.is_busy)
         autosave_finish(k);
-    if (k->has_offer)
-        return;
     if (!is_lost) {
         remove_file(k);
+        drop_aside(k);
         return;
     }
     k->control->message = (struct message){0};
@@ -266,21 +317,39 @@ static void restore(struct autosave *k, const struct autosave_file *kept)
 
 void autosave_go_on(struct autosave *k)
 {
+    const char *path = k->offer_path;
     struct autosave_file kept;
     struct error err;
 
-    if (autosave_file_read(&kept, k->path, &err))
+    if (path == NULL)
+        return;
+    if (autosave_file_read(&kept, path, &err))
         restore(k, &kept);
     else
         live_render_say_error(k->control, err.text);
     autosave_file_free(&kept);
-    autosave_start_anew(k);
+    k->offer_path = NULL;
+    if (path == k->path)
+        k->has_file = true;
+    else
+        k->drops_aside = true;
+    k->is_hurried = true;
+    set_timer(k, (struct timespec){.tv_nsec = CHANGE_NS});
+    if (path == k->path)
+        offer(k, k->aside);
 }
 
-void autosave_start_anew(struct autosave *k)
+void autosave_drop(struct autosave *k)
 {
-    k->has_offer = false;
-    k->has_file = true;
+    const char *path = k->offer_path;
+
+    if (path == NULL)
+        return;
+    unlink(path);
+    live_render_say(k->control, "the kept session is dropped");
+    k->offer_path = NULL;
+    if (path == k->path)
+        offer(k, k->aside);
 }
 
 void autosave_free(struct autosave *k)
@@ -292,4 +361,5 @@ void autosave_free(struct autosave *k)
         close(k->timer_fd);
     free(k->scene);
     free(k->path);
+    free(k->aside);
 }

@@ -7,8 +7,11 @@
 #include "glim/version.h"
 
 /* Commands of the menu after the first row, which goes on. */
-static const enum action menu[] = {ACTION_SAVE, ACTION_SAVE_EDIT, ACTION_HELP,
-                                   ACTION_QUIT};
+static const enum action menu[] = {ACTION_RESTORE,   ACTION_DROP, ACTION_SAVE,
+                                   ACTION_SAVE_EDIT, ACTION_HELP, ACTION_QUIT};
+
+/* Those at its begin that concern a kept session. */
+#define MENU_KEPT 2
 
 #define MENU_COUNT ((int)(sizeof menu / sizeof menu[0]))
 
@@ -78,7 +81,7 @@ static void find_menu(struct command_list *p, const struct keymap *keys)
                                              .words = "",
                                              .group = ""};
     p->count = 1;
-    for (int k = 0; k < MENU_COUNT; k++)
+    for (int k = p->has_kept ? 0 : MENU_KEPT; k < MENU_COUNT; k++)
         for (int i = 0; keymap_command(keys, i, &c); i++)
             if (c.action == menu[k]) {
                 c.group = "";
@@ -126,7 +129,8 @@ void command_list_reopen(struct command_list *p, const struct keymap *keys,
                          struct screen *screen)
 {
     struct command_list whole = {.is_menu = p->is_menu,
-                                 .in_panel = p->in_panel};
+                                 .in_panel = p->in_panel,
+                                 .has_kept = p->has_kept};
     struct list_row rows[COMMANDS_MAX];
 
     command_list_find(&whole, keys);
@@ -137,9 +141,9 @@ void command_list_reopen(struct command_list *p, const struct keymap *keys,
 }
 
 void command_list_open(struct command_list *p, const struct keymap *keys,
-                       struct screen *screen, bool is_menu, bool in_panel)
+                       struct screen *screen, struct command_list like)
 {
-    *p = (struct command_list){.is_menu = is_menu, .in_panel = in_panel};
+    *p = like;
     command_list_reopen(p, keys, screen);
 }
 

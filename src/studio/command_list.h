@@ -19,14 +19,15 @@ struct command_list {
     struct list_window list;
     bool is_menu;  /* while nothing is searched for: only what leaves */
     bool in_panel; /* keys of the panel come first */
+    bool has_kept; /* the menu has what to do with a kept session */
     int all;       /* commands before the search */
     int count;     /* those that match */
     struct keymap_command commands[COMMANDS_MAX];
 };
 
-/* Opens the list, or the menu. */
+/* Opens the list in the state of `like`. */
 void command_list_open(struct command_list *p, const struct keymap *keys,
-                       struct screen *screen, bool is_menu, bool in_panel);
+                       struct screen *screen, struct command_list like);
 
 /* Opens the window again after a new layout. */
 void command_list_reopen(struct command_list *p, const struct keymap *keys,

@@ -16,6 +16,7 @@
 
 enum field {
     FIELD_MODE,
+    FIELD_KEPT,
     FIELD_FILES,
     FIELD_SAMPLES,
     FIELD_PERCENT,
@@ -202,6 +203,8 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
              s->passes_walls ? " through walls" : "",
              s->is_filtered ? " filtered" : "");
     format_machine(text[FIELD_MACHINE], s, false);
+    if (s->restore_key)
+        snprintf(text[FIELD_KEPT], FIELD_BYTES, "kept: %.8s", s->restore_key);
     if (s->load_key)
         snprintf(text[FIELD_FILES], FIELD_BYTES, "changed: %.8s loads",
                  s->load_key);
@@ -318,8 +321,9 @@ void status_line_format(struct status_row *row, int cols,
     }
     if (1 + length_of(fields) > room) /* what renders comes before its state */
         fields[FIELD_MODE][strcspn(mode, " ")] = '\0';
-    if (1 + length_of(fields) > room)
-        fields[FIELD_FILES][0] = '\0';
+    for (int i = FIELD_KEPT; i <= FIELD_FILES; i++)
+        if (1 + length_of(fields) > room)
+            fields[i][0] = '\0';
     length = (int)strlen(fields[FIELD_MODE]);
     mark_mode(row, s, length < (int)strlen(mode) ? length : (int)strlen(mode),
               room);

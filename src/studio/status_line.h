@@ -24,11 +24,12 @@ struct status_line {
     bool is_live;
     bool is_orbiting;
     bool passes_walls;
-    bool is_filtered;     /* the picture shown is */
-    bool is_halted;       /* the user has paused the render */
-    bool is_started;      /* normal mode has begun a render */
-    const char *load_key; /* key that loads changed files; NULL if none has
-                             changed */
+    bool is_filtered;        /* the picture shown is */
+    bool is_halted;          /* the user has paused the render */
+    bool is_started;         /* normal mode has begun a render */
+    const char *restore_key; /* goes on with a kept session; NULL: none is */
+    const char *load_key;    /* key that loads changed files; NULL if none has
+                                changed */
     const struct render_progress *progress;
     const char *device; /* NULL for the CPU with thread_count threads */
     int thread_count;

@@ -43,7 +43,7 @@ enum question {
     QUESTION_LIVE, /* leave normal mode */
     QUESTION_RESTART,
     QUESTION_NUMBER, /* number for a view */
-    QUESTION_KEPT    /* go on with an autosaved session */
+    QUESTION_RESTORE /* a kept session replaces changes */
 };
 
 struct studio {
@@ -63,6 +63,7 @@ struct studio {
 
 static void question_ask(struct studio *studio, enum question question);
 static void draw_panel(struct studio *studio);
+static void go_on_kept(struct studio *studio);
 
 /* ---- commands that concern several parts ---- */
 
@@ -139,6 +140,21 @@ static void studio_quit(struct studio *studio)
         question_ask(studio, QUESTION_QUIT);
     else
         studio_end(studio, 0);
+}
+
+static void restore_kept(struct studio *studio)
+{
+    if (studio->autosave.offer_path == NULL)
+        live_render_say(&studio->control, "no session of this scene is kept");
+    else if (live_render_has_unsaved_edit(&studio->control))
+        question_ask(studio, QUESTION_RESTORE);
+    else
+        go_on_kept(studio);
+}
+
+static void drop_kept(struct studio *studio)
+{
+    autosave_drop(&studio->autosave);
 }
 
 static void save_changes(struct studio *studio)
@@ -253,6 +269,8 @@ static const struct command commands[ACTIONS] = {
     [ACTION_SAVE_TEXT] = {.inspector = inspector_save_text},
     [ACTION_SAVE_LINEAR] = {.inspector = inspector_save_hdr},
     [ACTION_BACKEND] = {.control = live_render_switch_backend},
+    [ACTION_RESTORE] = {.studio = restore_kept},
+    [ACTION_DROP] = {.studio = drop_kept},
     [ACTION_RELOAD] = {.control = live_render_reload},
     [ACTION_COLORS] = {.workspace = workspace_next_colors},
     [ACTION_THEME] = {.workspace = workspace_next_theme},
@@ -381,6 +399,18 @@ static void save_and_quit(struct studio *studio)
         studio_quit(studio);
 }
 
+static void go_on_kept(struct studio *studio)
+{
+    autosave_go_on(&studio->autosave);
+    workspace_refresh(&studio->workspace);
+}
+
+static void save_and_restore(struct studio *studio)
+{
+    if (save_edit(&studio->control))
+        go_on_kept(studio);
+}
+
 /* Table of the questions. The key y runs `yes`, the save key runs `save`, and
  * any other key means no. The narrowest window shows 39 columns of a text, so
  * that both keys are among them. Texts of NULL depend on the state. */
@@ -398,7 +428,8 @@ static const struct {
                           "other: no",
                           restart_unasked, 'p', save_render},
     [QUESTION_NUMBER] = {.text = "Number for this view? 1 to 9, other: none"},
-    [QUESTION_KEPT] = {0},
+    [QUESTION_RESTORE] = {"Unsaved changes. Replace them? y: yes, s: save",
+                          go_on_kept, 's', save_and_restore},
 };
 
 static const char *question_text(const struct studio *studio,
@@ -406,8 +437,6 @@ static const char *question_text(const struct studio *studio,
 {
     const struct live_render *control = &studio->control;
 
-    if (question == QUESTION_KEPT)
-        return studio->autosave.question;
     if (question != QUESTION_QUIT)
         return questions[question].text;
     if (!live_render_has_unsaved(control))
@@ -436,42 +465,19 @@ static void answer_number(struct studio *studio, int key)
                                  (int)action - ACTION_VIEW_1 + 1);
 }
 
-/* Answers QUESTION_KEPT: Enter goes on, and any other key but r has its effect
- * in a session that starts anew. The question stays for the next session if the
- * person quits. */
-static bool answer_kept(struct studio *studio, int key)
-{
-    enum action action =
-        keymap_action(&studio->control.session->options->keys, key);
-
-    if (action == ACTION_QUIT)
-        return false;
-    if (key == '\r') {
-        autosave_go_on(&studio->autosave);
-        workspace_refresh(&studio->workspace);
-    } else {
-        autosave_start_anew(&studio->autosave);
-    }
-    return key == '\r' || key == 'r';
-}
-
-/* Takes any key as the answer and removes the question. Returns false if the
- * key is to have its effect, too. */
-static bool question_answer(struct studio *studio, int key)
+/* Takes any key as the answer and removes the question. */
+static void question_answer(struct studio *studio, int key)
 {
     enum question question = studio->question;
     int small = key >= 'A' && key <= 'Z' ? key - 'A' + 'a' : key;
 
     question_ask(studio, QUESTION_NONE);
-    if (question == QUESTION_KEPT)
-        return answer_kept(studio, key);
     if (question == QUESTION_NUMBER)
         answer_number(studio, key);
     else if (small == 'y')
         questions[question].yes(studio);
     else if (small == questions[question].save_key)
         questions[question].save(studio);
-    return true;
 }
 
 /* ---- input ---- */
@@ -515,7 +521,8 @@ static bool asks(const struct studio *studio)
 static bool answers(struct studio *studio, int key, enum action action)
 {
     (void)action;
-    return question_answer(studio, key);
+    question_answer(studio, key);
+    return true;
 }
 
 static bool is_too_small(const struct studio *studio)
@@ -928,6 +935,8 @@ static void loop(struct studio *studio)
         uint64_t now_ns = clock_ns();
 
         camera_control_step(&studio->camera, now_ns);
+        autosave_note_changes(&studio->autosave);
+        studio->workspace.has_kept = studio->autosave.offer_path != NULL;
         workspace_look(&studio->workspace);
         if (!workspace_draw(&studio->workspace, keys_of_now(studio), now_ns))
             lose_terminal(studio);
@@ -983,8 +992,6 @@ bool studio_loop(struct session *s, int *status, struct error *err)
             live_render_say_long(&studio.control, "%s", s->notice);
         s->notice[0] = '\0';
         autosave_init(&studio.autosave, &studio.control, &studio.camera);
-        if (studio.autosave.has_offer)
-            question_ask(&studio, QUESTION_KEPT);
         /* after tty_open(): it puts back the signal handlers that it finds */
         if (s->options->backend != BACKEND_CPU)
             live_render_begin_device(&studio.control);

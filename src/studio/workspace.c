@@ -314,7 +314,11 @@ static void open_list(struct workspace *workspace, bool is_menu)
     inspector_close_table(&workspace->inspector);
     screen_close_window(&workspace->screen); /* of the progress */
     command_list_open(&workspace->commands, keys_of(workspace),
-                      &workspace->screen, is_menu, workspace->panel.is_open);
+                      &workspace->screen,
+                      (struct command_list){.is_menu = is_menu,
+                                            .in_panel =
+                                                workspace->panel.is_open,
+                                            .has_kept = workspace->has_kept});
     workspace_refresh(workspace);
 }
 
@@ -373,6 +377,7 @@ static void update_status(struct workspace *workspace, uint64_t now_ns)
     const struct backend *backend =
         render_backend(control->session->engine.render);
     struct keymap_name load = live_render_key(control, ACTION_RELOAD);
+    struct keymap_name restore = live_render_key(control, ACTION_RESTORE);
     struct keymap_name help = live_render_key(control, ACTION_HELP);
     struct keymap_name quit = live_render_key(control, ACTION_QUIT);
     const char *legend = workspace->comparison.legend[0] != '\0'
@@ -386,6 +391,7 @@ static void update_status(struct workspace *workspace, uint64_t now_ns)
         .is_halted = control->is_halted,
         .is_started = control->is_started,
         .load_key = control->has_changed_files ? load.text : NULL,
+        .restore_key = workspace->has_kept ? restore.text : NULL,
         .progress = &control->progress,
         .device = backend->device,
         .thread_count = backend->thread_count,

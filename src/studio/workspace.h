@@ -42,6 +42,7 @@ struct workspace {
     struct command_list commands;
     struct keys_bar keys_bar;
     struct glyph_choice glyph_choice;
+    bool has_kept;        /* a kept session is offered */
     const char *prompt;   /* a question in the last line; NULL: none */
     bool is_settled;      /* the screen shows the final picture */
     bool has_frame;       /* else it was cancelled while it was made */

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # When the terminal is lost, the session is kept in the state folder, and the
 # next start of the scene goes on with view, changes and film. A program that is
-# killed has written it before. q removes it.
+# killed has written it before. Quitting removes it.
 size=140x24
 XDG_STATE_HOME=$PWD/state
 export XDG_STATE_HOME
@@ -12,6 +12,10 @@ gone()
 kept()
 {
     find state/glim/sessions -name '*.session'
+}
+is_kept_twice()
+{
+    [ "$(kept | wc -l)" = 2 ]
 }
 is_kept()
 {
@@ -41,7 +45,7 @@ shows() # a colour of the picture, as R;G;B
     wait_until eval "screen_colors | sed 's,│.*,,' | grep -q '[34]8;2;$1m'"
 }
 worth="LIVE .*  \([5-9]\|[1-9][0-9]\) s  "
-asks=" Enter goes on, r starts anew: [1-9][0-9]* s of render kept"
+asks=" kept: [1-9][0-9]* s of render; ^R goes on"
 mkdir scenes
 lamp_scene
 mv lamp.* scenes
@@ -64,7 +68,7 @@ wait_until gone
 is_tidy 1
 start scenes/lamp.obj
 wait_for "$asks"
-keys Enter
+keys C-r
 wait_for "restored: view, changes, render"
 keys Escape
 wait_until_gone "restored"
@@ -86,10 +90,12 @@ expect "^kept .* s of render: glim scenes/lamp.obj goes on"
 is_tidy 1
 fresh
 
-# the question stays for the next session if it has no answer
+# it is offered until it is taken or dropped, whatever keys are pressed
 for key in C-q C-c; do
     start scenes/lamp.obj
     wait_for "$asks"
+    keys w r
+    wait_for "kept: ^R"
     keys $key
     wait_for "^exit "
     is_tidy 1
@@ -99,7 +105,7 @@ done
 # another picture: the film is not taken, and it is said what differs
 start --seed 7 scenes/lamp.obj
 wait_for "$asks"
-keys Enter
+keys C-r
 wait_for "seed"
 keys Escape
 keys C-q
@@ -107,7 +113,7 @@ expect_end 0
 is_tidy 0
 fresh
 
-# a changed material, killed: no signal is seen, but it was written before
+# a changed material, killed: no signal is seen, but it was written at once
 start scenes/lamp.obj
 shows '255;255;255'
 keys Tab
@@ -118,16 +124,32 @@ wait_for "│>    of colour  #ffffff"
 raw_keys '#ff0000'
 keys Enter
 shows '255;0;0'
-keys Escape Escape Enter
-wait_for "LIVE paused"
 wait_until is_kept
 kill -KILL "$(program_pid)"
 wait_for " exit 137"
 fresh
 start scenes/lamp.obj
-wait_for "Enter goes on, r starts anew: \(unsaved changes\|.* s of render and unsaved changes\) kept"
+wait_for "kept: \(unsaved changes\|.* s of render and unsaved changes\); ^R goes on"
 shows '255;255;255'
+# changes of this session do not replace it: both are kept
+keys Tab Enter
+keys Down Down Down Down Down Down Down Down
+raw_keys '#00ff00'
 keys Enter
+shows '0;255;0'
+wait_until is_kept_twice
+kill -KILL "$(program_pid)"
+wait_for " exit 137"
+fresh
+start scenes/lamp.obj
+wait_for "kept: .*unsaved changes; ^R goes on"
+keys C-r
+wait_for "restored: view\|kept: "
+shows '0;255;0'
+wait_for "kept: ^R"
+keys C-r
+wait_for "Unsaved changes. Replace them?"
+keys y
 wait_for "restored: view"
 shows '255;0;0'
 keys Tab
@@ -148,8 +170,8 @@ fresh
 file=$(kept)
 cp "$file" earlier.session
 start_line "(ulimit -f 0; trap '' XFSZ; TERM=tmux-256color exec glim scenes/lamp.obj)"
-wait_for "unsaved changes kept"
-keys Enter
+wait_for "kept: .*unsaved changes"
+keys C-r
 wait_for "restored"
 shows '255;0;0'
 keys w
@@ -160,11 +182,14 @@ cmp "$file" earlier.session || die "written despite the limit"
 is_tidy 1
 fresh
 
-# the other key: it starts anew, and q removes the file
+# it is dropped
 start scenes/lamp.obj
-wait_for "unsaved changes kept"
-keys r
-wait_until_gone "unsaved changes kept"
+wait_for "kept: .*unsaved changes"
+raw_keys ':drop'
+wait_for "drop the kept session"
+keys Enter
+wait_for "the kept session is dropped"
+is_tidy 0
 shows '255;255;255'
 keys C-q
 expect_end 0
@@ -181,7 +206,7 @@ expect_end 143
 fresh
 start -s 1000000000 scenes/lamp.obj
 wait_for "$asks"
-keys Enter
+keys C-r
 wait_for "restored"
 keys Escape
 wait_for "NORMAL  [1-9][0-9][0-9][0-9]*/1000000000 spp"

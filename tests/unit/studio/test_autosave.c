@@ -5,10 +5,12 @@
  */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/timerfd.h>
 #include <unistd.h>
 
 #include "base/clock.h"
 #include "film/film_file.h"
+#include "session/keymap.h"
 #include "studio/autosave.h"
 
 #include "tests/unit/files.h"
@@ -29,6 +31,7 @@ static void begin(struct work *w)
 
     memset(w, 0, sizeof *w);
     options_init(&w->options);
+    keymap_settle(&w->options.keys, false);
     w->options.scene_path = "s.obj";
     w->options.width_px = 32;
     w->options.height_px = 16;
@@ -95,12 +98,12 @@ static void quick_sessions_are_not_kept(void **state)
 
     (void)state;
     begin(&w);
-    assert_false(w.autosave.has_offer);
+    assert_null(w.autosave.offer_path);
     end(&w, true);
     assert_int_equal(count_sessions(), 0);
 }
 
-static void edits_are_kept_until_they_are_declined(void **state)
+static void edits_are_kept_until_they_are_dropped(void **state)
 {
     struct work w;
 
@@ -112,26 +115,80 @@ static void edits_are_kept_until_they_are_declined(void **state)
     end(&w, true);
     assert_int_equal(count_sessions(), 1);
     begin(&w);
-    assert_true(w.autosave.has_offer);
-    assert_string_equal(w.autosave.question, "Enter goes on, r starts anew: "
-                                             "unsaved changes kept");
-    end(&w, false); /* without an answer */
+    assert_non_null(w.autosave.offer_path);
+    assert_string_equal(w.control.message.text,
+                        "kept: unsaved changes; ^R goes on with it");
+    end(&w, false); /* neither taken nor dropped */
     begin(&w);
-    assert_true(w.autosave.has_offer);
+    assert_non_null(w.autosave.offer_path);
     autosave_go_on(&w.autosave);
     check_close(exposure(&w), 1.5, 0);
-    assert_false(w.autosave.has_offer);
+    assert_null(w.autosave.offer_path);
     /* with its history */
     assert_non_null(edit_undo(&w.session.edit));
     check_close(exposure(&w), 1, 0);
     assert_non_null(edit_redo(&w.session.edit));
     end(&w, true);
     begin(&w);
-    assert_true(w.autosave.has_offer);
-    autosave_start_anew(&w.autosave);
+    assert_non_null(w.autosave.offer_path);
+    autosave_drop(&w.autosave);
+    assert_int_equal(count_sessions(), 0);
     check_close(exposure(&w), 0, 0);
     end(&w, false);
     assert_int_equal(count_sessions(), 0);
+}
+
+/* A session whose edits are lost while another one is offered: both are kept,
+ * and the last one is offered first. */
+static void offers_are_set_aside(void **state)
+{
+    struct work w;
+
+    (void)state;
+    for (int i = 1; i <= 2; i++) {
+        begin(&w);
+        set_exposure(&w, i);
+        end(&w, true);
+        assert_int_equal(count_sessions(), i);
+    }
+    begin(&w);
+    autosave_go_on(&w.autosave);
+    check_close(exposure(&w), 2, 0);
+    assert_non_null(w.autosave.offer_path);
+    end(&w, true);
+    assert_int_equal(count_sessions(), 2);
+    begin(&w);
+    autosave_drop(&w.autosave);
+    assert_int_equal(count_sessions(), 1);
+    autosave_go_on(&w.autosave);
+    check_close(exposure(&w), 1, 0);
+    assert_null(w.autosave.offer_path);
+    end(&w, true); /* under the first name now */
+    assert_int_equal(count_sessions(), 1);
+    begin(&w);
+    check_close(exposure(&w), 0, 0);
+    autosave_go_on(&w.autosave);
+    check_close(exposure(&w), 1, 0);
+    end(&w, false);
+    assert_int_equal(count_sessions(), 0);
+}
+
+/* A change sets the timer to its file, once. */
+static void changes_are_written_at_once(void **state)
+{
+    struct itimerspec left;
+    struct work w;
+
+    (void)state;
+    begin(&w);
+    autosave_note_changes(&w.autosave);
+    assert_int_equal(timerfd_gettime(w.autosave.timer_fd, &left), 0);
+    assert_in_range(left.it_value.tv_sec, 1, 10);
+    set_exposure(&w, 1);
+    autosave_note_changes(&w.autosave);
+    assert_int_equal(timerfd_gettime(w.autosave.timer_fd, &left), 0);
+    assert_int_equal(left.it_value.tv_sec, 0);
+    end(&w, false);
 }
 
 static void films_go_on(void **state)
@@ -148,9 +205,9 @@ static void films_go_on(void **state)
     end(&w, true);
     for (int i = 0; i < 2; i++) {
         begin(&w);
-        assert_string_equal(w.autosave.question,
-                            "Enter goes on, r starts anew: 5 s of render and "
-                            "unsaved changes kept");
+        assert_string_equal(w.control.message.text,
+                            "kept: 5 s of render and unsaved changes; ^R goes "
+                            "on with it");
         autosave_go_on(&w.autosave);
         assert_true(w.control.is_live);
         assert_true(w.control.has_gone_on);
@@ -170,7 +227,7 @@ static void films_go_on(void **state)
 }
 
 /* What is damaged is said in one line, and the session starts anew. */
-static void damaged_files_are_declined(void **state)
+static void damaged_files_are_removed(void **state)
 {
     struct work w;
     char *path;
@@ -187,14 +244,14 @@ static void damaged_files_are_declined(void **state)
     assert_int_equal(fputc('?', file), '?');
     assert_int_equal(fclose(file), 0);
     begin(&w);
-    assert_true(w.autosave.has_offer); /* its head is whole */
+    assert_non_null(w.autosave.offer_path); /* its head is whole */
     autosave_go_on(&w.autosave);
     assert_non_null(strstr(w.control.message.text, "damaged"));
     check_close(exposure(&w), 0, 0);
     end(&w, false);
     put(path, "glim session 9\n");
     begin(&w);
-    assert_false(w.autosave.has_offer);
+    assert_null(w.autosave.offer_path);
     assert_non_null(strstr(w.control.message.text, "another kind of file"));
     end(&w, false);
     assert_int_equal(count_sessions(), 0);
@@ -213,9 +270,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(quick_sessions_are_not_kept),
-        cmocka_unit_test(edits_are_kept_until_they_are_declined),
+        cmocka_unit_test(edits_are_kept_until_they_are_dropped),
+        cmocka_unit_test(offers_are_set_aside),
+        cmocka_unit_test(changes_are_written_at_once),
         cmocka_unit_test(films_go_on),
-        cmocka_unit_test(damaged_files_are_declined),
+        cmocka_unit_test(damaged_files_are_removed),
     };
 
     return cmocka_run_group_tests(tests, enter, remove_folder);
