@@ -364,6 +364,7 @@ bool autosave_history_take(struct autosave_file *k, struct session *s,
     k->sizes[AUTOSAVE_HISTORY] = t.size;
     /* the values are the same, and a gesture goes on */
     e->version = before.version;
+    e->changes = before.changes;
     e->is_comparing = before.is_comparing;
     e->history.group = before.history.group;
     e->history.gesture = before.history.gesture;

@@ -188,6 +188,12 @@ static void changes_are_written_at_once(void **state)
     autosave_note_changes(&w.autosave);
     assert_int_equal(timerfd_gettime(w.autosave.timer_fd, &left), 0);
     assert_int_equal(left.it_value.tv_sec, 0);
+    /* writing it is no change */
+    usleep(300000);
+    autosave_write(&w.autosave);
+    assert_false(w.autosave.is_hurried);
+    autosave_note_changes(&w.autosave);
+    assert_false(w.autosave.is_hurried);
     end(&w, false);
 }
 
