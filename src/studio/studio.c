@@ -947,9 +947,7 @@ static void loop(struct studio *studio)
 
 static void close_screen(struct studio *studio)
 {
-    /* Ctrl-\ is typed, as Ctrl-Q is */
-    bool is_lost =
-        studio->status == 128 + SIGHUP || studio->status == 128 + SIGTERM;
+    bool is_lost = studio->status > 128; /* by a signal, or its key */
 
     if (is_lost)
         tty_ignore_termination(); /* shells send SIGHUP again */

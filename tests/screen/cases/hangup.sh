@@ -166,6 +166,17 @@ expect "^kept .*unsaved changes: glim"
 is_tidy 1
 fresh
 
+# nor does the key that ends the program at once
+start scenes/lamp.obj
+wait_for "kept: .*unsaved changes"
+keys C-r
+wait_for "restored"
+raw_keys "$(printf '\034')"
+expect_end 131
+expect "^kept .*unsaved changes: glim"
+is_tidy 1
+fresh
+
 # nothing can be written: it ends all the same, and the file before stays
 file=$(kept)
 cp "$file" earlier.session
