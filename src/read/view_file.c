@@ -145,7 +145,8 @@ static void write_key(FILE *to, const struct view *v, enum view_key_id id,
 struct writer {
     FILE *to;
     const struct view *view;
-    const char *sky; /* NULL if the view has none */
+    const char *sky;         /* NULL if the view has none */
+    bool is_same[VIEW_KEYS]; /* the old text has this value */
     bool is_written[VIEW_KEYS];
     struct view_reader
         old; /* parses the old lines into a view that is dropped */
@@ -165,8 +166,8 @@ static void keep_line(FILE *to, const char *line, const struct lexer *after,
         fputs(last == '\\' || last == '\r' ? "\n\n" : "\n", to);
 }
 
-/* Writes the current value if the line has a key, otherwise copies the line.
- * The parser finds the end of the line. */
+/* Writes the current value if the line has the key of another one, otherwise
+ * copies the line. The parser finds the end of the line. */
 static void write_line_over(struct writer *w, struct lexer *lex)
 {
     const char *line = lex->p;
@@ -178,7 +179,7 @@ static void write_line_over(struct writer *w, struct lexer *lex)
 
     view_parse_line(&w->old, lex, &ignored);
     has_end = lexer_next_line(lex);
-    if (!key) {
+    if (!key || w->is_same[key - view_keys]) {
         keep_line(w->to, line, lex, has_end);
     } else if (!w->is_written[key - view_keys]) {
         write_key(w->to, w->view, key->id, w->sky, w->old.path);
@@ -186,8 +187,8 @@ static void write_line_over(struct writer *w, struct lexer *lex)
     }
 }
 
-/* Writes the old text with the current values, then the keys that it did not
- * have. */
+/* Writes the old text with the values that have changed, then those of keys
+ * that it did not have. */
 static void write_over(struct writer *w, const char *text, size_t size_bytes)
 {
     struct lexer lex;
@@ -196,9 +197,67 @@ static void write_over(struct writer *w, const char *text, size_t size_bytes)
     while (lex.p < lex.end)
         write_line_over(w, &lex);
     for (size_t i = 0; i < VIEW_KEYS; i++) {
-        if (!w->is_written[i])
+        if (!w->is_written[i] && !w->is_same[i])
             write_key(w->to, w->view, view_keys[i].id, w->sky, w->old.path);
     }
+}
+
+/* Returns the text of a key, for free(), or NULL without memory. */
+static char *key_text(const struct view *v, enum view_key_id id,
+                      const char *path)
+{
+    char *text = NULL, *sky = NULL;
+    size_t size_bytes;
+    FILE *to;
+
+    if (v->lighting.sky_path != NULL &&
+        (sky = view_name(v->lighting.sky_path, path)) == NULL)
+        return NULL;
+    to = open_memstream(&text, &size_bytes);
+    if (to != NULL) {
+        write_key(to, v, id, sky, path);
+        fclose(to);
+    }
+    free(sky);
+    return text;
+}
+
+/* Returns true if a line of the text begins with a key. */
+static bool has_keys(const struct file_bytes *text)
+{
+    struct lexer lex;
+
+    lexer_init(&lex, text->bytes, text->size_bytes);
+    while (lex.p < lex.end) {
+        if (!lexer_at_line_end(&lex) && view_find_key(lexer_word(&lex)) != NULL)
+            return true;
+        lexer_next_line(&lex);
+    }
+    return false;
+}
+
+/* Finds the keys whose values the old text has, so that their lines stay as
+ * they were written. A new file gets all keys. */
+static void find_same(struct writer *w, const struct file_bytes *old)
+{
+    struct warnings ignored = {0};
+    struct view before;
+    struct error err;
+
+    view_init(&before);
+    if (has_keys(old) && view_parse(&before, old->bytes, old->size_bytes,
+                                    old->path, &ignored, &err))
+        for (size_t i = 0; i < VIEW_KEYS; i++) {
+            char *text = key_text(w->view, view_keys[i].id, old->path);
+            char *old_text = key_text(&before, view_keys[i].id, old->path);
+
+            w->is_same[i] =
+                text != NULL && old_text != NULL && strcmp(text, old_text) == 0;
+            free(text);
+            free(old_text);
+        }
+    view_free(&before);
+    warnings_free(&ignored);
 }
 
 /* Refuses names that a line cannot hold: with a line end inside or a blank at
@@ -254,6 +313,7 @@ bool view_format(const struct view *view, const struct file_bytes *old,
     if (view->lighting.sky_path)
         sky = view_name(view->lighting.sky_path, path);
     w.sky = sky;
+    find_same(&w, old);
     view_init(&scratch);
     write_over(&w, old->bytes, old->size_bytes);
     view_free(&scratch);

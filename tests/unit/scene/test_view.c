@@ -528,8 +528,7 @@ static void lights_are_written_in_this_form(void **state)
     assert_true(view_write(&view, path, &change, &err));
     is_file(path, "light point 1 2 3 intensity 1 1 0.25\n"
                   "light spot 1 2 3 at 0 0 -1e-09 inner 5\n"
-                  "light directional 10 20\n# mine\n"
-                  "up 0 1 0\nfovy 40\n");
+                  "light directional 10 20\n# mine\n");
     view_free(&view);
 }
 
@@ -553,11 +552,40 @@ static void lines_of_others_are_kept(void **state)
     view.shots[3] = view.pose;
     assert_true(view_write(&view, path, &change, &err));
     is_file(path, "# my room\r\nfovy 30\n\n  # the door\neye 7 5 6\n"
-                  "assign door oak\nat 0 0 0\n"
+                  "assign door oak\nat 0 0 0 # eye\n"
                   "shutter 2 \\\n eye\n"
-                  "up 0 1 0\nexposure 2\n"
+                  "exposure 2\n"
                   "view 4 eye 7 5 6 at 0 0 0 up 0 1 0 fovy 30 aperture 0 "
                   "focus 0\n");
+    view_free(&view);
+}
+
+/* What has not changed stays as it was written, to the digit. */
+static void unchanged_lines_are_kept(void **state)
+{
+    const char *text = "eye .5 1e0 -3.0 # the door\nat 0 0 00\nfovy 39.30\n"
+                       "background .6 .6 .6\nlight point 1 2 3 radius 0\n"
+                       "view 2 eye 1 1 1 at 0 0 .0\nexposure +1\n"
+                       "up 0 0 2";
+    const char *path = put(text);
+    struct warnings report = {0};
+    struct error err;
+    struct view view;
+
+    (void)state;
+    view_init(&view);
+    assert_true(view_read(&view, path, &report, &err));
+    assert_true(view_write(&view, path, &change, &err));
+    is_file(path, "eye .5 1e0 -3.0 # the door\nat 0 0 00\nfovy 39.30\n"
+                  "background .6 .6 .6\nlight point 1 2 3 radius 0\n"
+                  "view 2 eye 1 1 1 at 0 0 .0\nexposure +1\n"
+                  "up 0 0 2\n");
+    view.pose.fovy_deg = 50;
+    assert_true(view_write(&view, path, &change, &err));
+    is_file(path, "eye .5 1e0 -3.0 # the door\nat 0 0 00\nfovy 50\n"
+                  "background .6 .6 .6\nlight point 1 2 3 radius 0\n"
+                  "view 2 eye 1 1 1 at 0 0 .0\nexposure +1\n"
+                  "up 0 0 2\n");
     view_free(&view);
 }
 
@@ -673,6 +701,7 @@ int main(void)
         cmocka_unit_test(copies_own_their_texts),
         cmocka_unit_test(numbered_views_have_the_keys_above),
         cmocka_unit_test(lines_of_others_are_kept),
+        cmocka_unit_test(unchanged_lines_are_kept),
         cmocka_unit_test(lights_are_read),
         cmocka_unit_test(lights_are_written_in_this_form),
     };

@@ -572,7 +572,7 @@ static void assignments_without_names_are_kept(void **state)
     save(&s);
     assert_true(file_read("s.view", &text, &size_bytes, &err));
     check_has(text, "assign nobody lamp\nassign plain \"no such\"\n"
-                    "assign lamp wall\n");
+                    "assign lamp wall # dim\n");
     free(text);
     session_close(&s);
 }
