@@ -51,8 +51,9 @@ void save_picture(struct live_render *control, const char *ending)
                           &err)) {
         control->saving_samples = now.samples;
         snprintf(control->saving_what, sizeof control->saving_what,
-                 "%dx%d, %" PRIu64 " spp", film->width, film->height,
-                 now.spp_done);
+                 "%dx%d, %" PRIu64 " spp%s", film->width, film->height,
+                 now.spp_done,
+                 control->session->is_filtered ? ", with its noise" : "");
         live_render_say_long(control, "saving ...");
     } else {
         live_render_say_error(control, err.text);

@@ -56,8 +56,8 @@ static bool offer(struct autosave *k, const char *path)
     if (strcmp(k->offer.scene, k->scene) != 0)
         return false;
     autosave_describe(what, &k->offer);
-    live_render_say_long(k->control, "kept: %s; %s goes on with it", what,
-                         live_render_key(k->control, ACTION_RESTORE).text);
+    live_render_say(k->control, "kept: %s; %s goes on with it", what,
+                    live_render_key(k->control, ACTION_RESTORE).text);
     k->offer_path = path;
     return true;
 }

@@ -12,6 +12,7 @@
 
 #include "base/background.h"
 #include "base/clock.h"
+#include "base/file.h"
 #include "base/min_max.h"
 #include "base/print.h"
 #include "base/stop.h"
@@ -43,6 +44,7 @@ enum question {
     QUESTION_LIVE, /* leave normal mode */
     QUESTION_RESTART,
     QUESTION_NUMBER, /* number for a view */
+    QUESTION_VIEW,   /* change a view file that was there before */
     QUESTION_RESTORE /* a kept session replaces changes */
 };
 
@@ -56,6 +58,8 @@ struct studio {
     int pace;         /* of moves by the present key: 1, or MOVES_FAST */
     bool has_mouse;
     enum question question; /* question that waits for an answer */
+    char question_text[96]; /* of QUESTION_VIEW */
+    bool may_write_view;    /* the person has agreed */
     bool is_ending;
     bool is_gone; /* the terminal has gone */
     int status;   /* exit status */
@@ -140,6 +144,19 @@ static void studio_quit(struct studio *studio)
         question_ask(studio, QUESTION_QUIT);
     else
         studio_end(studio, 0);
+}
+
+/* Writes the view file. Asks before it changes one that was there before. */
+static void write_view(struct studio *studio)
+{
+    const char *path = studio->control.session->engine.view_path;
+
+    if (access(path, F_OK) != 0)
+        studio->may_write_view = true;
+    if (studio->may_write_view)
+        save_view(&studio->control);
+    else
+        question_ask(studio, QUESTION_VIEW);
 }
 
 static void restore_kept(struct studio *studio)
@@ -248,7 +265,7 @@ static const struct command commands[ACTIONS] = {
     [ACTION_VIEW_7] = {.camera_by = camera_control_go_to_view, .by = 7},
     [ACTION_VIEW_8] = {.camera_by = camera_control_go_to_view, .by = 8},
     [ACTION_VIEW_9] = {.camera_by = camera_control_go_to_view, .by = 9},
-    [ACTION_SAVE_VIEW] = {.control = save_view},
+    [ACTION_SAVE_VIEW] = {.studio = write_view},
     [ACTION_VIEW_NEXT] = {.inspector_by = inspector_turn_view, .by = 1},
     [ACTION_VIEW_BACK] = {.inspector_by = inspector_turn_view, .by = -1},
     [ACTION_KEEP_RENDER] = {.comparison = comparison_keep},
@@ -411,6 +428,12 @@ static void save_and_restore(struct studio *studio)
         go_on_kept(studio);
 }
 
+static void write_view_over(struct studio *studio)
+{
+    studio->may_write_view = true;
+    save_view(&studio->control);
+}
+
 /* Table of the questions. The key y runs `yes`, the save key runs `save`, and
  * any other key means no. The narrowest window shows 39 columns of a text, so
  * that both keys are among them. Texts of NULL depend on the state. */
@@ -428,15 +451,21 @@ static const struct {
                           "other: no",
                           restart_unasked, 'p', save_render},
     [QUESTION_NUMBER] = {.text = "Number for this view? 1 to 9, other: none"},
+    [QUESTION_VIEW] = {NULL, write_view_over, 0, NULL},
     [QUESTION_RESTORE] = {"Unsaved changes. Replace them? y: yes, s: save",
                           go_on_kept, 's', save_and_restore},
 };
 
-static const char *question_text(const struct studio *studio,
-                                 enum question question)
+static const char *question_text(struct studio *studio, enum question question)
 {
     const struct live_render *control = &studio->control;
 
+    if (question == QUESTION_VIEW) {
+        snprintf(studio->question_text, sizeof studio->question_text,
+                 "Change %.60s? y: yes, other: no",
+                 path_name(control->session->engine.view_path));
+        return studio->question_text;
+    }
     if (question != QUESTION_QUIT)
         return questions[question].text;
     if (!live_render_has_unsaved(control))
@@ -476,7 +505,8 @@ static void question_answer(struct studio *studio, int key)
         answer_number(studio, key);
     else if (small == 'y')
         questions[question].yes(studio);
-    else if (small == questions[question].save_key)
+    else if (questions[question].save != NULL &&
+             small == questions[question].save_key)
         questions[question].save(studio);
 }
 
@@ -712,6 +742,30 @@ static void take_key(struct studio *studio, int key)
 
 /* ---- events ---- */
 
+/* A pasted text whose end does not come is over after this time. */
+#define PASTE_NS (2 * S_NS)
+
+/* Gives a character of a pasted text to the field that takes text, if there is
+ * one: no key of it is a command. */
+static void take_pasted(struct studio *studio, int key)
+{
+    struct editor_panel *panel = &studio->workspace.panel;
+    bool is_text = key >= ' ' && key < 127;
+
+    if (has_list(studio)) {
+        if (is_text)
+            workspace_list_key(&studio->workspace, key);
+    } else if (panel->is_open && is_text &&
+               (panel->is_typing || (panel->is_in_parameters &&
+                                     keymap_panel_action(key) == PANEL_TYPE))) {
+        editor_panel_key(panel, key);
+        draw_panel(studio);
+    } else if (!panel->is_typing) {
+        live_render_say(&studio->control,
+                        "pasted text is dropped: no field takes it");
+    }
+}
+
 /* Moves the wipe to the mouse while a comparison is shown. */
 static bool wipe_takes(struct studio *studio, const struct event *event)
 {
@@ -745,6 +799,8 @@ static void take_event(struct studio *studio, const struct event *event)
 
     if (event->kind == EVENT_KEY) {
         take_key(studio, event->key);
+    } else if (event->kind == EVENT_PASTED) {
+        take_pasted(studio, event->key);
     } else if (event->kind == EVENT_MOUSE) {
         if (studio->has_mouse && !workspace->screen.is_too_small)
             take_mouse(studio, event);
@@ -783,6 +839,8 @@ static void take_input(struct studio *studio)
             studio_end(studio, 128 + SIGHUP);
             return;
         }
+        if (clock_ns() > studio->byte_ns + PASTE_NS)
+            studio->input.is_pasting = false;
         studio->byte_ns = clock_ns();
         tty_input_feed(&studio->input, bytes, (size_t)count);
         take_byte_events(studio, false);

@@ -245,6 +245,7 @@ bool term_caps_answer(struct term_caps *d, const struct event *event)
     case EVENT_ATTRIBUTES: d->has_sixel = event->x == 1; break;
     case EVENT_READY:
     case EVENT_KEY:
+    case EVENT_PASTED:
     case EVENT_MOUSE: break;
     }
     return false;

@@ -23,6 +23,10 @@
 #define MOUSE_ON  "\033[?1002h\033[?1006h"
 #define MOUSE_OFF "\033[?1002l\033[?1006l"
 
+/* Marks of pasted text around it. */
+#define PASTE_ON  "\033[?2004h"
+#define PASTE_OFF "\033[?2004l"
+
 /* Queries: synchronized updates, size of a cell, status, device attributes. */
 #define QUESTIONS "\033[?2026$p\033[16t\033[5n\033[c"
 
@@ -44,7 +48,7 @@
 /* Resets every mode that glim may set, for fault handlers. Terminals skip
  * sequences that they do not know. */
 static const char restore_text[] =
-    TTY_SYNC_END MOUSE_OFF "\033[m\033[?25h\033[?1l\033>\033[?1049l";
+    TTY_SYNC_END MOUSE_OFF PASTE_OFF "\033[m\033[?25h\033[?1l\033>\033[?1049l";
 
 static const int stop_signals[] = {SIGTERM, SIGHUP, SIGINT, SIGQUIT};
 static const int other_signals[] = {SIGTSTP, SIGCONT, SIGWINCH};
@@ -325,6 +329,7 @@ bool tty_open(struct error *err)
     windows_update();
     ask();
     tty_set_mouse(true);
+    tty_write(PASTE_ON, sizeof PASTE_ON - 1);
     return true;
 }
 
@@ -352,7 +357,7 @@ static void leave_screen(void)
 
 static void write_restoring(void)
 {
-    static const char text[] = TTY_SYNC_END MOUSE_OFF "\033[m";
+    static const char text[] = TTY_SYNC_END MOUSE_OFF PASTE_OFF "\033[m";
     size_t skip = term.has_sync ? 0 : sizeof TTY_SYNC_END - 1;
 
     write_bytes(text + skip, sizeof text - 1 - skip, false);
@@ -489,6 +494,7 @@ void tty_resume(void)
     tty_relayout();
     windows_update();
     tty_set_mouse(term.has_mouse);
+    tty_write(PASTE_ON, sizeof PASTE_ON - 1);
 }
 
 void tty_flush_input(void)

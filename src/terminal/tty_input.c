@@ -12,8 +12,13 @@
 #define PARAMS_MAX 32
 
 /* First sequence in the buffer. */
+/* Numbers of the sequences around pasted text. */
+#define MARK_BEGIN 200
+#define MARK_END   201
+
 struct sequence {
     size_t length; /* 0 if incomplete */
+    int mark;      /* of pasted text: MARK_BEGIN, MARK_END; 0: none */
     bool has_event;
     struct event event;
 };
@@ -163,6 +168,9 @@ static void set_csi(struct sequence *s, const unsigned char *p, size_t length,
             set_answer(s, EVENT_CELL_SIZE, params[2], params[1]);
     } else if (last == 'R') {
         set_answer(s, EVENT_CURSOR, params[1], params[0]);
+    } else if (last == '~' &&
+               (params[0] == MARK_BEGIN || params[0] == MARK_END)) {
+        s->mark = params[0];
     } else if (last == '~') {
         set_key(s, key_of_number(params[0]));
     } else {
@@ -373,8 +381,13 @@ bool tty_input_next(struct tty_input *in, bool nothing_follows,
         }
         in->length -= s.length;
         memmove(in->bytes, in->bytes + s.length, in->length);
+        if (s.mark != 0)
+            in->is_pasting = s.mark == MARK_BEGIN;
         if (s.has_event) {
             *event = s.event;
+            if (in->is_pasting && (s.event.kind == EVENT_KEY ||
+                                   s.event.kind == EVENT_MOUSE))
+                event->kind = EVENT_PASTED;
             return true;
         }
     }

@@ -32,6 +32,7 @@ enum tty_key {
 
 enum event_kind {
     EVENT_KEY,
+    EVENT_PASTED, /* key: of a pasted text; 0: a mouse report in it */
     EVENT_MOUSE,
     EVENT_READY,        /* ESC[0n: the answer to FRAME_PACING_REQUEST */
     EVENT_ATTRIBUTES,   /* the answer to ESC[c, the last question; x is 1 with
@@ -76,6 +77,7 @@ void tty_name(char name[TTY_NAME_BYTES], const char *from, size_t length);
 struct tty_input {
     unsigned char bytes[TTY_INPUT_BYTES];
     size_t length;
+    bool is_pasting; /* within the marks of a pasted text */
 };
 
 /* Stores bytes and returns how many fit. There is always room after

@@ -4,6 +4,7 @@ lamp_scene
 view_of() # key, number of the eye or at value: presses it, prints the value
 {
     keys "$1"
+    rm -f lamp.view
     keys c # ends a move
     wait_for "wrote the view"
     rm -f lamp.view.old
@@ -25,6 +26,7 @@ is_silent()
 {
     ! screen | grep -q "wrote the view"
 }
+rm lamp.view
 keys c
 wait_for "wrote the view"
 cp lamp.view lamp.view.first

@@ -32,7 +32,9 @@ shows '255;0;0'
 expect " l \*"
 # the camera still moves
 keys w c
-wait_until test -s lamp.view
+wait_for "Change lamp.view?"
+keys y
+wait_for "wrote the view"
 expect "│>    of colour  #ff0000"
 # a type is not typed: Enter goes to the next, and back with the undo
 keys Up Up Up Up Up Up Up Up

@@ -93,6 +93,8 @@ story() # options: which backend
     load
     wait_for_rows 20 "$ORANGE"
     keys c
+    wait_for "Change wall.view?"
+    keys y
     wait_for "wrote the view"
     keys Escape
     wait_until_gone "wrote the view"

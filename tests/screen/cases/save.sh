@@ -36,6 +36,8 @@ wait_until_gone "saved"
 keys i
 wait_for "LIVE"
 cp sub/flat.view mine.view
+keys k 1
+wait_for "stored as view 1"
 keys c
 wait_for "wrote the view to sub/flat.view, the old one is"
 cmp sub/flat.view~ mine.view || die "the view before is lost"

@@ -17,8 +17,8 @@ start_line "until [ -e go ]; do sleep 0.05; done; TERM=tmux-256color glim -b -w 
 TERM=tmux-256color glim flat.obj"
 keys c # before the program
 : >go
-wait_for "wrote the view"
-rm flat.view
+wait_for "Change flat.view?"
+keys n
 keys C-q
 expect_end 0
 fresh

@@ -16,6 +16,8 @@ wait_for "LIVE .* [1-9][0-9]* spp"
 keys d
 keys r
 keys c
+wait_for "Change flat.view?"
+keys y
 wait_for "wrote the view to flat.view"
 keys C-q
 expect_end 0

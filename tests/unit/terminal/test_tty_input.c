@@ -67,6 +67,10 @@ static void sequences_become_keys(void **state)
         {"\033[[A", TTY_KEY_F1}, /* the Linux console */
         {"\033[[B", TTY_KEY_OTHER},
         {"\033[H", TTY_KEY_HOME},
+        {"\033[F", TTY_KEY_END},
+        {"\033[4~", TTY_KEY_END},
+        {"\033[2~", TTY_KEY_INSERT},
+        {"\033[3~", TTY_KEY_DELETE},
         {"\033[1~", TTY_KEY_HOME},
         {"\033OM", '\r'}, /* Enter of the keypad */
         {"\033[15~", TTY_KEY_OTHER},
@@ -249,6 +253,24 @@ static void keys_between_answers_are_not_lost(void **state)
     }
 }
 
+/* Keys between the marks of a pasted text are no keys, answers are answers. */
+static void pasted_text_is_marked(void **state)
+{
+    static const char bytes[] = "w\033[200~wq\033[A\r\033[0n\033[201~q";
+    static const enum event_kind kinds[] = {EVENT_KEY,    EVENT_PASTED,
+                                            EVENT_PASTED, EVENT_PASTED,
+                                            EVENT_PASTED, EVENT_READY,
+                                            EVENT_KEY};
+
+    (void)state;
+    for (size_t piece = 1; piece < 12; piece++) {
+        assert_int_equal(parse(bytes, sizeof bytes - 1, piece), 7);
+        for (int i = 0; i < 7; i++)
+            assert_int_equal(events[i].kind, kinds[i]);
+        assert_int_equal(events[2].key, 'q');
+    }
+}
+
 /* For any bytes the parser ends, keys are in range, and the events fit. */
 static void random_bytes_do_no_harm(void **state)
 {
@@ -285,6 +307,7 @@ int main(void)
         cmocka_unit_test(other_sequences_are_dropped),
         cmocka_unit_test(mouse_reports_become_events),
         cmocka_unit_test(keys_between_answers_are_not_lost),
+        cmocka_unit_test(pasted_text_is_marked),
         cmocka_unit_test(random_bytes_do_no_harm),
     };
 
