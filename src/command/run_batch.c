@@ -315,7 +315,7 @@ static char *write_numbered(struct session *s, struct film *film,
     char *stem = xchecked(path_stem_of_input(s->options->scene_path));
     const char *last = path_name(stem);
     struct image_metadata metadata = metadata_of(s, film);
-    char *name = frame ? image_write_frame_numbered(frame, last, err)
+    char *name = frame ? image_write_frame_numbered(frame, NULL, last, err)
                        : image_write_numbered(film, session_develop(s),
                                               &metadata, last, "png", err);
 

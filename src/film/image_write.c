@@ -400,14 +400,18 @@ char *image_write_numbered(struct film *film, struct develop how,
     return path;
 }
 
-char *image_write_frame_numbered(const struct frame *frame, const char *stem,
-                                 struct error *err)
+char *image_write_frame_numbered(const struct frame *frame,
+                                 const struct image_metadata *metadata,
+                                 const char *stem, struct error *err)
 {
     struct buffer b = {.data = NULL};
     char *path = NULL;
+    bool ok = expect_size(frame->width, frame->height, 3, stem, err) &&
+              encode_frame(frame, stem, &b, err);
 
-    if (expect_size(frame->width, frame->height, 3, stem, err) &&
-        encode_frame(frame, stem, &b, err))
+    if (ok && metadata != NULL)
+        insert_chunks(&b, metadata);
+    if (ok)
         path = file_write_numbered(stem, "png", b.data, b.size_bytes, err);
     free(b.data);
     return path;

@@ -57,11 +57,12 @@ char *image_write_numbered(struct film *film, struct develop how,
                            const char *stem, const char *ending,
                            struct error *err);
 
-/* Write a frame as PNG, in the same ways, without metadata. */
+/* Write a frame as PNG, in the same ways. The metadata may be NULL. */
 bool image_write_frame(const struct frame *frame, const char *path,
                        struct error *err);
-char *image_write_frame_numbered(const struct frame *frame, const char *stem,
-                                 struct error *err);
+char *image_write_frame_numbered(const struct frame *frame,
+                                 const struct image_metadata *metadata,
+                                 const char *stem, struct error *err);
 
 /* Writes 3 floats a pixel, row 0 at the top, as an HDR, PFM or EXR file. */
 bool image_write_floats(const float *rgb, int width, int height,

@@ -7,11 +7,13 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/min_max.h"
 #include "film/film_error.h"
 #include "image/frame.h"
 #include "inspect/aov_picture.h"
 #include "inspect/false_color.h"
 #include "render/error_text.h"
+#include "render/filtered_picture.h"
 #include "render/projection.h"
 #include "world/world.h"
 #include "kernels/tone.h"
@@ -398,11 +400,44 @@ static bool find_numbers(struct view_mode *s, const struct frame *frame,
     return true;
 }
 
+bool view_mode_draft_world(struct view_mode *s, int width, int height,
+                           struct world *w, struct error *err)
+{
+    struct rect r = s->session->engine.crop;
+    struct projection_part part = {r.x, r.y, r.width, r.height, width, height};
+
+    if (!view_mode_traced(s, w, err))
+        return false;
+    w->settings.camera = projection_camera(&w->settings.camera, &part);
+    return true;
+}
+
+/* Paints light, filtered if the last frame of the screen was. */
+static bool paint_light(struct view_mode *s, struct film *film,
+                        struct frame *frame, struct error *err)
+{
+    int width = int_min(frame->width, film->width);
+    int height = int_min(frame->height, film->height);
+    struct film draft = {.counts = NULL};
+    struct world w;
+    bool ok = true;
+
+    if (s->is_filtered)
+        ok = view_mode_draft_world(s, width, height, &w, err) &&
+             filtered_picture_draft(&draft, &w, width, height,
+                                    view_mode_pool(s), NULL, err) &&
+             filtered_picture_paint(film, &draft, develop_of(s), frame, err);
+    else
+        film_preview(film, NULL, develop_of(s), frame);
+    film_free(&draft);
+    return ok;
+}
+
 bool view_mode_picture(struct view_mode *s, struct film *film,
                        struct frame *frame, struct error *err)
 {
     switch (s->kind) {
-    case SHOW_LIGHT: film_preview(film, NULL, develop_of(s), frame); break;
+    case SHOW_LIGHT: return paint_light(s, film, frame, err);
     case SHOW_SAMPLES:
         return paint_samples(s, film, frame) || fail_memory(frame, err);
     case SHOW_ERROR:

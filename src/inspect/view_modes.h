@@ -63,7 +63,8 @@ void view_mode_preview(struct view_mode *s, struct film *film,
 
 /* Fills a frame of any size with the whole picture of this view, without a
  * draft. Light, sample counts and errors are taken from `film`, which may be
- * NULL for other views. Blocks while the rest is computed. */
+ * NULL for other views. Light is filtered if the last frame for the screen was.
+ * Blocks while the rest is computed. */
 bool view_mode_picture(struct view_mode *s, struct film *film,
                        struct frame *frame, struct error *err);
 
@@ -73,6 +74,10 @@ bool view_mode_world(const struct view_mode *s, struct world *w);
 /* Lends the world as rendered with its tree, which is built if there is none.
  */
 bool view_mode_traced(struct view_mode *s, struct world *w, struct error *err);
+
+/* The same with a camera of width x height pixels for the whole picture. */
+bool view_mode_draft_world(struct view_mode *s, int width, int height,
+                           struct world *w, struct error *err);
 
 /* Returns the threads for pictures of the view, which start on first use. */
 struct pool *view_mode_pool(struct view_mode *s);

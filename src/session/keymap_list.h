@@ -76,7 +76,9 @@ KEY(STEP, "step", "one more sample, then pause", "", '.')
 KEY(RESTART, "restart", "render again from sample 0", "clear", '0')
 KEY(BACKEND, "backend", "OpenCL device, or CPU", "gpu", 'b', 'B')
 GROUP("Files")
-KEY(SAVE, "save", "save a PNG file", "screenshot export picture image", 'p')
+KEY(SAVE, "save", "save a PNG file, as shown",
+    "screenshot export picture image", 'p')
+KEY(SAVE_RAW, "save-raw", "save a PNG with its noise", "export picture raw", 0)
 KEY(SAVE_LINEAR, "save-linear", "save a linear HDR file", "export picture", 'P')
 KEY(SAVE_TEXT, "save-text", "save coloured text", "export ansi", 'x', 'X')
 KEY(RESTORE, "restore", "go on with what was kept", "recover session",

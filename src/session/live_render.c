@@ -124,7 +124,7 @@ static struct render_limits limits_of(const struct live_render *control)
 /* Blocks until nobody reads the film or the world any more. */
 static void wait_copied(struct live_render *control)
 {
-    background_wait_copied(&control->saver.copying);
+    save_thread_wait_copied(&control->saver);
     background_wait_copied(&control->keeping.copying);
 }
 

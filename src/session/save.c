@@ -30,35 +30,87 @@ static void say_saved(struct live_render *control, char *text)
     free(text);
 }
 
-void save_picture(struct live_render *control, const char *ending)
+static bool begin(struct live_render *control, struct picture_to_save picture)
 {
     struct render_progress now =
         render_progress(control->session->engine.render);
-    struct film *film = render_film(control->session->engine.render);
+    char *stem = scene_name(control);
     struct error err;
-    char *stem;
+    bool ok;
 
-    if (now.samples == 0) {
-        live_render_say(control, "nothing to save yet");
-        return;
-    }
-    stem = scene_name(control);
-    if (save_thread_begin(&control->saver,
-                          &(struct picture_to_save){
-                              film, session_develop(control->session),
-                              engine_metadata(&control->session->engine, false),
-                              stem, ending},
-                          &err)) {
-        control->saving_samples = now.samples;
-        snprintf(control->saving_what, sizeof control->saving_what,
-                 "%dx%d, %" PRIu64 " spp%s", film->width, film->height,
-                 now.spp_done,
-                 control->session->is_filtered ? ", with its noise" : "");
+    picture.stem = stem;
+    ok = save_thread_begin(&control->saver, &picture, &err);
+    if (ok) {
+        int length = snprintf(control->saving_what, sizeof control->saving_what,
+                              "%dx%d", control->session->engine.crop.width,
+                              control->session->engine.crop.height);
+
+        control->saving_samples = control->saved_samples;
+        if (picture.film != NULL) {
+            control->saving_samples = now.samples;
+            snprintf(control->saving_what + length,
+                     sizeof control->saving_what - (size_t)length,
+                     ", %" PRIu64 " spp", now.spp_done);
+        }
         live_render_say_long(control, "saving ...");
     } else {
         live_render_say_error(control, err.text);
     }
     free(stem);
+    return ok;
+}
+
+/* Starts to save the film. `world` is NULL, or that of a filtered picture. */
+static void begin_film(struct live_render *control, const char *ending,
+                       const struct world *world)
+{
+    struct engine *engine = &control->session->engine;
+    struct picture_to_save picture = {.film = render_film(engine->render),
+                                      .how = session_develop(control->session),
+                                      .metadata =
+                                          engine_metadata(engine, false),
+                                      .filtered_metadata =
+                                          engine_metadata(engine, true),
+                                      .ending = ending};
+
+    if (render_progress(engine->render).samples == 0) {
+        live_render_say(control, "nothing to save yet");
+        return;
+    }
+    if (world != NULL) {
+        picture.is_filtered = true;
+        picture.world = *world;
+    }
+    begin(control, picture);
+}
+
+void save_picture(struct live_render *control, const char *ending)
+{
+    begin_film(control, ending, NULL);
+}
+
+void save_filtered(struct live_render *control, const struct world *world)
+{
+    begin_film(control, "png", world);
+}
+
+void save_frame(struct live_render *control, struct frame *frame)
+{
+    if (!begin(control,
+               (struct picture_to_save){.frame = *frame, .ending = "png"}))
+        frame_free(frame);
+}
+
+/* Says what a saved picture is if that may not be expected. */
+static const char *how_saved(const struct live_render *control)
+{
+    const struct save_thread *s = &control->saver;
+
+    if (s->picture.film == NULL)
+        return ", as it is shown";
+    return s->was_filtered                 ? ", filtered"
+           : control->session->is_filtered ? ", with its noise"
+                                           : "";
 }
 
 bool save_finish(struct live_render *control)
@@ -74,25 +126,11 @@ bool save_finish(struct live_render *control)
         live_render_add_result(control, err.text);
         return false;
     }
-    say_saved(control, xformat("saved %s %s", name, control->saving_what));
+    say_saved(control, xformat("saved %s %s%s", name, control->saving_what,
+                               how_saved(control)));
     control->saved_samples = control->saving_samples;
     free(name);
     return true;
-}
-
-void save_frame(struct live_render *control, const struct frame *frame)
-{
-    char *stem = scene_name(control);
-    struct error err;
-    char *name = image_write_frame_numbered(frame, stem, &err);
-
-    free(stem);
-    if (name)
-        say_saved(control, xformat("saved %s %dx%d, as it is shown", name,
-                                   frame->width, frame->height));
-    else
-        live_render_say_error(control, err.text);
-    free(name);
 }
 
 void save_text(struct live_render *control, const struct frame *frame,

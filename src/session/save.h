@@ -18,8 +18,12 @@
  * save_finish() can be called. */
 void save_picture(struct live_render *control, const char *ending);
 
-/* Writes a frame as STEM.png or the next free name. */
-void save_frame(struct live_render *control, const struct frame *frame);
+/* The same as PNG, filtered, if that is done before the picture changes. The
+ * world has its tree, and a camera with the film's pixels. */
+void save_filtered(struct live_render *control, const struct world *world);
+
+/* The same for a frame of the film's size, which it takes over. */
+void save_frame(struct live_render *control, struct frame *frame);
 
 /* Writes a frame of ansi_text_frame_init() as coloured text, STEM.ans or the
  * next free name. */

@@ -6,9 +6,11 @@
 
 #include "base/print.h"
 #include "base/stop.h"
+#include "base/thread_pool.h"
 #include "film/image_write.h"
 #include "read/mtl_save.h"
 #include "read/view_file.h"
+#include "render/filtered_picture.h"
 #include "terminal/xmalloc.h"
 
 /* ---- pictures ---- */
@@ -19,21 +21,71 @@ bool save_thread_init(struct save_thread *s, struct error *err)
     return background_init(&s->copying, "saver", err);
 }
 
-static void save(void *context)
+/* Traces what the filter needs besides the film. */
+static bool trace_draft(struct save_thread *s, struct film *draft)
 {
-    struct save_thread *s = context;
-    struct film copy = {0};
-    bool ok;
+    struct film *film = s->picture.film;
+    struct error ignored;
+    struct pool *pool = pool_create(usable_threads(), &ignored);
+    bool ok = filtered_picture_draft(draft, &s->picture.world, film->width,
+                                     film->height, pool, &s->cancel, &ignored);
 
-    stop_hold();
-    ok = film_copy(&copy, s->picture.film, &s->error);
+    pool_destroy(pool);
+    return ok;
+}
+
+static bool filter(struct save_thread *s, struct film *film, struct film *draft)
+{
+    struct frame *frame = &s->picture.frame;
+
+    if (!frame_init(frame, film->width, film->height, &s->error))
+        return false;
+    s->was_filtered =
+        filtered_picture_paint(film, draft, s->picture.how, frame, &s->error);
+    if (s->was_filtered)
+        s->name =
+            image_write_frame_numbered(frame, &s->picture.filtered_metadata,
+                                       s->stem, &s->error);
+    return s->was_filtered;
+}
+
+static void save_film(struct save_thread *s)
+{
+    struct film copy = {0}, draft = {0};
+    bool ok = film_copy(&copy, s->picture.film, &s->error);
+    bool filters = ok && s->picture.is_filtered && trace_draft(s, &draft);
+
     background_has_copied(&s->copying);
-    if (ok)
+    if (ok && !(filters && filter(s, &copy, &draft)))
         s->name =
             image_write_numbered(&copy, s->picture.how, &s->picture.metadata,
                                  s->stem, s->picture.ending, &s->error);
+    film_free(&draft);
     film_free(&copy);
+}
+
+static void save(void *context)
+{
+    struct save_thread *s = context;
+
+    stop_hold();
+    s->was_filtered = false;
+    if (s->picture.film != NULL) {
+        save_film(s);
+    } else {
+        background_has_copied(&s->copying);
+        s->name =
+            image_write_frame_numbered(&s->picture.frame, &s->picture.metadata,
+                                       s->stem, &s->error);
+    }
+    frame_free(&s->picture.frame);
     stop_release();
+}
+
+void save_thread_wait_copied(struct save_thread *s)
+{
+    cancel_request(&s->cancel);
+    background_wait_copied(&s->copying);
 }
 
 bool save_thread_begin(struct save_thread *s, const struct picture_to_save *p,
@@ -48,6 +100,7 @@ bool save_thread_begin(struct save_thread *s, const struct picture_to_save *p,
     s->picture = *p;
     s->picture.stem = s->stem = xstrdup(p->stem);
     s->name = NULL;
+    cancel_reset(&s->cancel);
     what = xformat("%s.%s", p->stem, p->ending);
     ok = background_begin(&s->copying, save, s, what, err);
     free(what);

@@ -27,8 +27,13 @@
 /* A picture to be saved as stem.ending or the next free name. */
 struct picture_to_save {
     struct film *film;
+    struct frame frame; /* in place of the film; the thread frees it */
+    /* the film is filtered as PNG: the world, with its tree, for the draft; its
+     * camera has the film's pixels */
+    bool is_filtered;
+    struct world world;
     struct develop how;
-    struct image_metadata metadata;
+    struct image_metadata metadata, filtered_metadata;
     const char *stem;
     const char *ending; /* "png" or another one of image_write.h */
 };
@@ -38,8 +43,10 @@ struct save_thread {
     /* set before the thread starts */
     struct picture_to_save picture;
     char *stem; /* of the picture, owned */
+    struct cancel cancel;
     /* owned by the thread until save_thread_finish() joins it */
     char *name;
+    bool was_filtered;
     struct error error;
 };
 
@@ -49,6 +56,10 @@ bool save_thread_init(struct save_thread *s, struct error *err);
  * picture is being saved or no thread can start. */
 bool save_thread_begin(struct save_thread *s, const struct picture_to_save *p,
                        struct error *err);
+
+/* Blocks until film and world may change. A picture that is not filtered by
+ * then is saved with its noise. */
+void save_thread_wait_copied(struct save_thread *s);
 
 /* Blocks until the picture is written. Returns its name, for free(), or NULL
  * after a failure. */

@@ -288,10 +288,11 @@ static void save_shown_frame(struct inspector *inspector)
     struct error err;
 
     if (frame_init(&frame, r.width, r.height, &err) &&
-        paint_all(inspector, &frame, &err))
+        paint_all(inspector, &frame, &err)) {
         save_frame(inspector->control, &frame);
-    else
-        live_render_say_error(inspector->control, err.text);
+        return;
+    }
+    live_render_say_error(inspector->control, err.text);
     frame_free(&frame);
 }
 
@@ -311,14 +312,40 @@ void inspector_save_text(struct inspector *inspector)
     frame_free(&frame);
 }
 
-/* Saves the picture. A thread saves light without drawings from the film. */
+static void save_filtered_light(struct inspector *inspector)
+{
+    const struct film *film = render_film(session_of(inspector)->engine.render);
+    struct error err;
+    struct world w;
+
+    if (view_mode_draft_world(&inspector->view_mode, film->width, film->height,
+                              &w, &err))
+        save_filtered(inspector->control, &w);
+    else
+        live_render_say_error(inspector->control, err.text);
+}
+
+/* Saves the picture as it is shown. A thread saves light without drawings from
+ * the film. */
 void inspector_save(struct inspector *inspector)
 {
-    if (inspector->view_mode.kind == SHOW_LIGHT &&
-        inspector->drawing == INSPECTOR_NOTHING)
+    if (inspector->view_mode.kind != SHOW_LIGHT ||
+        inspector->drawing != INSPECTOR_NOTHING) {
+        if (has_picture(inspector))
+            save_shown_frame(inspector);
+    } else if (inspector->view_mode.is_filtered) {
+        save_filtered_light(inspector);
+    } else {
         save_picture(inspector->control, "png");
-    else if (has_picture(inspector))
-        save_shown_frame(inspector);
+    }
+}
+
+void inspector_save_raw(struct inspector *inspector)
+{
+    if (view_mode_sample(inspector->view_mode.kind) == SAMPLE_LIGHT)
+        save_picture(inspector->control, "png");
+    else
+        inspector_save(inspector);
 }
 
 void inspector_save_hdr(struct inspector *inspector)

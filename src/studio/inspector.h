@@ -71,9 +71,10 @@ void inspector_next_drawing(struct inspector *inspector);
 /* Changes the level of the boxes, or the step of the path, by 1 or -1. */
 void inspector_change(struct inspector *inspector, int by);
 
-/* Save the picture with the current view mode and drawings as PNG, as HDR
- * (light alone), or as coloured text. */
+/* Save the picture as it is shown, filtered and with drawings, as PNG; with its
+ * noise, as PNG or HDR (light alone); or as coloured text. */
 void inspector_save(struct inspector *inspector);
+void inspector_save_raw(struct inspector *inspector);
 void inspector_save_hdr(struct inspector *inspector);
 void inspector_save_text(struct inspector *inspector);
 

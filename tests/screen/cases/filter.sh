@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Live mode filters light on the screen and says so; F and --no-filter show the
-# noise. Other views, normal mode and saved files are not filtered.
+# noise. Other views and normal mode are not filtered.
 lamp_scene
 size=100x21
 start lamp.obj
