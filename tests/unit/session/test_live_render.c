@@ -291,8 +291,10 @@ static void saving_never_replaces_files(void **state)
     assert_int_equal(access("s.png", F_OK), 0);
     assert_int_equal(access("s-2.png", F_OK), 0);
     assert_int_equal(w->result_count, 2);
-    assert_string_equal(w->results[0], "saved s.png 32x16, 3 spp");
-    assert_string_equal(w->message.text, "saved s-2.png 32x16, 3 spp");
+    assert_string_equal(w->results[0],
+                        "saved s.png 32x16, 3 spp, with its noise");
+    assert_string_equal(w->message.text,
+                        "saved s-2.png 32x16, 3 spp, with its noise");
     assert_false(live_render_has_unsaved(w));
 }
 
@@ -334,7 +336,8 @@ static void message_describes_the_saved_picture(void **state)
     w->session->engine.crop.width = 20;
     live_render_set_live(w, true);
     assert_true(save_finish(w));
-    assert_string_equal(w->results[0], "saved s.png 32x16, 3 spp");
+    assert_string_equal(w->results[0],
+                        "saved s.png 32x16, 3 spp, with its noise");
 }
 
 /* This holds even before the first poll. */

@@ -22,6 +22,15 @@
  * only after a timeout. */
 #define ESCAPE "\033\xc3\xa9"
 
+/* The list of commands and the menu, searched and closed. Enter comes behind
+ * Home, which selects a row that neither ends nor suspends the program, as only
+ * a search for q would. */
+#define ENTER "\033[H\r"
+#define LIST \
+    "?"      \
+    "zo\177\033[B\033[5~" ESCAPE ESCAPE
+#define MENU ESCAPE "o" ESCAPE ESCAPE
+
 #define KEYS (check_is_thorough() ? 2000 : 700)
 
 static bool has_terminal(const char *name)
@@ -95,12 +104,14 @@ static void press_all_keys(void)
         "N", "N", "l", "n", "n",
         /* Picks a point and follows its path. */
         "v", "\033[A", "\r", ESCAPE, "t", "t", "n", "n", "N", "t", "t", "g",
-        "g", "?", "x", "x", "x", "x", "x", "?", ESCAPE,
+        "g", "?", "x", "x", "x", "x", "x", "?", "\033[B", ESCAPE, ESCAPE,
         /* Opens the panel above a table. */
-        "\t", "\033[B", "\033[B", "\r", "\033[B", "]", "[", "u", "?", ESCAPE,
-        ESCAPE, "\t", "\t", ">", ">", ">", ESCAPE, ESCAPE,
+        "\t", "\033[B", "\033[B", "\r", "\033[B", ")", "(", "u", "?", "\033[6~",
+        "\033[F", ESCAPE, ESCAPE, "\t", "\t", ">", ">", ">", ESCAPE, ESCAPE,
+        ESCAPE, ESCAPE, MENU,
         /* Shows questions and messages in the last line. */
-        "k", "3", "3", "k", ESCAPE, "i", ">", "k", ESCAPE, "i", "\014",
+        "k", "3", "3", "k", ESCAPE, "i", ">", "k", ESCAPE, "i", "\014", "c",
+        "n",
         /* Changes colours and glyphs. */
         "C", ">", "C", ">", "C", ">", "C", "G", ">", "G", ">", "G", ">", "G",
         ">", "G", " ", "\r", ".", "0", ESCAPE, " ", "y", "m", "m"};
@@ -108,8 +119,8 @@ static void press_all_keys(void)
     for (int i = 0; i < COUNT(keys); i++)
         press(keys[i], i % WHOLE_EVERY == 0);
     for (int i = 0; i < COUNT(sizes); i++) {
-        static const char *const few[] = {">", "\t",   "\033[B", ESCAPE,
-                                          "?", ESCAPE, "g",      "g"};
+        static const char *const few[] = {">",  "\t", "\033[B", ESCAPE,
+                                          LIST, "g",  "g"};
 
         resize(sizes[i].cols, sizes[i].rows, true);
         for (int k = 0; k < COUNT(few); k++)
@@ -140,20 +151,24 @@ static int below(uint64_t *seed, int n)
     return (int)(check_random(seed) * n);
 }
 
-/* Sends a random key that does something, except q, ^Z, ^C, ^\\ and b. Keys
+/* Sends a random key that does something, except ^Q, ^Z, ^C, ^\\ and b. Keys
  * that open or close something are more frequent. */
 static void random_key(uint64_t *seed)
 {
     static const char *const rare[] = {
-        "w",       "s",      "a",      "d",      "Q",    "e",       "\033[A",
-        "\033[B",  "\033[C", "\033[D", "+",      "-",    "o",       "z",
-        "Z",       "[",      "]",      "f",      "{",    "}",       "u",
-        "U",       "r",      "k",      "1",      "2",    "9",       "c",
-        " ",       ".",      "0",      "p",      "P",    "x",       "l",
-        "m",       "\014",   "y",      "#",      "-",    "5",       "\033[5~",
-        "\033[6~", "\023",   "h",      "\033[H", "\177", "\xc3\xa9"};
-    static const char *const often[] = {"v",  "\r", "n", "N", "t", "<", ">",
-                                        "\t", "C",  "G", "g", "i", "?", ESCAPE};
+        "w",      "s",       "a",        "d",       "E",
+        "e",      "\033[A",  "\033[B",   "\033[C",  "\033[D",
+        "+",      "-",       "o",        "z",       "Z",
+        "[",      "]",       "f",        "{",       "}",
+        "u",      "U",       "r",        "k",       "1",
+        "2",      "9",       "c",        " ",       ".",
+        "0",      "p",       "P",        "x",       "l",
+        "m",      "\014",    "y",        "#",       "-",
+        "5",      "\033[5~", "\033[6~",  "\023",    "h",
+        "\033[H", "\177",    "\xc3\xa9", "W",       "(",
+        ")",      "\\",      "\033[2~",  "\033[3~", "\033[200~wq\r\033[201~"};
+    static const char *const often[] = {"v",  ENTER, "n", "N", "t", "<",  ">",
+                                        "\t", "C",   "G", "g", "i", LIST, MENU};
     double what = check_random(seed);
     char text[128];
     int x = 1 + below(seed, vt.cols), y = 1 + below(seed, vt.rows);

@@ -333,7 +333,7 @@ static inline void close_line(void)
 {
     int status;
 
-    send("\003", 1);
+    send("\034", 1);
     do
         sem_post(&shared->go);
     while (listen());
@@ -342,7 +342,7 @@ static inline void close_line(void)
     munmap(shared, sizeof *shared);
     shared = NULL;
     assert_true(WIFEXITED(status));
-    assert_int_equal(WEXITSTATUS(status), 128 + SIGINT);
+    assert_int_equal(WEXITSTATUS(status), 128 + SIGQUIT);
 }
 
 #endif
