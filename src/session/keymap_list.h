@@ -36,8 +36,8 @@ KEY(CLOSE, "close-lens", "close the aperture", "depth of field", '{')
 KEY(OPEN, "open-lens", "open the aperture", "depth of field bokeh", '}')
 KEY(UNDO, "undo", "undo the last change", "revert back", 'u')
 KEY(REDO, "redo", "redo a change", "", 'U')
-KEY(RESET, "reset", "view as opened; whole scene", "reset home revert", 'r', 'R',
-    TTY_KEY_HOME)
+KEY(RESET, "reset", "view as opened; whole scene", "reset home revert", 'r',
+    'R', TTY_KEY_HOME)
 GROUP("Views")
 KEY(VIEW_1, "view-1", "go to view 1, or 2 to 9", "bookmark camera", '1')
 KEY(VIEW_2, "view-2", NULL, "", '2')

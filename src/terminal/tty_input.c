@@ -385,8 +385,8 @@ bool tty_input_next(struct tty_input *in, bool nothing_follows,
             in->is_pasting = s.mark == MARK_BEGIN;
         if (s.has_event) {
             *event = s.event;
-            if (in->is_pasting && (s.event.kind == EVENT_KEY ||
-                                   s.event.kind == EVENT_MOUSE))
+            if (in->is_pasting &&
+                (s.event.kind == EVENT_KEY || s.event.kind == EVENT_MOUSE))
                 event->kind = EVENT_PASTED;
             return true;
         }

@@ -183,7 +183,7 @@ cp "$file" earlier.session
 start_line "(ulimit -f 0; trap '' XFSZ; TERM=tmux-256color exec glim scenes/lamp.obj)"
 wait_for "kept: .*unsaved changes"
 keys C-r
-wait_for "restored"
+wait_for "restored\|File too large"
 shows '255;0;0'
 keys w
 kill -HUP "$(program_pid)"

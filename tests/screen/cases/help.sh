@@ -23,7 +23,7 @@ is_dim()
 }
 wait_until is_dim
 raw_keys 'png'
-wait_for ": png_ *1 of "
+wait_for ": png_ *2 of "
 expect "save a PNG"
 reject "move down"
 keys Escape # ends the search
