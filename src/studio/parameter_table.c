@@ -54,7 +54,7 @@ static const struct value_scale scale_disc =
 static const struct value_scale scale_radius =
     SCALE(0, RADIANCE_MAX, 1e-3, 1e3, 0, 4, .zero = "none");
 static const struct value_scale scale_exposure =
-    SCALE(-100, 100, -8, 8, 0.1, 3, .suffix = " stops");
+    SCALE(-100, 100, -8, 8, 0.1, 3, .suffix = " EV");
 /* clang-format on */
 
 /* ---- material of an object ---- */

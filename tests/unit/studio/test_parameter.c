@@ -271,8 +271,8 @@ static void tints_take_a_distance(void **state)
 
     (void)state;
     s.illum = (struct mtl_number){7, 1};
-    assert_true(get(&s, "tint after", &(struct value){.number = 0}));
-    set(&s, "tint after", &(struct value){.number = 2});
+    assert_true(get(&s, "tint depth", &(struct value){.number = 0}));
+    set(&s, "tint depth", &(struct value){.number = 2});
     set(&s, "tint", &red);
     assert_true(get_color(&s).rgb[1] == .4);
     check_close((double)material_of(&s).attenuation.y, -log(.4) / 2, 1e-6);
@@ -283,7 +283,7 @@ static void tints_take_a_distance(void **state)
     set(&s, "transmits", &(struct value){.number = .4});
     check_close((double)material_of(&s).transmission, .4, 1e-7);
     check_close((double)material_of(&s).attenuation.y, -log(.5) / 2, 1e-6);
-    set(&s, "tint after", &(struct value){.number = 0});
+    set(&s, "tint depth", &(struct value){.number = 0});
     assert_true(v3_is_zero(material_of(&s).attenuation));
 }
 
@@ -548,7 +548,7 @@ static void typed_values_reach_the_material(void **state)
         {"colour", "#336699", "#336699"}, {"red", ".5", "0.5"},
         {"roughness", ".25", "0.25"},     {"light", "12.5", "12.5"},
         {"of colour", "2700K", "2700K"},  {"of colour", "4000", "4000K"},
-        {"cover", ".75", "0.75"},         {"of colour", "#ffffff", "#ffffff"},
+        {"opacity", ".75", "0.75"},         {"of colour", "#ffffff", "#ffffff"},
     };
     struct selection target;
     struct parameter list[PARAMETERS_MAX];
