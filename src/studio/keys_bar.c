@@ -29,8 +29,6 @@ const struct key_hint *key_hints_draw(enum window_part part, int row, int col,
 
 /* ---- the bar ---- */
 
-#define HINTS_MAX 10
-
 /* Columns of a bar beside the picture, at least: for a key and what it does. */
 #define BESIDE_MIN 24
 
@@ -152,6 +150,35 @@ const struct window_rect *keys_bar_room(const struct keys_bar *bar,
                : NULL;
 }
 
+enum action keys_bar_action_at(const struct keys_bar *bar, int col, int row)
+{
+    for (int i = 0; i < bar->spot_count; i++) {
+        const struct window_rect *at = &bar->spots[i].at;
+
+        if (row == at->row && col >= at->col && col < at->col + at->cols)
+            return bar->spots[i].action;
+    }
+    return ACTION_NONE;
+}
+
+/* Notes where the hints from `from` up to `end` are drawn, in a row counted
+ * from the last one of the screen. `of` are the same hints. */
+static void note_spots(struct keys_bar *bar, int row, const struct hint *of,
+                       const struct key_hint *from, const struct key_hint *end)
+{
+    int col = bar->area.col + 1;
+
+    for (; from != end; from++, of++) {
+        int cols = text_width_of(from->key) + 1 + text_width_of(from->does);
+
+        bar->spots[bar->spot_count++] =
+            (struct hint_spot){{col, term_size().rows - 1 + row, cols, 1},
+                               of->actions[1] == ACTION_NONE ? of->actions[0]
+                                                             : ACTION_NONE};
+        col += cols + GAP;
+    }
+}
+
 void keys_bar_draw(struct keys_bar *bar, const struct live_render *control,
                    struct screen *screen, enum keys_state state)
 {
@@ -175,13 +202,16 @@ void keys_bar_draw(struct keys_bar *bar, const struct live_render *control,
         names[i] = keymap_first_names(keys, h->actions, count);
         list[i] = (struct key_hint){names[i].text, h->does};
     }
+    bar->spot_count = 0;
     for (int row = -bar->key_rows; row < 0; row++) {
         struct key_hint one[2] = {*left, {NULL, NULL}};
+        const struct key_hint *from = bar->key_rows > 1 ? one : list, *end;
 
         windows_text(WINDOW_STATUS, row, bar->area.col, bar->area.cols,
                      ROLE_FAINT, "");
-        key_hints_draw(WINDOW_STATUS, row, bar->area.col + 1,
-                       bar->area.cols - 1, bar->key_rows > 1 ? one : list);
+        end = key_hints_draw(WINDOW_STATUS, row, bar->area.col + 1,
+                             bar->area.cols - 1, from);
+        note_spots(bar, row, hints[state] + (left - list), from, end);
         left += left->does != NULL;
     }
     screen->must_update = true;

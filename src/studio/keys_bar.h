@@ -50,10 +50,18 @@ enum keys_state {
     KEYS_STATES
 };
 
+#define HINTS_MAX 10
+
 struct keys_bar {
     enum keys_state state;   /* that is drawn; KEYS_NONE: has to be drawn */
     struct window_rect area; /* of the bar; no columns: there is none */
     int key_rows;            /* at its foot */
+    /* hints that are drawn, one row each, with their actions */
+    struct hint_spot {
+        struct window_rect at;
+        enum action action; /* ACTION_NONE: of several */
+    } spots[HINTS_MAX];
+    int spot_count;
 };
 
 /* Moves the picture of a new layout, and finds the bar beside or below it. */
@@ -62,6 +70,9 @@ void keys_bar_lay_out(struct keys_bar *bar, struct screen *screen);
 /* Returns the part above the keys if it has room for the progress, or NULL. */
 const struct window_rect *keys_bar_room(const struct keys_bar *bar,
                                         struct window_rect *room);
+
+/* Returns the action of the hint in a cell, or ACTION_NONE. */
+enum action keys_bar_action_at(const struct keys_bar *bar, int col, int row);
 
 /* Draws the keys of a state, if it is another one than before. */
 void keys_bar_draw(struct keys_bar *bar, const struct live_render *control,

@@ -722,11 +722,10 @@ static bool is_urgent(enum action action)
            action == ACTION_SUSPEND || action == ACTION_REDRAW;
 }
 
-/* Urgent keys, and those that no part takes, run their commands. */
-static void take_key(struct studio *studio, int key)
+/* Takes a key, or a press on its hint. Urgent keys, and those that no part
+ * takes, run their commands. */
+static void take_action(struct studio *studio, int key, enum action action)
 {
-    enum action action =
-        keymap_action(&studio->control.session->options->keys, key);
     bool is_taken = false;
 
     live_render_acknowledge_error(&studio->control);
@@ -739,6 +738,12 @@ static void take_key(struct studio *studio, int key)
     if (action == ACTION_UNDO || action == ACTION_REDO)
         panel_draw(&studio->workspace.panel);
     follow_pick(studio);
+}
+
+static void take_key(struct studio *studio, int key)
+{
+    take_action(studio, key,
+                keymap_action(&studio->control.session->options->keys, key));
 }
 
 /* ---- events ---- */
@@ -783,6 +788,15 @@ static bool wipe_takes(struct studio *studio, const struct event *event)
 
 static void take_mouse(struct studio *studio, const struct event *event)
 {
+    enum action hint =
+        event->mouse == MOUSE_PRESS && !has_list(studio) && !asks(studio)
+            ? workspace_hint_at(&studio->workspace, event->x - 1, event->y - 1)
+            : ACTION_NONE;
+
+    if (hint != ACTION_NONE) {
+        take_action(studio, TTY_KEY_OTHER, hint);
+        return;
+    }
     if (has_list(studio))
         studio_run(studio, workspace_list_mouse(&studio->workspace, event));
     else if (editor_panel_mouse(&studio->workspace.panel, event))

@@ -422,6 +422,28 @@ static void update_status(struct workspace *workspace, uint64_t now_ns)
     screen_status(&workspace->screen, &row);
 }
 
+/* The status line ends with the hints of these actions. */
+static const enum action status_actions[STATUS_LINE_HINTS] = {ACTION_HELP,
+                                                              ACTION_QUIT};
+
+enum action workspace_hint_at(const struct workspace *workspace, int col,
+                              int row)
+{
+    const struct status_row *status = &workspace->screen.status;
+    enum action action = ACTION_NONE;
+    int hint = 0;
+
+    if (row != term_size().rows - 1)
+        return keys_bar_action_at(&workspace->keys_bar, col, row);
+    for (int i = 0; i < status->span_count && workspace->screen.has_status; i++)
+        if (status->spans[i].role == ROLE_STATUS_KEY) {
+            if (col >= status->spans[i].col)
+                action = status_actions[hint];
+            hint++;
+        }
+    return action;
+}
+
 /* Processor time of the calling thread. */
 static uint64_t used_ns(void)
 {

@@ -77,6 +77,10 @@ void workspace_refresh(struct workspace *workspace);
 /* Shows a question in the last line; NULL: the status line. */
 void workspace_ask(struct workspace *workspace, const char *prompt);
 
+/* Returns the action of the hint of a key in a cell, or ACTION_NONE. */
+enum action workspace_hint_at(const struct workspace *workspace, int col,
+                              int row);
+
 void workspace_switch_progress(struct workspace *workspace);
 void workspace_open_panel(struct workspace *workspace);
 
