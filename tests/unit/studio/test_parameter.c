@@ -548,7 +548,7 @@ static void typed_values_reach_the_material(void **state)
         {"colour", "#336699", "#336699"}, {"red", ".5", "0.5"},
         {"roughness", ".25", "0.25"},     {"light", "12.5", "12.5"},
         {"of colour", "2700K", "2700K"},  {"of colour", "4000", "4000K"},
-        {"opacity", ".75", "0.75"},         {"of colour", "#ffffff", "#ffffff"},
+        {"opacity", ".75", "0.75"},       {"of colour", "#ffffff", "#ffffff"},
     };
     struct selection target;
     struct parameter list[PARAMETERS_MAX];
