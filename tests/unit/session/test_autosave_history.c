@@ -256,6 +256,51 @@ static void sessions_go_on_after_they_were_kept(void **state)
     session_close(&s);
 }
 
+/* One of two sessions with the same changes is kept after each of them. The
+ * changes are in gestures, some of which go on, and in undone steps. */
+static void keeping_changes_nothing(void **state)
+{
+    struct session kept, other;
+    struct session *both[] = {&kept, &other};
+    struct autosave_file file;
+
+    (void)state;
+    put_scene(true);
+    open_session(&kept);
+    open_session(&other);
+    for (uint64_t i = 0; i < 300; i++) {
+        uint64_t begin = seed;
+
+        for (int k = 0; k < 2; k++) {
+            struct edit *e = &both[k]->edit;
+            uint32_t what;
+
+            seed = begin;
+            what = random_below(8);
+            if (what == 0)
+                edit_undo(e);
+            else if (what == 1)
+                edit_redo(e);
+            else if (what == 2)
+                edit_end_step(e);
+            edit_begin_gesture(e, 1 + random_below(3), i * 400000000);
+            if (what > 1)
+                change_anything(e, false);
+        }
+        keep(&file, &kept);
+        autosave_file_free(&file);
+        check_same_state(&kept.edit, &other.edit);
+    }
+    for (int i = 0; i < 300; i++) {
+        const char *a = edit_undo(&kept.edit), *b = edit_undo(&other.edit);
+
+        assert_int_equal(a == NULL, b == NULL);
+        check_same_state(&kept.edit, &other.edit);
+    }
+    session_close(&kept);
+    session_close(&other);
+}
+
 /* The oldest steps are left out. */
 static void long_histories_are_cut(void **state)
 {
@@ -353,6 +398,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(histories_are_restored),
         cmocka_unit_test(sessions_go_on_after_they_were_kept),
+        cmocka_unit_test(keeping_changes_nothing),
         cmocka_unit_test(long_histories_are_cut),
         cmocka_unit_test(large_histories_are_cut),
         cmocka_unit_test(damaged_histories_have_their_message),
