@@ -88,6 +88,17 @@ struct camera view_mode_camera(const struct view_mode *s,
     return projection_camera(camera, &part);
 }
 
+bool view_mode_scaled(struct view_mode *s, int width, int height,
+                      struct world *w, struct error *err)
+{
+    const struct frame frame = {.width = width, .height = height};
+
+    if (!view_mode_traced(s, w, err))
+        return false;
+    w->settings.camera = view_mode_camera(s, &w->settings.camera, &frame);
+    return true;
+}
+
 struct pool *view_mode_pool(struct view_mode *s)
 {
     if (!s->pool)
@@ -287,9 +298,8 @@ static bool count_costs(struct view_mode *s, const struct frame *frame)
     struct error ignored;
     struct world w;
 
-    if (!view_mode_traced(s, &w, &ignored))
+    if (!view_mode_scaled(s, frame->width, frame->height, &w, &ignored))
         return false;
-    w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
     if (s->cost_generation == generation && s->cost_width == frame->width &&
         s->cost_height == frame->height &&
         memcmp(&s->cost_camera, &w.settings.camera, sizeof s->cost_camera) == 0)
@@ -389,26 +399,13 @@ static bool find_numbers(struct view_mode *s, const struct frame *frame,
 {
     struct world w;
 
-    if (!view_mode_traced(s, &w, err))
+    if (!view_mode_scaled(s, frame->width, frame->height, &w, err))
         return false;
     if (!need_numbers(s, 3 * (size_t)frame->width * (size_t)frame->height))
         return fail_memory(frame, err);
-    w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
     w.settings.sample = kinds[s->kind].sample;
     w.settings.features |= FEATURE_AOV;
     aov_of_pixels(s->pool, &w, frame->width, frame->height, s->numbers);
-    return true;
-}
-
-bool view_mode_draft_world(struct view_mode *s, int width, int height,
-                           struct world *w, struct error *err)
-{
-    struct rect r = s->session->engine.crop;
-    struct projection_part part = {r.x, r.y, r.width, r.height, width, height};
-
-    if (!view_mode_traced(s, w, err))
-        return false;
-    w->settings.camera = projection_camera(&w->settings.camera, &part);
     return true;
 }
 
@@ -423,7 +420,7 @@ static bool paint_light(struct view_mode *s, struct film *film,
     bool ok = true;
 
     if (s->is_filtered)
-        ok = view_mode_draft_world(s, width, height, &w, err) &&
+        ok = view_mode_scaled(s, width, height, &w, err) &&
              filtered_picture_draft(&draft, &w, width, height,
                                     view_mode_pool(s), NULL, err) &&
              filtered_picture_paint(film, &draft, develop_of(s), frame, err);

@@ -76,8 +76,8 @@ bool view_mode_world(const struct view_mode *s, struct world *w);
 bool view_mode_traced(struct view_mode *s, struct world *w, struct error *err);
 
 /* The same with a camera of width x height pixels for the whole picture. */
-bool view_mode_draft_world(struct view_mode *s, int width, int height,
-                           struct world *w, struct error *err);
+bool view_mode_scaled(struct view_mode *s, int width, int height,
+                      struct world *w, struct error *err);
 
 /* Returns the threads for pictures of the view, which start on first use. */
 struct pool *view_mode_pool(struct view_mode *s);

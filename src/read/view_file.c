@@ -204,22 +204,24 @@ static void write_over(struct writer *w, const char *text, size_t size_bytes)
 
 /* Returns the text of a key, for free(), or NULL without memory. */
 static char *key_text(const struct view *v, enum view_key_id id,
-                      const char *path)
+                      const char *sky, const char *path)
 {
-    char *text = NULL, *sky = NULL;
+    char *text = NULL;
     size_t size_bytes;
-    FILE *to;
+    FILE *to = open_memstream(&text, &size_bytes);
 
-    if (v->lighting.sky_path != NULL &&
-        (sky = view_name(v->lighting.sky_path, path)) == NULL)
-        return NULL;
-    to = open_memstream(&text, &size_bytes);
     if (to != NULL) {
         write_key(to, v, id, sky, path);
         fclose(to);
     }
-    free(sky);
     return text;
+}
+
+/* Returns the name of the view's sky, for free(), or NULL if it has none. */
+static char *sky_name(const struct view *v, const char *path)
+{
+    return v->lighting.sky_path != NULL ? view_name(v->lighting.sky_path, path)
+                                        : NULL;
 }
 
 /* Returns true if a line of the text begins with a key. */
@@ -243,19 +245,23 @@ static void find_same(struct writer *w, const struct file_bytes *old)
     struct warnings ignored = {0};
     struct view before;
     struct error err;
+    char *sky = NULL;
 
     view_init(&before);
     if (has_keys(old) && view_parse(&before, old->bytes, old->size_bytes,
-                                    old->path, &ignored, &err))
+                                    old->path, &ignored, &err)) {
+        sky = sky_name(&before, old->path);
         for (size_t i = 0; i < VIEW_KEYS; i++) {
-            char *text = key_text(w->view, view_keys[i].id, old->path);
-            char *old_text = key_text(&before, view_keys[i].id, old->path);
+            char *text = key_text(w->view, view_keys[i].id, w->sky, old->path);
+            char *old_text = key_text(&before, view_keys[i].id, sky, old->path);
 
             w->is_same[i] =
                 text != NULL && old_text != NULL && strcmp(text, old_text) == 0;
             free(text);
             free(old_text);
         }
+    }
+    free(sky);
     view_free(&before);
     warnings_free(&ignored);
 }
@@ -302,7 +308,7 @@ bool view_format(const struct view *view, const struct file_bytes *old,
                        .old = {.view = &scratch,
                                .path = path,
                                .report = &ignored}};
-    char *sky = NULL;
+    char *sky;
 
     if (!check_names(view, path, err))
         return false;
@@ -310,9 +316,7 @@ bool view_format(const struct view *view, const struct file_bytes *old,
     w.to = open_memstream(text, size_bytes);
     if (!w.to)
         return fail(err, "%s: out of memory", path);
-    if (view->lighting.sky_path)
-        sky = view_name(view->lighting.sky_path, path);
-    w.sky = sky;
+    w.sky = sky = sky_name(view, path);
     find_same(&w, old);
     view_init(&scratch);
     write_over(&w, old->bytes, old->size_bytes);

@@ -322,7 +322,7 @@ static void exchange(struct edit *e, struct edit_step *s)
         break;
     }
     e->version += must_render;
-    e->changes++;
+    e->changes += s->kind != STEP_POSE;
     if (s->kind != STEP_POSE && s->kind != STEP_SHOT)
         edit_compare(e, false); /* shows the change */
 }

@@ -130,7 +130,8 @@ struct edit {
     struct edit_state saved;
     bool is_comparing; /* the saved state is shown */
     uint32_t version;  /* counts changes that restart the render */
-    uint32_t changes;  /* counts all changes, and what is marked as saved */
+    uint32_t changes;  /* counts all but those of the camera, and what is marked
+                          as saved */
     char **names;      /* of materials; first those of files */
     /* for each material its original, or NO_INDEX if it is from a file */
     uint32_t *copied_from;

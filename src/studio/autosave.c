@@ -38,28 +38,42 @@ static void set_timer(const struct autosave *k, struct timespec first)
         timerfd_settime(k->timer_fd, 0, &times, NULL);
 }
 
-/* Offers a file if it is one of the scene. A damaged one is replaced. */
-static bool offer(struct autosave *k, const char *path)
+/* Writes the session soon. */
+static void hurry(struct autosave *k)
+{
+    k->is_hurried = true;
+    set_timer(k, (struct timespec){.tv_nsec = CHANGE_NS});
+}
+
+/* Offers a file if it is one of the scene. A damaged one is removed. */
+static void offer(struct autosave *k, const char *path)
 {
     char what[AUTOSAVE_TEXT_BYTES];
+    struct autosave_file head;
     struct error err;
 
-    autosave_file_free(&k->offer);
-    k->offer_path = NULL;
     if (access(path, F_OK) != 0)
-        return false;
-    if (!autosave_file_read_head(&k->offer, path, &err)) {
+        return;
+    if (!autosave_file_read_head(&head, path, &err)) {
         live_render_say_error(k->control, err.text);
         unlink(path);
-        return false;
+    } else if (strcmp(head.scene, k->scene) == 0) {
+        autosave_describe(what, &head);
+        live_render_say(k->control, "kept: %s; %s goes on with it", what,
+                        live_render_key(k->control, ACTION_RESTORE).text);
+        k->offer_path = path;
     }
-    if (strcmp(k->offer.scene, k->scene) != 0)
-        return false;
-    autosave_describe(what, &k->offer);
-    live_render_say(k->control, "kept: %s; %s goes on with it", what,
-                    live_render_key(k->control, ACTION_RESTORE).text);
-    k->offer_path = path;
-    return true;
+    autosave_file_free(&head);
+}
+
+/* Ends an offer. One that is set aside comes after the other. */
+static void end_offer(struct autosave *k)
+{
+    bool was_aside = k->offer_path == k->aside;
+
+    k->offer_path = NULL;
+    if (!was_aside)
+        offer(k, k->aside);
 }
 
 void autosave_init(struct autosave *k, struct live_render *control,
@@ -81,7 +95,8 @@ void autosave_init(struct autosave *k, struct live_render *control,
     /* without a timer, files are written at the end only */
     k->timer_fd = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
     set_timer(k, (struct timespec){.tv_sec = FIRST_S});
-    if (!offer(k, k->path))
+    offer(k, k->path);
+    if (k->offer_path == NULL)
         offer(k, k->aside);
 }
 
@@ -191,9 +206,8 @@ void autosave_note_changes(struct autosave *k)
     if (k->timer_fd < 0 || k->is_hurried || edit->changes == k->changes)
         return;
     k->changes = edit->changes;
-    k->is_hurried = k->writes_edits || live_render_has_unsaved_edit(k->control);
-    if (k->is_hurried)
-        set_timer(k, (struct timespec){.tv_nsec = CHANGE_NS});
+    if (k->writes_edits || live_render_has_unsaved_edit(k->control))
+        hurry(k);
 }
 
 void autosave_finish(struct autosave *k)
@@ -328,33 +342,25 @@ void autosave_go_on(struct autosave *k)
     else
         live_render_say_error(k->control, err.text);
     autosave_file_free(&kept);
-    k->offer_path = NULL;
     if (path == k->path)
         k->has_file = true;
     else
         k->drops_aside = true;
-    k->is_hurried = true;
-    set_timer(k, (struct timespec){.tv_nsec = CHANGE_NS});
-    if (path == k->path)
-        offer(k, k->aside);
+    hurry(k);
+    end_offer(k);
 }
 
 void autosave_drop(struct autosave *k)
 {
-    const char *path = k->offer_path;
-
-    if (path == NULL)
+    if (k->offer_path == NULL)
         return;
-    unlink(path);
+    unlink(k->offer_path);
     live_render_say(k->control, "the kept session is dropped");
-    k->offer_path = NULL;
-    if (path == k->path)
-        offer(k, k->aside);
+    end_offer(k);
 }
 
 void autosave_free(struct autosave *k)
 {
-    autosave_file_free(&k->offer);
     if (k->lock_fd >= 0)
         close(k->lock_fd);
     if (k->timer_fd >= 0)

@@ -25,16 +25,15 @@ struct autosave {
     struct live_render *control;
     struct camera_control *camera;
     char *scene;
-    char *path;   /* of this session's file; NULL: nothing is kept */
-    char *aside;  /* of an offered file that is set aside */
-    int lock_fd;  /* -1: another program keeps the scene's session */
-    int timer_fd; /* readable when autosave_write() is due */
-    struct autosave_file offer; /* head of the file that was found */
-    const char *offer_path;     /* path or aside; NULL: nothing is offered */
-    bool drops_aside;           /* after the next file, as it was taken over */
-    bool is_hurried;            /* the timer is set to a change */
-    bool writes_edits;          /* the last file has unsaved changes */
-    uint32_t changes;           /* of the edit, when the timer was set */
+    char *path;             /* of this session's file; NULL: nothing is kept */
+    char *aside;            /* of an offered file that is set aside */
+    int lock_fd;            /* -1: another program keeps the scene's session */
+    int timer_fd;           /* readable when autosave_write() is due */
+    const char *offer_path; /* path or aside; NULL: nothing is offered */
+    bool drops_aside;       /* after the next file, as it was taken over */
+    bool is_hurried;        /* the timer is set to a change */
+    bool writes_edits;      /* the last file has unsaved changes */
+    uint32_t changes;       /* of the edit, when the timer was set */
     bool has_file;       /* the file is there and this session's to replace */
     bool has_failed;     /* the last file; said once */
     bool has_said_large; /* that the film is too large */

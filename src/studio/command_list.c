@@ -57,18 +57,19 @@ static int match(const struct keymap_command *c, const char *search)
 }
 
 /* Adds a command behind those that match as well. */
-static void add(struct command_list *p, const struct keymap_command *c,
-                int points)
+static void add(struct command_list *p, const struct keymap_command *c)
 {
-    int at = p->count;
+    int points = match(c, p->list.search), at = p->count;
 
+    p->all++;
     if (points == 0 || p->count == COMMANDS_MAX)
         return;
-    while (at > 0 && match(&p->commands[at - 1], p->list.search) < points)
-        at--;
-    memmove(&p->commands[at + 1], &p->commands[at],
-            (size_t)(p->count - at) * sizeof *p->commands);
+    for (; at > 0 && p->points[at - 1] < points; at--) {
+        p->commands[at] = p->commands[at - 1];
+        p->points[at] = p->points[at - 1];
+    }
     p->commands[at] = *c;
+    p->points[at] = points;
     p->count++;
 }
 
@@ -99,10 +100,10 @@ void command_list_find(struct command_list *p, const struct keymap *keys)
         find_menu(p, keys);
         return;
     }
-    for (int i = 0; p->in_panel && keymap_panel_command(i, &c); i++, p->all++)
-        add(p, &c, match(&c, p->list.search));
-    for (int i = 0; keymap_command(keys, i, &c); i++, p->all++)
-        add(p, &c, match(&c, p->list.search));
+    for (int i = 0; p->in_panel && keymap_panel_command(i, &c); i++)
+        add(p, &c);
+    for (int i = 0; keymap_command(keys, i, &c); i++)
+        add(p, &c);
 }
 
 /* ---- window ---- */
@@ -125,8 +126,8 @@ static void draw(struct command_list *p, const struct keymap *keys,
     list_window_draw(&p->list, screen, rows, p->count, p->all);
 }
 
-void command_list_reopen(struct command_list *p, const struct keymap *keys,
-                         struct screen *screen)
+void command_list_open(struct command_list *p, const struct keymap *keys,
+                       struct screen *screen)
 {
     struct command_list whole = {.is_menu = p->is_menu,
                                  .in_panel = p->in_panel,
@@ -138,13 +139,6 @@ void command_list_reopen(struct command_list *p, const struct keymap *keys,
     list_window_open(&p->list, screen, " glim " GLIM_VERSION " ", rows,
                      whole.count);
     draw(p, keys, screen);
-}
-
-void command_list_open(struct command_list *p, const struct keymap *keys,
-                       struct screen *screen, struct command_list like)
-{
-    *p = like;
-    command_list_reopen(p, keys, screen);
 }
 
 static enum action take(struct command_list *p, const struct keymap *keys,

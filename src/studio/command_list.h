@@ -23,15 +23,12 @@ struct command_list {
     int all;       /* commands before the search */
     int count;     /* those that match */
     struct keymap_command commands[COMMANDS_MAX];
+    int points[COMMANDS_MAX]; /* how well each matches */
 };
 
-/* Opens the list in the state of `like`. */
+/* Opens the window of the list, for the first time or after a new layout. */
 void command_list_open(struct command_list *p, const struct keymap *keys,
-                       struct screen *screen, struct command_list like);
-
-/* Opens the window again after a new layout. */
-void command_list_reopen(struct command_list *p, const struct keymap *keys,
-                         struct screen *screen);
+                       struct screen *screen);
 
 /* Fills the commands that match the search, the best first. */
 void command_list_find(struct command_list *p, const struct keymap *keys);

@@ -318,8 +318,8 @@ static void save_filtered_light(struct inspector *inspector)
     struct error err;
     struct world w;
 
-    if (view_mode_draft_world(&inspector->view_mode, film->width, film->height,
-                              &w, &err))
+    if (view_mode_scaled(&inspector->view_mode, film->width, film->height, &w,
+                         &err))
         save_filtered(inspector->control, &w);
     else
         live_render_say_error(inspector->control, err.text);

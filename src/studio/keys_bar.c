@@ -8,21 +8,23 @@
 
 #define GAP 2
 
+static int hint_columns(const struct key_hint *hint)
+{
+    return text_width_of(hint->key) + 1 + text_width_of(hint->does);
+}
+
 const struct key_hint *key_hints_draw(enum window_part part, int row, int col,
                                       int cols, const struct key_hint *hints)
 {
     int end = col + cols;
 
-    for (; hints->does; hints++) {
+    for (; hints->does && col + hint_columns(hints) <= end; hints++) {
         int key_cols = text_width_of(hints->key);
-        int word_cols = text_width_of(hints->does);
 
-        if (col + key_cols + 1 + word_cols > end)
-            break;
         windows_text(part, row, col, key_cols, ROLE_KEY, hints->key);
-        col += key_cols + 1;
-        windows_text(part, row, col, word_cols, ROLE_FAINT, hints->does);
-        col += word_cols + GAP;
+        windows_text(part, row, col + key_cols + 1, text_width_of(hints->does),
+                     ROLE_FAINT, hints->does);
+        col += hint_columns(hints) + GAP;
     }
     return hints;
 }
@@ -169,7 +171,7 @@ static void note_spots(struct keys_bar *bar, int row, const struct hint *of,
     int col = bar->area.col + 1;
 
     for (; from != end; from++, of++) {
-        int cols = text_width_of(from->key) + 1 + text_width_of(from->does);
+        int cols = hint_columns(from);
 
         bar->spots[bar->spot_count++] =
             (struct hint_spot){{col, term_size().rows - 1 + row, cols, 1},

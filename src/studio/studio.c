@@ -542,6 +542,7 @@ struct part {
      * the parts behind. NULL: it has no keys. */
     bool (*takes)(struct studio *studio, int key, enum action action);
     enum keys_state hints; /* of its keys; KEYS_NONE: those of a part behind */
+    void (*leave)(struct studio *studio); /* its only key, ACTION_CANCEL */
 };
 
 static bool asks(const struct studio *studio)
@@ -635,14 +636,10 @@ static bool has_drawing(const struct studio *studio)
     return studio->workspace.inspector.drawing != INSPECTOR_NOTHING;
 }
 
-static bool drawing_takes(struct studio *studio, int key, enum action action)
+static void leave_drawing(struct studio *studio)
 {
-    (void)key;
-    if (action != ACTION_CANCEL)
-        return false;
     inspector_stop_drawing(&studio->workspace.inspector);
     workspace_refresh(&studio->workspace);
-    return true;
 }
 
 static bool has_view(const struct studio *studio)
@@ -650,13 +647,9 @@ static bool has_view(const struct studio *studio)
     return studio->workspace.inspector.view_mode.kind != SHOW_LIGHT;
 }
 
-static bool view_takes(struct studio *studio, int key, enum action action)
+static void leave_view(struct studio *studio)
 {
-    (void)key;
-    if (action != ACTION_CANCEL)
-        return false;
     inspector_show_light(&studio->workspace.inspector);
-    return true;
 }
 
 static bool orbits(const struct studio *studio)
@@ -664,13 +657,9 @@ static bool orbits(const struct studio *studio)
     return studio->camera.input.is_orbiting;
 }
 
-static bool orbit_takes(struct studio *studio, int key, enum action action)
+static void leave_orbit(struct studio *studio)
 {
-    (void)key;
-    if (action != ACTION_CANCEL)
-        return false;
     camera_control_switch_orbit(&studio->camera);
-    return true;
 }
 
 static bool is_paused(const struct studio *studio)
@@ -691,19 +680,19 @@ static bool is_normal(const struct studio *studio)
 /* All parts, the innermost first. A key goes to the first one that is open and
  * takes it, and the bar shows the keys of the first one that has some. */
 static const struct part parts[] = {
-    {asks, answers, KEYS_NONE},
-    {is_too_small, takes_nothing, KEYS_NONE},
-    {has_list, list_takes, KEYS_NONE},
-    {has_cursor, cursor_takes, KEYS_CURSOR},
-    {has_live_panel, panel_takes, KEYS_PANEL},
-    {has_panel, panel_takes, KEYS_PANEL_NORMAL},
-    {compares, wipe_takes_key, KEYS_COMPARE},
-    {has_drawing, drawing_takes, KEYS_DRAWING},
-    {has_view, view_takes, KEYS_VIEW},
-    {orbits, orbit_takes, KEYS_ORBIT},
-    {is_paused, NULL, KEYS_PAUSED},
-    {is_live, NULL, KEYS_LIVE},
-    {is_normal, NULL, KEYS_NORMAL},
+    {asks, answers, KEYS_NONE, NULL},
+    {is_too_small, takes_nothing, KEYS_NONE, NULL},
+    {has_list, list_takes, KEYS_NONE, NULL},
+    {has_cursor, cursor_takes, KEYS_CURSOR, NULL},
+    {has_live_panel, panel_takes, KEYS_PANEL, NULL},
+    {has_panel, panel_takes, KEYS_PANEL_NORMAL, NULL},
+    {compares, wipe_takes_key, KEYS_COMPARE, NULL},
+    {has_drawing, NULL, KEYS_DRAWING, leave_drawing},
+    {has_view, NULL, KEYS_VIEW, leave_view},
+    {orbits, NULL, KEYS_ORBIT, leave_orbit},
+    {is_paused, NULL, KEYS_PAUSED, NULL},
+    {is_live, NULL, KEYS_LIVE, NULL},
+    {is_normal, NULL, KEYS_NORMAL, NULL},
 };
 
 #define PARTS (sizeof parts / sizeof parts[0])
@@ -722,6 +711,21 @@ static bool is_urgent(enum action action)
            action == ACTION_SUSPEND || action == ACTION_REDRAW;
 }
 
+/* Gives a key to a part. Returns false if it is not open, or for a key of the
+ * parts behind. */
+static bool part_takes(const struct part *part, struct studio *studio, int key,
+                       enum action action)
+{
+    if (!part->is_open(studio))
+        return false;
+    if (part->takes != NULL)
+        return part->takes(studio, key, action);
+    if (part->leave == NULL || action != ACTION_CANCEL)
+        return false;
+    part->leave(studio);
+    return true;
+}
+
 /* Takes a key, or a press on its hint. Urgent keys, and those that no part
  * takes, run their commands. */
 static void take_action(struct studio *studio, int key, enum action action)
@@ -731,8 +735,7 @@ static void take_action(struct studio *studio, int key, enum action action)
     live_render_acknowledge_error(&studio->control);
     studio->pace = key >= 'A' && key <= 'Z' ? MOVES_FAST : 1;
     for (size_t i = 0; i < PARTS && !is_taken && !is_urgent(action); i++)
-        is_taken = parts[i].takes != NULL && parts[i].is_open(studio) &&
-                   parts[i].takes(studio, key, action);
+        is_taken = part_takes(&parts[i], studio, key, action);
     if (!is_taken)
         studio_run(studio, action);
     if (action == ACTION_UNDO || action == ACTION_REDO)

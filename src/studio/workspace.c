@@ -138,8 +138,8 @@ static void open_window(struct workspace *workspace)
     if (!workspace->commands.list.is_open)
         inspector_open_table(&workspace->inspector);
     else if (!workspace->screen.is_too_small)
-        command_list_reopen(&workspace->commands, keys_of(workspace),
-                            &workspace->screen);
+        command_list_open(&workspace->commands, keys_of(workspace),
+                          &workspace->screen);
 }
 
 void workspace_layout(struct workspace *workspace)
@@ -313,12 +313,12 @@ static void open_list(struct workspace *workspace, bool is_menu)
 {
     inspector_close_table(&workspace->inspector);
     screen_close_window(&workspace->screen); /* of the progress */
+    workspace->commands =
+        (struct command_list){.is_menu = is_menu,
+                              .in_panel = workspace->panel.is_open,
+                              .has_kept = workspace->has_kept};
     command_list_open(&workspace->commands, keys_of(workspace),
-                      &workspace->screen,
-                      (struct command_list){.is_menu = is_menu,
-                                            .in_panel =
-                                                workspace->panel.is_open,
-                                            .has_kept = workspace->has_kept});
+                      &workspace->screen);
     workspace_refresh(workspace);
 }
 

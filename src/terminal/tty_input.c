@@ -11,11 +11,11 @@
 /* Enough for the device attributes of all terminals. */
 #define PARAMS_MAX 32
 
-/* First sequence in the buffer. */
 /* Numbers of the sequences around pasted text. */
 #define MARK_BEGIN 200
 #define MARK_END   201
 
+/* First sequence in the buffer. */
 struct sequence {
     size_t length; /* 0 if incomplete */
     int mark;      /* of pasted text: MARK_BEGIN, MARK_END; 0: none */

@@ -50,20 +50,25 @@ void screen_filter_draft_size(int frame_width, int frame_height, int *width,
     *height = (int)fmax(frame_height * scale, 1.0);
 }
 
+/* Returns true if the draft has this size, or that of a film with fewer pixels.
+ */
+static bool has_size(const struct film *draft, int width, int height,
+                     const struct film *film)
+{
+    return draft->width == int_min(width, film->width) &&
+           draft->height == int_min(height, film->height);
+}
+
 /* Returns true if the draft has the size of one for the frame, or that of the
- * frame, or of a film with fewer pixels. */
+ * frame. */
 static bool fits(const struct film *film, const struct film *draft,
                  const struct frame *frame)
 {
     int width, height;
 
     screen_filter_draft_size(frame->width, frame->height, &width, &height);
-    if (draft->width > width) {
-        width = frame->width;
-        height = frame->height;
-    }
-    return draft->width == int_min(width, film->width) &&
-           draft->height == int_min(height, film->height);
+    return has_size(draft, width, height, film) ||
+           has_size(draft, frame->width, frame->height, film);
 }
 
 /* ---- memory ---- */

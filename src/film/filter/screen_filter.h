@@ -62,8 +62,9 @@ struct screen_films {
 };
 
 /* Fills a frame as film_preview() does, but filtered. Returns false and leaves
- * the frame as it is without memory, or if `surfaces` has not the size of a
- * draft for the frame, or for the film if the frame enlarges it. Blocks. */
+ * the frame as it is without memory, or if `surfaces` has neither the size of a
+ * draft for the frame nor that of the frame, or of the film if the frame
+ * enlarges it. Blocks. */
 bool screen_filter_show(struct screen_filter *f,
                         const struct screen_films *films, struct develop how,
                         enum filter_form form, struct frame *frame);
