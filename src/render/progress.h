@@ -42,7 +42,7 @@ bool render_left_to_error(const struct render_progress *p, double target,
 
 /* ---- speeds ---- */
 
-/* Greatest number of spans: two per column of the diagram. Must be even. */
+/* Greatest number of spans, which is even. */
 #define SPEEDS_MAX 72
 
 struct speeds {

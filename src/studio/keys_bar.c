@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "studio/keys_bar.h"
 
+#include "base/min_max.h"
 #include "base/print.h"
-#include "studio/progress_panel.h"
 
 /* ---- hints ---- */
 
@@ -34,12 +34,10 @@ const struct key_hint *key_hints_draw(enum window_part part, int row, int col,
 /* Columns of a bar beside the picture, at least: for a key and what it does. */
 #define BESIDE_MIN 24
 
-/* Rows of keys in a bar beside the picture, at most and beside the progress. */
-#define KEY_ROWS     HINTS_MAX
-#define KEY_ROWS_MIN 6
-
-/* Rows of the progress, at least. */
-#define ROOM_ROWS_MIN 4
+/* Rows and columns of the graph, at least, and columns for each of its rows. */
+#define ROOM_ROWS  4
+#define ROOM_COLS  BESIDE_MIN
+#define ROOM_SHAPE 3
 
 #define HINT_ACTIONS 6
 
@@ -79,7 +77,7 @@ static const struct hint hints[KEYS_STATES][HINTS_MAX] = {
     [KEYS_NORMAL] = {{"live mode", {ACTION_MODE}},
                      {"start, pause", {ACTION_START}},
                      {"save", {ACTION_SAVE}},
-                     {"meters", {ACTION_METER}},
+                     {"about", {ACTION_ABOUT}},
                      {"compare", {ACTION_KEEP_RENDER}},
                      {"menu", {ACTION_CANCEL}}},
     [KEYS_CURSOR] = {{"leave", {ACTION_CANCEL}},
@@ -90,12 +88,12 @@ static const struct hint hints[KEYS_STATES][HINTS_MAX] = {
                      {"focus", {ACTION_FOCUS}}},
     [KEYS_PANEL] = {{"move", MOVES},
                     {"pick", {ACTION_CURSOR}},
-                    {"meters", {ACTION_METER}},
+                    {"about", {ACTION_ABOUT}},
                     {"compare", {ACTION_KEEP_RENDER}},
                     {"save", {ACTION_SAVE}}},
     [KEYS_PANEL_NORMAL] = {{"live mode", {ACTION_MODE}},
                            {"pick", {ACTION_CURSOR}},
-                           {"meters", {ACTION_METER}},
+                           {"about", {ACTION_ABOUT}},
                            {"compare", {ACTION_KEEP_RENDER}},
                            {"save", {ACTION_SAVE}}},
     [KEYS_ORBIT] = {{"leave the orbit", {ACTION_CANCEL}},
@@ -130,10 +128,7 @@ void keys_bar_lay_out(struct keys_bar *bar, struct screen *screen)
     if (cols - fit->cols >= BESIDE_MIN) {
         fit->col = 0;
         bar->area = (struct window_rect){fit->cols, 0, cols - fit->cols, rows};
-        bar->key_rows = rows - PROGRESS_TEXT_USUAL_ROWS;
-        bar->key_rows = bar->key_rows < KEY_ROWS_MIN ? KEY_ROWS_MIN
-                        : bar->key_rows > KEY_ROWS   ? KEY_ROWS
-                                                     : bar->key_rows;
+        bar->key_rows = int_min(rows, HINTS_MAX);
     } else if (rows > fit->rows) {
         fit->row = 0;
         bar->area = (struct window_rect){0, fit->rows, cols, rows - fit->rows};
@@ -142,14 +137,11 @@ void keys_bar_lay_out(struct keys_bar *bar, struct screen *screen)
     }
 }
 
-const struct window_rect *keys_bar_room(const struct keys_bar *bar,
-                                        struct window_rect *room)
+bool keys_bar_room(const struct keys_bar *bar, struct window_rect *room)
 {
     *room = bar->area;
-    room->rows -= bar->key_rows;
-    return room->rows >= ROOM_ROWS_MIN && room->cols > PROGRESS_TEXT_COLS
-               ? room
-               : NULL;
+    room->rows = int_min(room->rows - bar->key_rows, room->cols / ROOM_SHAPE);
+    return room->rows >= ROOM_ROWS && room->cols >= ROOM_COLS;
 }
 
 enum action keys_bar_action_at(const struct keys_bar *bar, int col, int row)

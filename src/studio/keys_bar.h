@@ -4,7 +4,8 @@
  *
  * A picture of another shape than the window is moved to the left or the top,
  * so that there is one bar, at the right or at the bottom. Keys are at its
- * foot, in one row or one below the other. The rest of it is for the progress.
+ * foot, in one row or one below the other. The rest of it is for the
+ * graph of the error.
  *
  * Units:     terminal cells
  * Ownership: texts stay the caller's
@@ -67,9 +68,9 @@ struct keys_bar {
 /* Moves the picture of a new layout, and finds the bar beside or below it. */
 void keys_bar_lay_out(struct keys_bar *bar, struct screen *screen);
 
-/* Returns the part above the keys if it has room for the progress, or NULL. */
-const struct window_rect *keys_bar_room(const struct keys_bar *bar,
-                                        struct window_rect *room);
+/* Finds the part above the keys. Returns false if it has no room for a graph.
+ */
+bool keys_bar_room(const struct keys_bar *bar, struct window_rect *room);
 
 /* Returns the action of the hint in a cell, or ACTION_NONE. */
 enum action keys_bar_action_at(const struct keys_bar *bar, int col, int row);

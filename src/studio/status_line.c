@@ -16,32 +16,33 @@
 
 enum field {
     FIELD_MODE,
+    FIELD_DEVICE,
+    FIELD_HOW, /* the camera moves, and the picture is made */
     FIELD_KEPT,
     FIELD_FILES,
     FIELD_SAMPLES,
     FIELD_PERCENT,
     FIELD_NOISE,
     FIELD_TARGET, /* ends the field of noise */
-    FIELD_GAUGE,
     FIELD_ELAPSED,
     FIELD_LEFT,
-    FIELD_SPEED,
-    FIELD_MACHINE,
-    FIELD_SIZE,
-    FIELD_COLORS,
     FIELDS
 };
 
-/* Fields in the order in which they are left out if there is no room; that of
- * the machine shrinks to one word, and the mode loses its last word, then all
- * but its name. The first ones are known or shown elsewhere, as in the progress
- * panel; the last ones tell the effect of a key. */
-static const enum field dispensable[] = {
-    FIELD_MACHINE, FIELD_SIZE,    FIELD_SPEED,  FIELD_LEFT,  FIELD_ELAPSED,
-    FIELD_GAUGE,   FIELD_PERCENT, FIELD_TARGET, FIELD_NOISE, FIELD_MODE,
-    FIELD_COLORS,  FIELD_MODE,    FIELD_SAMPLES};
+/* Fields in the order in which they are left out if there is no room; the mode
+ * becomes one word. The last ones tell the effect of a key, and stay longer
+ * than the hint of the help. */
+static const enum field dispensable[] = {FIELD_ELAPSED, FIELD_TARGET,
+                                         FIELD_PERCENT, FIELD_LEFT,
+                                         FIELD_NOISE,   FIELD_HOW,
+                                         FIELD_SAMPLES, FIELD_MODE,
+                                         FIELD_KEPT,    FIELD_FILES};
 
-#define GAUGE_COLS 8
+#define BEFORE_HELP 7
+#define DISPENSABLE ((int)(sizeof dispensable / sizeof dispensable[0]))
+
+/* What follows the key of the help. */
+#define HELP " help "
 
 void status_line_duration(char *text, size_t size_bytes, uint64_t ns)
 {
@@ -126,6 +127,15 @@ static void format_left_fields(char text[FIELDS][FIELD_BYTES],
     snprintf(text[FIELD_LEFT], FIELD_BYTES, "left %s", duration);
 }
 
+/* Formats the error of what is seen. */
+static void format_filtered(char text[FIELDS][FIELD_BYTES], double error)
+{
+    char percent[ERROR_TEXT_BYTES];
+
+    error_text_percent(percent, error);
+    snprintf(text[FIELD_NOISE], FIELD_BYTES, "error ~%.32s", percent);
+}
+
 /* Formats the error and the time to the limit of -e or, without one, to a round
  * error, unless another limit comes before. */
 static void format_noise(char text[FIELDS][FIELD_BYTES],
@@ -149,82 +159,38 @@ static void format_noise(char text[FIELDS][FIELD_BYTES],
              duration);
 }
 
-bool status_line_part(const struct render_progress *p, double *part)
-{
-    struct render_left left = render_left(p);
-    double ns;
-
-    *part = left.part;
-    if (left.limit != RENDER_LIMIT_NONE)
-        return true;
-    if (p->state != RENDER_RUNNING ||
-        !render_left_to_error(p, error_text_target(p->film_error.high), &ns))
-        return false;
-    *part = (double)p->render_ns / ((double)p->render_ns + ns);
-    return true;
-}
-
-static void format_speed(char text[FIELD_BYTES],
-                         const struct render_progress *p)
-{
-    double samples = (double)(p->samples + p->draft_samples);
-    double speed =
-        p->render_ns > 0 ? samples * 1e9 / (double)p->render_ns : 0.0;
-
-    if (speed >= 1e9)
-        snprintf(text, FIELD_BYTES, "%.2f Gsamples/s", speed * 1e-9);
-    else if (speed >= 1e6)
-        snprintf(text, FIELD_BYTES, "%.2f Msamples/s", speed * 1e-6);
-    else
-        snprintf(text, FIELD_BYTES, "%.0f ksamples/s", speed * 1e-3);
-}
-
-static void format_machine(char text[FIELD_BYTES], const struct status_line *s,
-                           bool is_short)
-{
-    if (is_short)
-        snprintf(text, FIELD_BYTES, "%s", s->device ? "OpenCL" : "CPU");
-    else if (s->device)
-        snprintf(text, FIELD_BYTES, "OpenCL %.24s", s->device);
-    else
-        snprintf(text, FIELD_BYTES, "CPU %d thread%s", s->thread_count,
-                 print_plural((uint64_t)s->thread_count));
-}
-
 static void format_fields(char text[FIELDS][FIELD_BYTES],
-                          const struct status_line *s, double *part)
+                          const struct status_line *s)
 {
     const struct render_progress *p = s->progress;
 
-    /* the coloured mode ends with a blank, and another one is between them */
-    snprintf(text[FIELD_MODE], FIELD_BYTES, "%s%s%s%s%s", mode_word(s),
-             s->is_orbiting || s->passes_walls || s->is_filtered ? " " : "",
+    snprintf(text[FIELD_MODE], FIELD_BYTES, "%s", mode_word(s));
+    snprintf(text[FIELD_HOW], FIELD_BYTES, "%s%s%s",
              s->is_orbiting ? " orbit" : "",
              s->passes_walls ? " through walls" : "",
              s->is_filtered ? " filtered" : "");
-    format_machine(text[FIELD_MACHINE], s, false);
+    if (s->has_device)
+        snprintf(text[FIELD_DEVICE], FIELD_BYTES, "OpenCL");
     if (s->restore_key)
         snprintf(text[FIELD_KEPT], FIELD_BYTES, "kept: %.8s", s->restore_key);
     if (s->load_key)
         snprintf(text[FIELD_FILES], FIELD_BYTES, "changed: %.8s loads",
                  s->load_key);
-    snprintf(text[FIELD_SIZE], FIELD_BYTES, "%dx%d", s->width_px, s->height_px);
-    snprintf(text[FIELD_COLORS], FIELD_BYTES, "%s", s->colors);
     if (!s->is_live && !s->is_started)
         return;
     format_samples(text[FIELD_SAMPLES], p);
     format_left_fields(text, p);
-    format_noise(text, p);
-    if (status_line_part(p, part))
-        snprintf(text[FIELD_GAUGE], FIELD_BYTES, "%*s", GAUGE_COLS, "");
+    if (s->is_filtered)
+        format_filtered(text, s->filtered_error);
+    else
+        format_noise(text, p);
     status_line_duration(text[FIELD_ELAPSED], FIELD_BYTES, p->render_ns);
-    format_speed(text[FIELD_SPEED], p);
 }
 
 /* Returns the blanks before a field. */
 static int gap_before(int field)
 {
-    return field == FIELD_TARGET ? 0 : 2;
+    return field == FIELD_TARGET ? 0 : field == FIELD_HOW ? 1 : 2;
 }
 
 static int length_of(char text[FIELDS][FIELD_BYTES])
@@ -240,30 +206,6 @@ static void add_span(struct status_row *row, int col, int cols,
                      enum text_role role)
 {
     row->spans[row->span_count++] = (struct status_span){col, cols, role};
-}
-
-/* Returns the columns of the hints with a blank at the end. */
-static int hint_columns(const struct status_line *s)
-{
-    int cols = 0;
-
-    for (int i = 0; i < STATUS_LINE_HINTS && s->hints[i][0]; i++)
-        cols += (int)(strlen(s->hints[i][0]) + strlen(s->hints[i][1])) + 3;
-    return cols > 0 ? cols - 1 : 0;
-}
-
-static void add_hints(struct status_row *row, const struct status_line *s,
-                      int col)
-{
-    for (int i = 0; i < STATUS_LINE_HINTS && s->hints[i][0]; i++) {
-        int key = (int)strlen(s->hints[i][0]);
-        int word = (int)strlen(s->hints[i][1]);
-
-        memcpy(row->text + col, s->hints[i][0], (size_t)key);
-        memcpy(row->text + col + key + 1, s->hints[i][1], (size_t)word);
-        add_span(row, col, key, ROLE_STATUS_KEY);
-        col += key + 1 + word + 2;
-    }
 }
 
 /* Makes a row of blanks. All of it is set, so that rows can be compared. */
@@ -286,21 +228,14 @@ static void mark_mode(struct status_row *row, const struct status_line *s,
     add_span(row, 0, cols < room ? cols : room, mode_role(s));
 }
 
-/* Leaves out a field, or a part of it. `is_last` says that of the mode only the
- * name is to stay. */
-static void leave_out(char text[FIELDS][FIELD_BYTES], enum field field,
-                      const struct status_line *s, bool is_last)
+/* Puts the hint of the help at the right end. */
+static void add_help(struct status_row *row, const char *key, int col)
 {
-    size_t length = strlen(mode_word(s));
+    size_t length = strlen(key);
 
-    if (field == FIELD_MACHINE)
-        format_machine(text[field], s, true);
-    else if (field != FIELD_MODE)
-        text[field][0] = '\0';
-    else if (is_last)
-        text[field][length] = '\0';
-    else if (strlen(text[field]) > length)
-        *strrchr(text[field], ' ') = '\0';
+    memcpy(row->text + col, key, length);
+    memcpy(row->text + col + length, HELP, sizeof HELP - 1);
+    add_span(row, col, (int)length, ROLE_STATUS_KEY);
 }
 
 void status_line_format(struct status_row *row, int cols,
@@ -308,25 +243,17 @@ void status_line_format(struct status_row *row, int cols,
 {
     char fields[FIELDS][FIELD_BYTES] = {{0}};
     int room = begin_row(row, cols, ROLE_STATUS);
-    int hint = hint_columns(s), length;
-    const char *mode = mode_word(s);
+    int help = (int)(strlen(s->help_key) + sizeof HELP - 1);
+    size_t word = strcspn(mode_word(s), " ");
     int at = -1; /* the first field has a gap as well */
-    double part = 0;
+    int length;
 
-    format_fields(fields, s, &part);
-    for (size_t i = 0; i < sizeof dispensable / sizeof dispensable[0]; i++) {
-        if (1 + length_of(fields) + hint <= room)
-            break;
-        leave_out(fields, dispensable[i], s, fields[FIELD_COLORS][0] == '\0');
-    }
-    if (1 + length_of(fields) > room) /* what renders comes before its state */
-        fields[FIELD_MODE][strcspn(mode, " ")] = '\0';
-    for (int i = FIELD_KEPT; i <= FIELD_FILES; i++)
-        if (1 + length_of(fields) > room)
-            fields[i][0] = '\0';
-    length = (int)strlen(fields[FIELD_MODE]);
-    mark_mode(row, s, length < (int)strlen(mode) ? length : (int)strlen(mode),
-              room);
+    format_fields(fields, s);
+    for (int i = 0; i < DISPENSABLE; i++)
+        if (1 + length_of(fields) + (i < BEFORE_HELP ? help : 0) > room)
+            fields[dispensable[i]][dispensable[i] == FIELD_MODE ? word : 0] =
+                '\0';
+    mark_mode(row, s, (int)strlen(fields[FIELD_MODE]), room);
     for (int i = 0; i < FIELDS; i++) {
         int begin = at + gap_before(i);
 
@@ -335,14 +262,9 @@ void status_line_format(struct status_row *row, int cols,
             continue;
         memcpy(row->text + begin, fields[i], (size_t)length);
         at = begin + length;
-        if (i == FIELD_GAUGE) {
-            row->gauge_col = begin;
-            row->gauge_cols = length;
-            row->gauge = part;
-        }
     }
-    if (at + 2 + hint <= room)
-        add_hints(row, s, room - hint);
+    if (at + 2 + help <= room)
+        add_help(row, s->help_key, room - help);
 }
 
 void status_line_message(struct status_row *row, int cols,
@@ -355,7 +277,7 @@ void status_line_message(struct status_row *row, int cols,
     int length, begin = 1;
 
     snprintf(mode, sizeof mode, "%s%s", mode_word(s),
-             s->device ? " OpenCL" : "");
+             s->has_device ? " OpenCL" : "");
     length = (int)strlen(mode);
     if (length + 3 > rest)
         length = (int)strcspn(mode, " ");

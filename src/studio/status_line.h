@@ -18,36 +18,25 @@
 #include "render/render_loop.h"
 #include "terminal/screen.h"
 
-#define STATUS_LINE_HINTS 2
-
 struct status_line {
     bool is_live;
     bool is_orbiting;
     bool passes_walls;
     bool is_filtered;        /* the picture shown is */
+    double filtered_error;   /* of that picture, an estimate */
     bool is_halted;          /* the user has paused the render */
     bool is_started;         /* normal mode has begun a render */
+    bool has_device;         /* OpenCL renders */
     const char *restore_key; /* goes on with a kept session; NULL: none is */
     const char *load_key;    /* key that loads changed files; NULL if none has
                                 changed */
+    const char *help_key;
     const struct render_progress *progress;
-    const char *device; /* NULL for the CPU with thread_count threads */
-    int thread_count;
-    int width_px, height_px;
-    const char *colors; /* name of the palette, such as "24 bit" */
-    /* keys at the right end with what they do; none after a NULL */
-    const char *hints[STATUS_LINE_HINTS][2];
 };
 
-/* Formats the line for `cols` columns. A gauge shows how much of the way to the
- * nearest limit is done, or to the next round error. */
+/* Formats the line for `cols` columns. */
 void status_line_format(struct status_row *row, int cols,
                         const struct status_line *s);
-
-/* Finds the part of the way to the nearest limit that is done, or without one
- * the part of the time to the next round error. Returns false if it is unknown.
- */
-bool status_line_part(const struct render_progress *p, double *part);
 
 /* Formats a time in seconds, rounded down: 7 s, 1:07, 2:01:07. */
 void status_line_duration(char *text, size_t size_bytes, uint64_t ns);

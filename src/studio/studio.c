@@ -293,7 +293,7 @@ static const struct command commands[ACTIONS] = {
     [ACTION_COLORS] = {.workspace = workspace_next_colors},
     [ACTION_THEME] = {.workspace = workspace_next_theme},
     [ACTION_GLYPHS] = {.workspace = workspace_next_glyphs},
-    [ACTION_METER] = {.workspace = workspace_switch_progress},
+    [ACTION_ABOUT] = {.workspace = workspace_switch_about},
     [ACTION_HIDE] = {.workspace = workspace_switch_status},
     [ACTION_MOUSE] = {.studio = switch_mouse},
     [ACTION_REDRAW] = {.workspace = workspace_layout},

@@ -8,8 +8,8 @@
 #include "base/min_max.h"
 #include "film/filter/screen_filter.h"
 #include "session/live_render.h"
+#include "studio/error_graph.h"
 #include "studio/panel_draw.h"
-#include "studio/progress_panel.h"
 #include "studio/status_line.h"
 #include "terminal/screen.h"
 
@@ -102,7 +102,7 @@ void workspace_refresh(struct workspace *workspace)
     workspace->is_settled = false;
     workspace->frame_ns = 0;
     workspace->status_ns = 0;
-    workspace->progress_panel.due_ns = 0;
+    workspace->facts_ns = 0;
 }
 
 void workspace_expect(struct session *s)
@@ -198,55 +198,33 @@ void workspace_ask(struct workspace *workspace, const char *prompt)
 
 /* ---- windows ---- */
 
-/* Returns the room of the bar if the progress is shown there, as from the
- * start, or NULL. */
-static const struct window_rect *progress_bar(const struct workspace *workspace,
-                                              struct window_rect *room)
+/* Closes the window about the render: there is one window at a time. */
+static void close_about(struct workspace *workspace)
 {
-    return workspace->progress_panel.leaves_bar
-               ? NULL
-               : keys_bar_room(&workspace->keys_bar, room);
-}
-
-static bool shows_progress(const struct workspace *workspace)
-{
-    struct window_rect room;
-
-    return !workspace->commands.list.is_open &&
-           !workspace->screen.is_too_small &&
-           (workspace->progress_panel.is_on || progress_bar(workspace, &room));
-}
-
-/* A bar with all lines needs no window. */
-void workspace_switch_progress(struct workspace *workspace)
-{
-    struct window_rect room;
-
-    if (keys_bar_room(&workspace->keys_bar, &room) &&
-        room.rows >= PROGRESS_TEXT_USUAL_ROWS) {
-        workspace->progress_panel.leaves_bar =
-            !workspace->progress_panel.leaves_bar;
-        workspace_layout(workspace);
-        return;
-    }
-    inspector_stop_drawing(
-        &workspace->inspector); /* there is one window at a time */
-    workspace->progress_panel.is_on = !workspace->progress_panel.is_on;
-    if (!workspace->progress_panel.is_on)
+    if (workspace->has_about)
         screen_close_window(&workspace->screen);
-    if (workspace->panel.is_open) { /* there is no room for both */
-        editor_panel_close(&workspace->panel);
-        workspace_layout(workspace);
+    workspace->has_about = false;
+}
+
+void workspace_switch_about(struct workspace *workspace)
+{
+    bool opens = !workspace->has_about;
+
+    close_about(workspace);
+    if (opens) {
+        inspector_stop_drawing(&workspace->inspector);
+        if (workspace->panel.is_open) { /* there is no room for both */
+            editor_panel_close(&workspace->panel);
+            workspace_layout(workspace);
+        }
     }
+    workspace->has_about = opens;
     workspace_refresh(workspace);
 }
 
 void workspace_next_drawing(struct workspace *workspace)
 {
-    if (workspace->progress_panel.is_on) { /* there is one window at a time */
-        workspace->progress_panel.is_on = false;
-        screen_close_window(&workspace->screen);
-    }
+    close_about(workspace);
     inspector_next_drawing(&workspace->inspector);
 }
 
@@ -290,7 +268,7 @@ bool workspace_take_back_glyphs(struct workspace *workspace)
 void workspace_switch_status(struct workspace *workspace)
 {
     workspace->screen.has_status_row = !workspace->screen.has_status_row;
-    workspace->progress_panel.is_on = false;
+    workspace->has_about = false;
     workspace_layout(workspace);
 }
 
@@ -299,7 +277,7 @@ void workspace_open_panel(struct workspace *workspace)
     if (workspace->camera->cursor.has_pick)
         editor_panel_select(&workspace->panel, &workspace->camera->cursor.pick);
     editor_panel_open(&workspace->panel);
-    workspace->progress_panel.is_on = false; /* there is no room for both */
+    workspace->has_about = false; /* there is no room for both */
     workspace_layout(workspace);
 }
 
@@ -312,7 +290,7 @@ void workspace_open_light(struct workspace *workspace)
 static void open_list(struct workspace *workspace, bool is_menu)
 {
     inspector_close_table(&workspace->inspector);
-    screen_close_window(&workspace->screen); /* of the progress */
+    screen_close_window(&workspace->screen); /* about the render */
     workspace->commands =
         (struct command_list){.is_menu = is_menu,
                               .in_panel = workspace->panel.is_open,
@@ -373,13 +351,9 @@ static bool says_filtered(const struct workspace *workspace, uint64_t now_ns)
 static void update_status(struct workspace *workspace, uint64_t now_ns)
 {
     const struct live_render *control = workspace->control;
-    const struct film *film = film_of(workspace);
-    const struct backend *backend =
-        render_backend(control->session->engine.render);
     struct keymap_name load = live_render_key(control, ACTION_RELOAD);
     struct keymap_name restore = live_render_key(control, ACTION_RESTORE);
     struct keymap_name help = live_render_key(control, ACTION_HELP);
-    struct keymap_name quit = live_render_key(control, ACTION_QUIT);
     const char *legend = workspace->comparison.legend[0] != '\0'
                              ? workspace->comparison.legend
                              : workspace->inspector.view_mode.legend;
@@ -388,17 +362,15 @@ static void update_status(struct workspace *workspace, uint64_t now_ns)
         .is_orbiting = workspace->camera->input.is_orbiting,
         .passes_walls = workspace->camera->passes_walls,
         .is_filtered = says_filtered(workspace, now_ns),
+        .filtered_error = workspace->inspector.view_mode.filter.error,
         .is_halted = control->is_halted,
         .is_started = control->is_started,
+        .has_device =
+            render_backend(control->session->engine.render)->device != NULL,
         .load_key = control->has_changed_files ? load.text : NULL,
         .restore_key = workspace->has_kept ? restore.text : NULL,
+        .help_key = help.text,
         .progress = &control->progress,
-        .device = backend->device,
-        .thread_count = backend->thread_count,
-        .width_px = film->width,
-        .height_px = film->height,
-        .colors = palette_name(workspace->screen.display.palette),
-        .hints = {{help.text, "help"}, {quit.text, "quit"}},
     };
     int cols = term_size().cols;
     struct status_row row;
@@ -422,26 +394,19 @@ static void update_status(struct workspace *workspace, uint64_t now_ns)
     screen_status(&workspace->screen, &row);
 }
 
-/* The status line ends with the hints of these actions. */
-static const enum action status_actions[STATUS_LINE_HINTS] = {ACTION_HELP,
-                                                              ACTION_QUIT};
-
+/* The status line ends with the hint of the help. */
 enum action workspace_hint_at(const struct workspace *workspace, int col,
                               int row)
 {
     const struct status_row *status = &workspace->screen.status;
-    enum action action = ACTION_NONE;
-    int hint = 0;
 
     if (row != term_size().rows - 1)
         return keys_bar_action_at(&workspace->keys_bar, col, row);
     for (int i = 0; i < status->span_count && workspace->screen.has_status; i++)
-        if (status->spans[i].role == ROLE_STATUS_KEY) {
-            if (col >= status->spans[i].col)
-                action = status_actions[hint];
-            hint++;
-        }
-    return action;
+        if (status->spans[i].role == ROLE_STATUS_KEY &&
+            col >= status->spans[i].col)
+            return ACTION_HELP;
+    return ACTION_NONE;
 }
 
 /* Processor time of the calling thread. */
@@ -491,6 +456,28 @@ static void show_messages(struct workspace *workspace, uint64_t now_ns)
     workspace->status_ns =
         now_ns + (frame_pacing_is_slow(&workspace->screen.pace) ? STATUS_SLOW_NS
                                                                 : STATUS_NS);
+}
+
+/* Time between two updates of the graph and the window about the render, long
+ * enough to read the numbers; on a slow line the picture needs the bytes. */
+#define FACTS_NS      (500 * MS_NS)
+#define FACTS_SLOW_NS (2 * S_NS)
+
+static void draw_facts(struct workspace *workspace, uint64_t now_ns)
+{
+    struct screen *screen = &workspace->screen;
+    struct window_rect room;
+
+    if (now_ns < workspace->facts_ns || screen->is_too_small)
+        return;
+    if (keys_bar_room(&workspace->keys_bar, &room))
+        error_graph_draw(workspace->control, screen, &room,
+                         says_filtered(workspace, now_ns));
+    if (workspace->has_about && !workspace->commands.list.is_open)
+        about_window_draw(workspace->control, screen);
+    workspace->facts_ns =
+        now_ns +
+        (frame_pacing_is_slow(&screen->pace) ? FACTS_SLOW_NS : FACTS_NS);
 }
 
 static void outline_selection(struct workspace *workspace)
@@ -653,16 +640,11 @@ bool workspace_draw(struct workspace *workspace, enum keys_state keys,
     bool shows = !live_render_awaits_picture(workspace->control) &&
                  !workspace->is_settled && frame_due_ns(workspace) <= now_ns;
     uint64_t begin_ns = used_ns();
-    struct window_rect room;
     enum screen_result result;
 
     show_messages(workspace, now_ns);
     keys_bar_draw(&workspace->keys_bar, workspace->control, screen, keys);
-    if (shows_progress(workspace) &&
-        now_ns >= progress_panel_next_ns(&workspace->progress_panel,
-                                         workspace->control))
-        progress_panel_draw(&workspace->progress_panel, workspace->control,
-                            screen, progress_bar(workspace, &room), now_ns);
+    draw_facts(workspace, now_ns);
     if ((!shows && !screen->must_update) ||
         !frame_pacing_may_send(&screen->pace))
         return true;
@@ -733,11 +715,10 @@ uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns)
         next = u64_min(next, frame_due_ns(workspace));
     if (control->progress.state == RENDER_RUNNING || workspace->status_ns == 0)
         next = u64_min(next, workspace->status_ns);
+    if (control->progress.state == RENDER_RUNNING || workspace->facts_ns == 0)
+        next = u64_min(next, workspace->facts_ns);
     if (editor_panel_is_busy(&workspace->panel))
         next = u64_min(next, now_ns + FRAME_FIRST_NS);
-    if (shows_progress(workspace))
-        next = u64_min(next, progress_panel_next_ns(&workspace->progress_panel,
-                                                    control));
     if (control->message.until_ns != 0)
         next = u64_min(next, control->message.until_ns);
     else if (workspace->glyph_choice.lack_ns != 0)
@@ -747,7 +728,6 @@ uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns)
 
 void workspace_free(struct workspace *workspace)
 {
-    progress_panel_free(&workspace->progress_panel);
     inspector_free(&workspace->inspector);
     editor_panel_free(&workspace->panel);
     comparison_free(&workspace->comparison);

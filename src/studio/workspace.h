@@ -3,9 +3,10 @@
  * workspace.h - the layout of the screen: the picture, the editor panel beside
  * it, one window over it and the status line; and when each is drawn
  *
- * The list of commands, the progress panel and the inspector's table share the
- * window. The list hides the others while it is open. A window of progress and
- * the editor panel exclude each other, as there is room for one of them.
+ * The list of commands, the window about the render and the inspector's table
+ * share the window. The list hides the others while it is open. The window
+ * about the render and the editor panel exclude each other, as there is room
+ * for one of them.
  *
  * Units:     nanoseconds of clock_ns()
  * Ownership: control and camera stay the caller's and outlive it;
@@ -20,6 +21,7 @@
 #include <stdint.h>
 
 #include "session/live_render.h"
+#include "studio/about_window.h"
 #include "studio/camera/camera_control.h"
 #include "studio/comparison.h"
 #include "studio/editor_panel.h"
@@ -27,7 +29,6 @@
 #include "studio/inspector.h"
 #include "studio/keys_bar.h"
 #include "studio/command_list.h"
-#include "studio/progress_panel.h"
 #include "terminal/screen.h"
 
 struct workspace {
@@ -38,7 +39,7 @@ struct workspace {
     struct inspector inspector;
     struct comparison comparison;
     struct editor_panel panel;
-    struct progress_panel progress_panel; /* hidden while the list is open */
+    bool has_about; /* window about the render; hidden while the list is open */
     struct command_list commands;
     struct keys_bar keys_bar;
     struct glyph_choice glyph_choice;
@@ -53,6 +54,7 @@ struct workspace {
     uint64_t layout_ns; /* when a layout was made that no frame has; 0: none */
     uint64_t frame_ns;  /* when a new frame is due */
     uint64_t status_ns; /* when the status line is formatted next */
+    uint64_t facts_ns;  /* when the graph and the window about it are */
     uint64_t filtered_until_ns; /* the status line says so until then */
     int width_px, height_px;    /* size of the picture in this layout */
 };
@@ -81,7 +83,7 @@ void workspace_ask(struct workspace *workspace, const char *prompt);
 enum action workspace_hint_at(const struct workspace *workspace, int col,
                               int row);
 
-void workspace_switch_progress(struct workspace *workspace);
+void workspace_switch_about(struct workspace *workspace);
 void workspace_open_panel(struct workspace *workspace);
 
 /* Opens the panel at the page of light. */

@@ -252,8 +252,6 @@ struct window_rect windows_open(enum window_place place, int foot_rows,
     }
     if (place == WINDOW_BOTTOM_LEFT)
         r.row = rows - r.rows;
-    if (place == WINDOW_TOP_RIGHT)
-        r.col = COLS - r.cols;
     window = newwin(r.rows, r.cols, r.row, r.col);
     if (!window)
         return (struct window_rect){0};

@@ -61,7 +61,7 @@ void windows_hide_status(void);
 enum window_place {
     WINDOW_MIDDLE,
     WINDOW_BOTTOM_LEFT, /* above the last rows */
-    WINDOW_TOP_RIGHT
+    WINDOW_TOP_LEFT
 };
 
 /* Opens a window with these lines and a title and returns where it is. One at

@@ -9,7 +9,6 @@
 #include "base/clock.h"
 #include "base/min_max.h"
 #include "image/frame.h"
-#include "terminal/gauge.h"
 #include "terminal/kitty.h"
 
 /* Longest wait for answers in screen_drain(). */
@@ -227,16 +226,11 @@ static struct ansi_diff_rect last_row(const struct screen *screen)
 static void draw_status(const struct screen *screen)
 {
     const struct status_row *row = &screen->status;
-    const struct term_caps *d = &screen->display;
-    struct cell cells[STATUS_GAUGE_MAX];
 
     windows_text(WINDOW_STATUS, 0, 0, term_size().cols, row->role, row->text);
     for (int i = 0; i < row->span_count; i++)
         windows_text(WINDOW_STATUS, 0, row->spans[i].col, row->spans[i].cols,
                      row->spans[i].role, row->text + row->spans[i].col);
-    gauge_cells(cells, row->gauge_cols, row->gauge,
-                theme_style(d->theme, d->palette, ROLE_GAUGE), d->has_unicode);
-    windows_paint(WINDOW_STATUS, 0, row->gauge_col, cells, row->gauge_cols);
 }
 
 void screen_status(struct screen *screen, const struct status_row *row)

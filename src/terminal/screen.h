@@ -30,8 +30,7 @@ struct status_span {
     enum text_role role;
 };
 
-#define STATUS_SPANS     6
-#define STATUS_GAUGE_MAX 16
+#define STATUS_SPANS 2
 
 /* The last row. Text before the end of a span is ASCII. */
 struct status_row {
@@ -39,8 +38,6 @@ struct status_row {
     enum text_role role;
     struct status_span spans[STATUS_SPANS];
     int span_count;
-    int gauge_col, gauge_cols; /* no columns: there is no gauge */
-    double gauge;              /* its filled part */
 };
 
 struct screen {

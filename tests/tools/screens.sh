@@ -36,7 +36,7 @@ objects 1.5 Escape Tab Down Down
 light 1 Tab
 help 1 Escape question
 search 1 n o i s e
-progress 4 Escape Escape g
+about 4 Escape Escape g
 compare 1.5 g K Tab Tab Down Down Down Down Down Down Return Down Down parenleft parenleft parenleft parenleft Escape Escape
 differences 5 y
 normals 2 Escape n n

@@ -244,7 +244,8 @@ bool film_filter(struct film *f, struct pool *pool, struct film *filtered,
                          f->width, f->height);
 
     if (ok) {
-        filter_run(&filter, &source, FILTER_FULL, pool, rgb, NULL);
+        filter_run(&filter, &source, FILTER_FULL, pool,
+                   &(struct filter_result){.rgb = rgb});
         filter_free(&filter);
         pool_each(pool, (uint32_t)f->height, store_row,
                   &(struct result){f, filtered, rgb});
@@ -333,7 +334,8 @@ bool film_filter_squares(struct film_squares *s, struct pool *pool,
                          f->width, f->height);
 
     if (ok) {
-        filter_run(&filter, &source, FILTER_FULL, pool, e.rgb, e.variance);
+        filter_run(&filter, &source, FILTER_FULL, pool,
+                   &(struct filter_result){e.rgb, e.variance, NULL});
         filter_free(&filter);
         pool_each(pool, (uint32_t)f->height, estimate_row, &e);
         s->is_known = cancel == NULL || !cancel_requested(cancel);

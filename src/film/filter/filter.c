@@ -58,7 +58,7 @@ struct job {
     float mean_samples;
     float light_scale;
     struct filter_level level;
-    float *rgb, *variance;
+    struct filter_result result;
 };
 
 static bool is_cancelled(const struct job *j)
@@ -595,6 +595,17 @@ static void add_variance(const struct job *j, float a, float b, ptrdiff_t at,
         to[c] += sum * (1.0f / 3.0f) * divisor(p, c, at) * divisor(p, c, at);
 }
 
+static void add_difference(const struct job *j, ptrdiff_t at, float *to)
+{
+    const struct filter_planes *p = &j->filter->planes;
+    const struct filter_halves *halves = &p->halves[j->level.from];
+
+    for (int c = 0; c < 3; c++)
+        to[c] += 0.5f / j->light_scale *
+                 (halves->light[0][c][at] - halves->light[1][c][at]) *
+                 divisor(p, c, at);
+}
+
 /* Adds a row of the filtered component to the picture. */
 static void add_row(void *context, uint32_t item, int worker)
 {
@@ -603,11 +614,11 @@ static void add_row(void *context, uint32_t item, int worker)
     const struct filter_planes *p = &f->planes;
     const struct filter_halves *halves = &p->halves[j->level.from];
     ptrdiff_t at = (int)item * p->pitch;
-    float *rgb = j->rgb + 3 * (size_t)item * (size_t)p->width;
+    size_t to = 3 * (size_t)item * (size_t)p->width;
     float unit = 1.0f / j->light_scale;
 
     (void)worker;
-    for (int x = 0; x < p->width; x++, at++) {
+    for (int x = 0; x < p->width; x++, at++, to += 3) {
         bool has_gap = !(f->count[0][at] > 0.0f && f->count[1][at] > 0.0f);
         float a = has_gap ? 1.0f : f->count[0][at];
         float b = has_gap ? 1.0f : f->count[1][at];
@@ -618,11 +629,12 @@ static void add_row(void *context, uint32_t item, int worker)
                 (a * halves->light[0][c][at] + b * halves->light[1][c][at]) *
                 inverse;
 
-            rgb[3 * x + c] += light * divisor(p, c, at);
+            j->result.rgb[to + (size_t)c] += light * divisor(p, c, at);
         }
-        if (j->variance != NULL)
-            add_variance(j, a, b, at,
-                         j->variance + (rgb - j->rgb) + 3 * (ptrdiff_t)x);
+        if (j->result.variance != NULL)
+            add_variance(j, a, b, at, j->result.variance + to);
+        if (j->result.difference != NULL)
+            add_difference(j, at, j->result.difference + to);
     }
 }
 
@@ -652,7 +664,7 @@ static void run_component(struct job *j, enum filter_form form,
                                   .step = 1 << l,
                                   .has_opposite = forms[form].has_opposite,
                                   .is_last = l == forms[form].levels - 1 &&
-                                             j->variance == NULL};
+                                             j->result.variance == NULL};
         if (pool == NULL) {
             run_level(j);
             continue;
@@ -665,20 +677,19 @@ static void run_component(struct job *j, enum filter_form form,
 }
 
 void filter_run(struct filter *f, const struct filter_source *source,
-                enum filter_form form, struct pool *pool, float *rgb,
-                float *variance)
+                enum filter_form form, struct pool *pool,
+                const struct filter_result *result)
 {
     const struct filter_planes *p = &f->planes;
     uint32_t rows = (uint32_t)p->height;
-    size_t size_bytes = (size_t)p->width * rows * 3 * sizeof *rgb;
-    struct job j = {.filter = f,
-                    .source = source,
-                    .rgb = rgb,
-                    .variance = variance};
+    size_t size_bytes = (size_t)p->width * rows * 3 * sizeof *result->rgb;
+    struct job j = {.filter = f, .source = source, .result = *result};
 
-    memset(rgb, 0, size_bytes);
-    if (variance != NULL)
-        memset(variance, 0, size_bytes);
+    memset(result->rgb, 0, size_bytes);
+    if (result->variance != NULL)
+        memset(result->variance, 0, size_bytes);
+    if (result->difference != NULL)
+        memset(result->difference, 0, size_bytes);
     pool_each(pool, rows, load_row, &j);
     j.depth_scale = depth_scale(p);
     j.mean_samples = mean_samples(f);

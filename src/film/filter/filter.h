@@ -74,11 +74,17 @@ enum filter_form {
 bool filter_init(struct filter *f, int width, int height, struct error *err);
 void filter_free(struct filter *f);
 
-/* Filters a picture. Writes the sum of the components to rgb, 3 floats for each
- * pixel, and to variance, unless it is NULL, the variance that noise leaves in
- * it. The pool may be NULL. Blocks. */
+/* Three numbers for each pixel, of the sum of the components. */
+struct filter_result {
+    float *rgb;
+    float *variance;   /* that noise leaves in it, estimated; NULL: not asked */
+    float *difference; /* half of that of the filtered halves, which has this
+                          variance in the mean; NULL: not asked */
+};
+
+/* Filters a picture. The pool may be NULL. Blocks. */
 void filter_run(struct filter *f, const struct filter_source *source,
-                enum filter_form form, struct pool *pool, float *rgb,
-                float *variance);
+                enum filter_form form, struct pool *pool,
+                const struct filter_result *result);
 
 #endif

@@ -18,11 +18,14 @@
 #define CHANGE_MIN 0.25f
 #define CHANGE_MAX 1.0f
 
+/* Largest noise of a pixel that counts, relative to white. */
+#define NOISE_MAX 1e9f
+
 /* Stride of the pixels among which the greatest depth is searched. */
 #define FAR_STRIDE 4
 
 /* Floats of a pixel in the planes. */
-#define PLANES (2 + 2 * 3)
+#define PLANES (2 + 3 * 3)
 
 /* Floats of a pixel in the row that is processed. */
 #define ROWS (3 + 2)
@@ -104,6 +107,7 @@ static void take_planes(struct screen_filter *f)
     f->change = next + pixels;
     f->raw = next + 2 * pixels;
     f->rgb = next + 5 * pixels;
+    f->difference = next + 8 * pixels;
     f->changes = f->rows;
     f->shares = f->changes + 3 * f->width;
     f->largest = f->shares + f->width + 1;
@@ -382,6 +386,21 @@ static void put_row(const struct target *t, int y)
     }
 }
 
+static double find_error(const struct screen_filter *f, float factor)
+{
+    size_t pixels = (size_t)f->width * (size_t)f->height;
+    double sum = 0;
+
+    for (size_t i = 0; i < 3 * pixels; i++) {
+        float light = factor * f->rgb[i];
+        float noise = f_min(fabsf(factor * f->difference[i]), NOISE_MAX);
+
+        sum += (double)((1.0f - f->seen[i / 3]) * noise * noise /
+                        (light * light + FILM_ERROR_BLACK));
+    }
+    return SCREEN_FILTER_ERROR * sqrt(sum / (3.0 * (double)pixels));
+}
+
 bool screen_filter_show(struct screen_filter *f,
                         const struct screen_films *shown, struct develop how,
                         enum filter_form form, struct frame *frame)
@@ -396,7 +415,9 @@ bool screen_filter_show(struct screen_filter *f,
         return false;
     screen_halves_begin(&f->halves);
     context.far = film_features_far(surfaces, FAR_STRIDE);
-    filter_run(&f->filter, &source, form, NULL, f->rgb, NULL);
+    filter_run(&f->filter, &source, form, NULL,
+               &(struct filter_result){f->rgb, NULL, f->difference});
+    f->error = find_error(f, develop_factor(how));
     if (has_detail(f))
         screen_detail_find(&f->detail, film, f->rgb, f->seen);
     for (int y = 0; y < f->height; y++)

@@ -71,7 +71,7 @@ wait_for "LIVE .* [1-9][0-9]* spp"
 keys p
 wait_for "wall.*png: File to"
 keys g
-wait_for "progress"
+wait_for "about this render"
 expect "wall.*png: File to"
 wait_for "LIVE .* spp" # at its time
 keys C-q

@@ -8,7 +8,9 @@ has()
 size=100x21
 start --color 256 flat.obj
 has '48;5;13[0-9]m\|48;5;172m\|48;5;136m'
-expect "256 colours"
+keys g
+wait_for "256 colours"
+keys g
 keys C
 wait_for "16 colours"
 has '\[4[0-9]m'
@@ -27,7 +29,9 @@ for case in "GLIM_COLOR=256:256 colours" "NO_COLOR=1:mono" \
     "TERM=xterm TMUX= COLORTERM=truecolor:24 bit"; do
     fresh
     start_line "export TERM=tmux-256color; env ${case%:*} glim flat.obj"
-    wait_for "LIVE .*  ${case#*:} "
+    wait_for "LIVE "
+    keys g
+    wait_for "  ${case#*:} *│"
     keys C-q
     expect_end 0 cleared
     reject "LIVE"
@@ -36,7 +40,9 @@ done
 # What is asked for wins over NO_COLOR.
 fresh
 start_line "TERM=tmux-256color NO_COLOR=1 glim --color=24bit flat.obj"
-wait_for "LIVE .*  24 bit "
+wait_for "LIVE "
+keys g
+wait_for "  24 bit *│"
 keys C-q
 expect_end 0
 fresh

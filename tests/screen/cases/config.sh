@@ -6,7 +6,7 @@ mkdir glim
 printf 'key quit x\nkey help F1 y\noption color 16\noption glyph ascii\n' \
     >glim/config
 start_line "TERM=tmux-256color XDG_CONFIG_HOME=$PWD glim flat.obj"
-wait_for "LIVE.*F1 help  x quit"
+wait_for "LIVE.*F1 help"
 reject "▀"
 keys '?' # does nothing now
 keys y

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The panel while files of the scene change: what is edited and not saved is not
 # thrown away, what glim has written itself is no change, and a pick of the scene
-# before is gone; progress and the panel take each other's place.
+# before is gone; the window about the render and the panel take each other's place.
 lamp_scene
 printf 'newmtl l\nKd 0 0 0\nKe 1 1 1\n' >lamp.mtl
 size=100x24
@@ -40,15 +40,13 @@ keys C-s
 wait_for "wrote 1 material to lamp.mtl"
 wait_until_gone "wrote 1 material" # a load would say so in its place
 reject "changed\|loaded"
-# some of the progress is below the picture, all of it is in a window, but not
-# beside the panel
-wait_for "spp  *no limit"
+# the window about the render is not beside the panel
 keys g
-wait_for "┌─ progress ─"
+wait_for "┌─ about this render ─"
 reject "Materials"
 keys Tab
 wait_for "Materials"
-reject "progress"
+reject "about this"
 # what was picked is of the scene before
 keys Escape
 wait_until_gone "Materials"

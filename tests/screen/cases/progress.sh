@@ -1,40 +1,38 @@
 # SPDX-License-Identifier: MIT
-# The panel of progress: numbers as text, also where the window is small and
-# there is no Unicode; the same as JSON at the end.
+# The window about the render: numbers as text, also where the window is small
+# and there is no Unicode; the graph of the noise; the same as JSON at the end.
 lamp_scene
 size=80x24
 start --stats run.json -s 40 -t 2 lamp.obj
 wait_for "LIVE .* spp"
 keys g
-wait_for "┌─ progress ─"
-wait_for "spp  *no limit"
-wait_for "2 threads  *busy [0-9]* %"
-wait_for "samples/s .*, most "
+wait_for "┌─ about this render ─"
+wait_for "CPU, 2 threads  *busy [0-9]* %"
+wait_for "of rendering  *no limit"
 keys Space Enter
-wait_for "40 of 40 spp  *100.0 %"
-wait_for "██████████"
-wait_for "samples  *200 k .*/s"
-wait_for "busy 0 %"
+wait_for "100x50 pixels  *40 of 40 spp"
+wait_for "samples  *200 k .*samples/s"
+wait_for "of rendering  *left 0 s"
 # it is still there after the help and after another size, and at rest
 keys '?'
 wait_for "Esc back"
-reject "progress ─"
+reject "about this render ─"
 keys Escape
-wait_for "┌─ progress ─"
-wait_for "40 of 40 spp  *100.0 %"
+wait_for "┌─ about this render ─"
+wait_for "40 of 40 spp"
 mux resize-window -x 60 -y 20
 wait_for "samples  *200 k .*/s"
 wait_until rests
 keys g
-wait_until_gone "progress"
+wait_until_gone "about this"
 keys g
-wait_for "progress"
+wait_for "about this"
 keys i # nothing but the picture
-wait_until_gone "progress"
+wait_until_gone "about this"
 reject "NORMAL"
 keys i
 wait_for "NORMAL done"
-reject "progress"
+reject "about this"
 keys C-q y
 expect_end 0
 for line in '"spp": 40,' '"samples": 200000,' '"percent": 100,' '"left_s": 0,' \
@@ -54,13 +52,14 @@ awk -F'[][,:]' '/"span_s"/ { span = $2 } /"render_s"/ { render = $2 }
     }' run.json || die "speeds: $(cat run.json)"
 
 fresh
+size=120x24
 start_line "LC_ALL=C TERM=tmux-256color glim -t 1 --stats - lamp.obj"
 wait_for "LIVE .* spp"
+wait_for "noise over time"
+wait_for "[#|:][#|:]* *[.]*" # the graph
 keys g
-wait_for "progress"
-wait_for "samples/s .*, most "
-wait_for " [#|:.][#|:.]* "
-wait_for "1 thread  *busy"
+wait_for "about this render"
+wait_for "CPU, 1 thread  *busy"
 keys C-q
 expect_end 0 cleared
 expect '"percent": null,'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The panel of progress shows each rank of a cluster. One that is stopped is
+# The window about the render shows each rank of a cluster. One that is stopped is
 # late, goes on, and is no longer.
 mpi=${BUILD:-build/release}/mpi/glim
 case $mpi in
@@ -19,7 +19,7 @@ keys g
 wait_for "2 ranks  "
 wait_for "rank 0  *[0-9.]* [kMG] .* [kMG]/s"
 wait_for "rank 1  *[0-9.]* [kMG] .* [kMG]/s"
-wait_for "elapsed  *[4-9] s"
+wait_for "[4-9] s of rendering"
 worker=$(pgrep -f -- "$mpi --worker.* -t 3")
 kill -STOP "$worker"
 wait_for "2 ranks  *1 late"

@@ -15,7 +15,7 @@ wait_for "w *move forward"
 keys Escape
 wait_until_gone "move forward"
 keys g # the window leaves the status line
-wait_for "progress"
+wait_for "about this render"
 expect "LIVE .*? help"
 keys g
 keys v

@@ -92,7 +92,8 @@ static float *filtered_with(struct picture *p, enum filter_form form,
 
     assert_true(filter_init(&f, p->width, p->height, &err));
     f.loops = loops;
-    filter_run(&f, &source, form, pool, rgb, variance);
+    filter_run(&f, &source, form, pool,
+               &(struct filter_result){rgb, variance, NULL});
     filter_free(&f);
     return rgb;
 }

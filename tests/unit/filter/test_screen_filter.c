@@ -10,6 +10,7 @@
 
 #include "tests/unit/check.h"
 
+#include "film/film_error.h"
 #include "film/filter/screen_filter.h"
 
 #define WIDTH  64
@@ -204,6 +205,29 @@ static void noise_falls(void **state)
     close_films();
 }
 
+/* Without edges nothing is blurred, and the error is the noise that is left. */
+static void the_noise_left_is_known(void **state)
+{
+    double truth = 0, told = 0;
+
+    (void)state;
+    for (uint64_t run = 0; run < 40; run++) {
+        open_films(1);
+        for (uint64_t i = 0; i < 2; i++)
+            add_samples(&draft, 1, 2 * run + i, noisy_light);
+        show(&draft);
+        for (int i = 0; i < BYTES; i++) {
+            double light = 0.4 / (1 << i % 3);
+
+            truth += pow(filter.rgb[i] - light, 2) /
+                     (light * light + FILM_ERROR_BLACK) / BYTES;
+        }
+        told += pow(filter.error / SCREEN_FILTER_ERROR, 2);
+        close_films();
+    }
+    check_close(told, truth, 0.15 * told);
+}
+
 static bool is_lamp(float x, float y)
 {
     return x >= 20 && x < 24 && y >= 20 && y < 23;
@@ -304,6 +328,7 @@ int main(void)
         cmocka_unit_test(constant_light_stays),
         cmocka_unit_test(pictures_without_noise_stay),
         cmocka_unit_test(noise_falls),
+        cmocka_unit_test(the_noise_left_is_known),
         cmocka_unit_test(lamps_stay_sharp),
         cmocka_unit_test(edges_under_a_black_sky_stay),
         cmocka_unit_test(other_frames_stay),
