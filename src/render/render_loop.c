@@ -152,8 +152,9 @@ static void take_file(struct render_films *f, struct film_file *from)
 static bool render_films_reset(struct render_films *f,
                                const struct render_job *job, struct error *err)
 {
-    if (!reset_film(&f->film, job->crop.width, job->crop.height,
-                    has_surfaces(job), err) ||
+    if (!(job->keeps_film ||
+          reset_film(&f->film, job->crop.width, job->crop.height,
+                     has_surfaces(job), err)) ||
         !reset_draft(&f->draft, job, err) ||
         !reset_adaptive(&f->adaptive, job, err))
         return false;
@@ -660,6 +661,18 @@ static void start_run(struct render *r, uint64_t steps)
     pthread_cond_signal(&r->begin);
 }
 
+/* Sets the state to that of an empty film. */
+static void begin_empty(struct render *r)
+{
+    r->spp_done = 0;
+    r->run_before_ns = 0;
+    r->has_shares = false;
+    r->has_error = true; /* that of no sample is unknown */
+    r->film_error = (struct film_error){0};
+    r->trend = (struct render_trend){.count = 0};
+    r->build_ns = 0;
+}
+
 /* Sets the state to that of a file whose film was taken over. The error at the
  * end of a pass decides whether the render goes on, and a film that was saved
  * within a pass has been found to go on. */
@@ -684,15 +697,10 @@ bool render_start(struct render *r, const struct render_job *job,
     r->estimate_ns = 0;
     pthread_mutex_lock(&r->lock);
     r->limits = job->limits;
-    r->spp_done = 0;
     r->draft_spp_done = 0;
-    r->run_before_ns = 0;
-    r->has_shares = false;
     r->first_picture_ns = 0;
-    r->has_error = true; /* that of no sample is unknown */
-    r->film_error = (struct film_error){0};
-    r->trend = (struct render_trend){.count = 0};
-    r->build_ns = 0;
+    if (!job->keeps_film)
+        begin_empty(r);
     if (job->from != NULL)
         go_on(r, job->from);
     start_run(r, job->steps);

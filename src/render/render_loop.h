@@ -48,6 +48,9 @@ struct render_job {
      * of the crop if larger. There is no draft if either is 0. */
     int draft_width, draft_height;
     bool draft_has_surfaces; /* for the filter of the screen */
+    /* the picture is that of the job before, but for the draft and the kind of
+     * samples: its film stays, and is gone on with when light is rendered */
+    bool keeps_film;
     /* index of the first sample of each pixel; even */
     uint64_t first_sample;
     /* samples to go on from, of the same picture, which are taken out of the

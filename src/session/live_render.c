@@ -128,24 +128,20 @@ static void wait_copied(struct live_render *control)
     background_wait_copied(&control->keeping.copying);
 }
 
-/* Starts a picture, of one step if `steps` is 1, or from the samples of a film
- * (NULL: none). */
-static void begin(struct live_render *control, uint64_t steps,
-                  struct film_file *from)
+/* Starts a picture within the limits of the mode. */
+static void begin(struct live_render *control, struct session_start start)
 {
-    struct session_start start = {.limits = limits_of(control),
-                                  .steps = steps,
-                                  .from = from};
     struct error err;
 
     wait_copied(control);
+    start.limits = limits_of(control);
     if (!session_start(control->session, &start, &err))
         live_render_say_error(control, err.text);
     if (control->session->notice[0] != '\0')
         live_render_say_error(control, control->session->notice);
     control->session->notice[0] = '\0';
-    control->is_halted = steps > 0;
-    control->has_gone_on = false;
+    control->is_halted = start.steps > 0;
+    control->has_gone_on = start.from != NULL;
     control->saved_samples = 0;
     control->saving_samples = 0; /* both counted the old picture */
     if (control->session->files_version != control->watched_version)
@@ -162,7 +158,7 @@ bool live_render_is_outdated(const struct live_render *control)
 
 static void restart(struct live_render *control)
 {
-    begin(control, 0, NULL);
+    begin(control, (struct session_start){.from = NULL});
 }
 
 bool live_render_init(struct live_render *control, struct session *session,
@@ -346,7 +342,7 @@ static void start_normal(struct live_render *control, uint64_t steps)
 {
     control->is_started = true;
     live_render_clear_message(control);
-    begin(control, steps, NULL);
+    begin(control, (struct session_start){.steps = steps});
 }
 
 static void say_done(struct live_render *control)
@@ -401,14 +397,20 @@ void live_render_restart(struct live_render *control)
                         live_render_key(control, ACTION_START).text);
 }
 
+void live_render_renew_draft(struct live_render *control)
+{
+    control->has_changed = true;
+    if (control->is_live)
+        begin(control, (struct session_start){.keeps_film = true});
+}
+
 void live_render_go_on(struct live_render *control, bool is_live,
                        struct film_file *from)
 {
     control->has_changed = true;
     control->is_live = is_live;
     control->is_started = !is_live;
-    begin(control, 0, from);
-    control->has_gone_on = from != NULL;
+    begin(control, (struct session_start){.from = from});
 }
 
 /* ---- backends ---- */

@@ -155,6 +155,8 @@ bool session_start(struct session *s, const struct session_start *start,
     struct cl_request request;
     struct render_job job;
 
+    bool keeps = start->keeps_film && !session_is_outdated(s);
+
     render_halt(e->render);
     s->rendered_version = s->edit.version;
     if (!apply_edit(s, &view, err) || !engine_prepare(e, &view, &job, err))
@@ -163,13 +165,16 @@ bool session_start(struct session *s, const struct session_start *start,
     job.steps = start->steps;
     job.first_sample = start->first_sample;
     job.from = start->from;
+    job.keeps_film = keeps;
     request = engine_request(e, job.world.settings.features);
     if (is_live)
         add_draft(s, &job);
     s->restart_ns = clock_ns();
-    s->speeds = (struct speeds){0};
-    s->errors.count = 0;
-    thread_load_begin(&s->load, render_backend(e->render));
+    if (!keeps) {
+        s->speeds = (struct speeds){0};
+        s->errors.count = 0;
+        thread_load_begin(&s->load, render_backend(e->render));
+    }
     if (!engine_start(e, &job, err))
         return false;
     /* restarts repay the time of a special build */

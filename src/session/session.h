@@ -75,6 +75,9 @@ struct session_start {
     /* samples to go on from, of the same picture, which are taken out of the
      * film; NULL: none */
     struct film_file *from;
+    /* live mode as before, but for the draft's size and the kind of samples:
+     * the film stays if the edit has not changed */
+    bool keeps_film;
 };
 
 /* Halts and starts with the shown state of the edit. */

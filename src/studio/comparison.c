@@ -65,6 +65,7 @@ uint64_t snapshot_bytes(const struct snapshot *k)
 void snapshot_free(struct snapshot *k)
 {
     free(k->pixels);
+    frame_free(&k->shown);
     *k = (struct snapshot){.pixels = NULL};
 }
 
@@ -210,7 +211,9 @@ bool snapshot_differences(const struct snapshot *k, struct film *film, int cols,
     /* the tail of a normal distribution is below exp(-bound^2 / 2) */
     bound = sqrt(2 * log(3 * count / FALSE_ALARMS));
     b->significant_count = 0;
+    b->is_unknown = true;
     for (int i = 0; i < count; i++) {
+        b->is_unknown = b->is_unknown && sums[i].is_unknown;
         b->blocks[i] = block_of(&sums[i], bound);
         b->significant_count += b->blocks[i].is_significant;
     }
@@ -312,6 +315,11 @@ static void format_legend(struct comparison *c)
                  "COMPARE  left: kept %d of %d, %" PRIu64
                  " spp, %.40s; right: now",
                  c->chosen + 1, c->count, k->spp, noise);
+    else if (c->blocks.is_unknown)
+        snprintf(c->legend, sizeof c->legend,
+                 "DIFFERENCES  to kept %d of %d: two samples of each pixel are "
+                 "needed in both",
+                 c->chosen + 1, c->count);
     else
         snprintf(
             c->legend, sizeof c->legend,
@@ -330,7 +338,7 @@ static void change(struct comparison *c)
 
 /* ---- actions ---- */
 
-void comparison_keep(struct comparison *c)
+void comparison_keep(struct comparison *c, struct frame *shown)
 {
     const struct render_progress *p = &c->control->progress;
     struct snapshot kept;
@@ -339,10 +347,12 @@ void comparison_keep(struct comparison *c)
     drop_others(c);
     if (p->samples == 0) {
         live_render_say(c->control, "nothing to keep yet");
+        frame_free(shown);
         return;
     }
     if (!snapshot_take(&kept, film_of(c), &err)) {
         live_render_say_error(c->control, err.text);
+        frame_free(shown);
         return;
     }
     while (c->count == COMPARISON_KEPT_MAX ||
@@ -351,6 +361,9 @@ void comparison_keep(struct comparison *c)
         drop(c, 0);
     kept.spp = p->spp_done;
     kept.error = p->film_error;
+    kept.shown = *shown;
+    kept.develop = session_develop(c->control->session);
+    *shown = (struct frame){.rgb = NULL};
     c->kept[c->count] = kept;
     c->chosen = c->count++;
     c->mode = COMPARISON_WIPE;
@@ -409,6 +422,33 @@ bool comparison_takes(struct comparison *c, enum action action)
 
 /* ---- painting ---- */
 
+static bool is_same(struct develop a, struct develop b)
+{
+    return a.tone == b.tone && !(a.exposure < b.exposure) &&
+           !(a.exposure > b.exposure);
+}
+
+/* Paints a kept render as the screen showed it. Returns false if it was not
+ * filtered, or developed in another way. */
+static bool paint_shown(const struct snapshot *k, struct develop how,
+                        struct frame *frame)
+{
+    const struct frame *shown = &k->shown;
+    uint8_t *to = frame->rgb;
+
+    if (shown->rgb == NULL || !is_same(k->develop, how))
+        return false;
+    for (int y = 0; y < frame->height; y++) {
+        const uint8_t *row =
+            shown->rgb + 3 * (size_t)shown->width *
+                             (size_t)area_cell(y, shown->height, frame->height);
+
+        for (int x = 0; x < frame->width; x++, to += 3)
+            memcpy(to, row + 3 * area_cell(x, shown->width, frame->width), 3);
+    }
+    return true;
+}
+
 /* Paints kept render i in the size of the frame, and small. */
 static bool paint_kept(struct comparison *c, int i, const struct frame *frame)
 {
@@ -423,7 +463,8 @@ static bool paint_kept(struct comparison *c, int i, const struct frame *frame)
         frame_free(&c->painted[i]);
         return false;
     }
-    snapshot_paint(&c->kept[i], c->develop, &c->painted[i]);
+    if (!paint_shown(&c->kept[i], c->develop, &c->painted[i]))
+        snapshot_paint(&c->kept[i], c->develop, &c->painted[i]);
     snapshot_paint(&c->kept[i], c->develop, &c->thumbs[i]);
     return true;
 }
@@ -519,8 +560,7 @@ void comparison_paint(struct comparison *c, struct frame *frame)
     if (c->mode == COMPARISON_OFF)
         return;
     if (c->width != frame->width || c->height != frame->height ||
-        c->develop.tone != how.tone || c->develop.exposure < how.exposure ||
-        c->develop.exposure > how.exposure) {
+        !is_same(c->develop, how)) {
         forget_painted(c);
         c->width = frame->width;
         c->height = frame->height;

@@ -36,6 +36,8 @@ struct snapshot {
     struct snapshot_pixel *pixels;
     uint64_t spp;
     struct film_error error;
+    struct frame shown; /* as the screen showed it, filtered; no pixels: none */
+    struct develop develop; /* of that frame */
 };
 
 struct snapshot_pixel {
@@ -60,6 +62,7 @@ struct snapshot_blocks {
         bool is_significant;
     } * blocks;
     int significant_count;
+    bool is_unknown; /* no block has two samples of each pixel in both */
 };
 
 /* Finds the blocks in which the film differs from the kept render. There are no
@@ -108,8 +111,9 @@ struct comparison {
 void comparison_init(struct comparison *c, struct live_render *control);
 
 /* Keeps the present render and compares with it. The oldest one goes if there
- * are too many. */
-void comparison_keep(struct comparison *c);
+ * are too many. Takes the frame that shows it filtered, for the wipe; one
+ * without pixels: it is not filtered. */
+void comparison_keep(struct comparison *c, struct frame *shown);
 
 /* Shows the wipe, then the differences, then neither. */
 void comparison_next(struct comparison *c);

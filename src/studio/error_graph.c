@@ -19,8 +19,8 @@
  * be squeezed. */
 #define AHEAD_MAX 100
 
-/* Columns of the labels at the left, "over 9999 %" at most. */
-#define LABEL_COLS 7
+/* Columns of the labels at the left, such as "0.0010 %". */
+#define LABEL_COLS 9
 
 /* ---- plot ---- */
 

@@ -42,7 +42,7 @@ static void draw_over(struct inspector *inspector, struct frame *frame)
         overlay_path(frame, &camera, &w, &inspector->trail, inspector->step);
 }
 
-void inspector_preview(struct inspector *inspector, struct frame *frame)
+void inspector_picture(struct inspector *inspector, struct frame *frame)
 {
     struct render *render = session_of(inspector)->engine.render;
 
@@ -52,6 +52,11 @@ void inspector_preview(struct inspector *inspector, struct frame *frame)
                           ? render_surfaces(render)
                           : NULL,
                       frame);
+}
+
+void inspector_preview(struct inspector *inspector, struct frame *frame)
+{
+    inspector_picture(inspector, frame);
     draw_over(inspector, frame);
 }
 
@@ -367,8 +372,8 @@ void inspector_switch_filter(struct inspector *inspector)
     struct session *s = session_of(inspector);
 
     s->is_filtered = !s->is_filtered;
-    if (s->is_filtered && inspector->control->is_live && !s->draft_has_surfaces)
-        live_render_restart(inspector->control);
+    if (s->is_filtered && !s->draft_has_surfaces)
+        live_render_renew_draft(inspector->control);
     live_render_say(inspector->control,
                     s->is_filtered ? "the screen's picture is filtered"
                                    : "the screen's picture is not filtered");
@@ -386,9 +391,8 @@ static void show(struct inspector *inspector, enum show_kind kind)
         live_render_say_error(inspector->control, err.text);
     s->sample = view_mode_sample(inspector->view_mode.kind);
     inspector->control->has_changed = true;
-    if (inspector->control->is_live && s->sample != before)
-        live_render_restart(
-            inspector->control); /* the film has samples of the old kind */
+    if (s->sample != before) /* the draft has samples of the old kind */
+        live_render_renew_draft(inspector->control);
 }
 
 void inspector_turn_view(struct inspector *inspector, int by)

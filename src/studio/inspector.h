@@ -54,8 +54,9 @@ struct inspector {
 void inspector_init(struct inspector *inspector, struct live_render *control,
                     struct screen *screen, struct pick_cursor *cursor);
 
-/* Fills a frame for the screen with the render in the current view mode and the
- * drawings over it. */
+/* Fill a frame for the screen with the render in the current view mode, without
+ * or with the drawings over it. */
+void inspector_picture(struct inspector *inspector, struct frame *frame);
 void inspector_preview(struct inspector *inspector, struct frame *frame);
 
 /* Switches to the next (1) or previous (-1) view mode: light, preview, normals,

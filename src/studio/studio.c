@@ -268,7 +268,7 @@ static const struct command commands[ACTIONS] = {
     [ACTION_SAVE_VIEW] = {.studio = write_view},
     [ACTION_VIEW_NEXT] = {.inspector_by = inspector_turn_view, .by = 1},
     [ACTION_VIEW_BACK] = {.inspector_by = inspector_turn_view, .by = -1},
-    [ACTION_KEEP_RENDER] = {.comparison = comparison_keep},
+    [ACTION_KEEP_RENDER] = {.workspace = workspace_keep_render},
     [ACTION_COMPARE] = {.comparison = comparison_next},
     [ACTION_FILTER] = {.inspector = inspector_switch_filter},
     [ACTION_DRAWING] = {.workspace = workspace_next_drawing},

@@ -73,21 +73,23 @@ static bool is_current(const struct session *s, const struct film *draft)
 }
 
 /* Sets the draft's size for the present layout of the screen, which the filter
- * decides when it is on. The present draft is resampled until the next restart;
- * a young picture restarts at once. */
+ * decides when it is on. The filter needs a draft of this size at once; other
+ * drafts are resampled until the next restart. */
 static void screen_draft_fit(struct live_render *control,
                              const struct screen *screen)
 {
     struct session *s = control->session;
-    const struct film *young = render_draft(s->engine.render);
+    const struct film *draft = render_surfaces(s->engine.render);
 
     screen_draft_expect(s, &screen->fit);
     if (s->is_filtered)
         screen_filter_draft_size(screen->frame_width, screen->frame_height,
                                  &s->draft_width, &s->draft_height);
-    if (control->is_live && !control->is_halted && s->draft_has_surfaces &&
-        young && !screen->is_too_small && !is_current(s, young))
-        live_render_restart(control);
+    if (draft == NULL)
+        draft = render_draft(s->engine.render);
+    if (!control->is_halted && s->draft_has_surfaces && draft != NULL &&
+        !screen->is_too_small && !is_current(s, draft))
+        live_render_renew_draft(control);
 }
 
 /* ---- parts ---- */
@@ -220,6 +222,20 @@ void workspace_switch_about(struct workspace *workspace)
     }
     workspace->has_about = opens;
     workspace_refresh(workspace);
+}
+
+void workspace_keep_render(struct workspace *workspace)
+{
+    const struct frame *frame = &workspace->frame;
+    struct inspector *inspector = &workspace->inspector;
+    struct frame shown = {.rgb = NULL};
+    struct error ignored;
+
+    if (inspector->view_mode.kind == SHOW_LIGHT &&
+        inspector->view_mode.is_filtered && frame->width > 0 &&
+        frame_init(&shown, frame->width, frame->height, &ignored))
+        inspector_picture(inspector, &shown);
+    comparison_keep(&workspace->comparison, &shown);
 }
 
 void workspace_next_drawing(struct workspace *workspace)
@@ -492,17 +508,6 @@ static void outline_selection(struct workspace *workspace)
     editor_panel_outline(&workspace->panel, &camera, &workspace->frame);
 }
 
-/* Shows light as it was rendered, without the filter: kept renders have none.
- */
-static void compare(struct workspace *workspace)
-{
-    struct session *session = workspace->control->session;
-
-    film_preview(render_film(session->engine.render), NULL,
-                 session_develop(session), &workspace->frame);
-    comparison_paint(&workspace->comparison, &workspace->frame);
-}
-
 static void dim(struct frame *frame)
 {
     size_t count = 3 * (size_t)frame->width * (size_t)frame->height;
@@ -514,7 +519,8 @@ static void dim(struct frame *frame)
 static void paint(struct workspace *workspace)
 {
     if (workspace->comparison.mode != COMPARISON_OFF) {
-        compare(workspace);
+        inspector_picture(&workspace->inspector, &workspace->frame);
+        comparison_paint(&workspace->comparison, &workspace->frame);
     } else {
         inspector_preview(&workspace->inspector, &workspace->frame);
         outline_selection(workspace);

@@ -83,6 +83,9 @@ void workspace_ask(struct workspace *workspace, const char *prompt);
 enum action workspace_hint_at(const struct workspace *workspace, int col,
                               int row);
 
+/* Keeps the render as it is shown, and compares with it. */
+void workspace_keep_render(struct workspace *workspace);
+
 void workspace_switch_about(struct workspace *workspace);
 void workspace_open_panel(struct workspace *workspace);
 

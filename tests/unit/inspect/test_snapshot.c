@@ -101,6 +101,7 @@ static void light_is_marked(void **state)
     /* a block's mean has a relative error of 1/32, times the root of 2 */
     assert_in_range(count_marked(&blocks, true), 15, 16);
     assert_int_equal(count_marked(&blocks, false), 0);
+    assert_false(blocks.is_unknown);
     for (int i = 0; i < blocks.cols * blocks.rows; i++)
         if (blocks.blocks[i].is_significant)
             check_close((double)blocks.blocks[i].difference, 0.4 / 1.2, 0.2);
@@ -157,6 +158,7 @@ static void young_films_are_not_marked(void **state)
     assert_true(snapshot_differences(&kept, &now, 3, 2, &blocks, &err));
     assert_int_equal(blocks.cols * blocks.rows, 6);
     assert_int_equal(blocks.significant_count, 0);
+    assert_true(blocks.is_unknown);
     snapshot_blocks_free(&blocks);
     snapshot_free(&kept);
     film_free(&before);

@@ -209,6 +209,47 @@ static struct render_progress wait_for_done(struct render *r)
 
 /* The limit of time counts rendering only, and the samples that it cuts off are
  * not lost: the picture can be completed. */
+/* Drafts of other sizes and of numbers between its passes change no bit of a
+ * film. */
+static void a_film_outlives_drafts(void **state)
+{
+    static struct mesh m;
+    struct render *whole = open_render(2), *kept = open_render(2);
+    struct render_job job, other;
+    struct error err;
+    int drafts = 0;
+
+    (void)state;
+    make_room(&m);
+    job = job_of(&m, 40);
+    assert_true(render_start(whole, &job, &err));
+    assert_true(render_start(kept, &job, &err));
+    while (!render_wait(kept, 1)) {
+        other = job;
+        other.keeps_film = true;
+        other.draft_width = 10 + drafts % 7;
+        other.draft_height = 20;
+        other.draft_has_surfaces = drafts % 2 == 0;
+        if (drafts % 3 == 0) {
+            other.world.settings.sample = SAMPLE_NORMAL;
+            other.limits = (struct render_limits){0};
+        }
+        assert_true(render_start(kept, &other, &err));
+        if (drafts++ % 3 == 0)
+            render_wait(kept, -1);
+        other.world.settings.sample = SAMPLE_LIGHT;
+        other.limits = job.limits;
+        assert_true(render_start(kept, &other, &err));
+    }
+    assert_true(drafts > 3);
+    render_wait(whole, -1);
+    assert_int_equal(render_progress(kept).spp_done, 40);
+    assert_same_film(render_film(whole), render_film(kept));
+    close_render(whole);
+    close_render(kept);
+    mesh_free(&m);
+}
+
 static void time_ends_a_render(void **state)
 {
     const uint64_t limit_ns = 200000000;
@@ -508,6 +549,7 @@ int main(void)
         cmocka_unit_test(long_passes_are_complete),
         cmocka_unit_test(instruction_sets_give_the_same_bits),
         cmocka_unit_test(halts_lose_and_repeat_no_samples),
+        cmocka_unit_test(a_film_outlives_drafts),
         cmocka_unit_test(time_ends_a_render),
         cmocka_unit_test(errors_belong_to_the_film),
         cmocka_unit_test(no_time_gives_no_sample),

@@ -478,6 +478,41 @@ static void messages_name_the_chosen_keys(void **state)
                         "nothing is rendered yet: Enter starts");
 }
 
+/* A new draft keeps the samples, and those of a picture before a move of the
+ * camera are gone. */
+static void new_drafts_keep_the_samples(void **state)
+{
+    struct live_render *w = &((struct fixture *)*state)->control;
+    uint64_t samples;
+
+    w->session->draft_width = 20;
+    w->session->draft_height = 12;
+    live_render_set_live(w, true);
+    while (w->progress.spp_done < 4)
+        live_render_update(w);
+    for (int i = 0; i < 6; i++) {
+        samples = w->progress.samples;
+        w->session->sample = i % 2 == 0 ? SAMPLE_NORMAL : SAMPLE_LIGHT;
+        w->session->draft_width = 10 + i;
+        live_render_renew_draft(w);
+        assert_true(w->progress.samples >= samples);
+        while (live_render_awaits_picture(w))
+            live_render_update(w);
+        assert_true(w->progress.samples >= samples);
+    }
+    samples = w->progress.samples;
+    while (w->progress.samples == samples)
+        live_render_update(w);
+    render_halt(w->session->engine.render);
+    samples = render_progress(w->session->engine.render).samples;
+    move(w);
+    w->session->sample = SAMPLE_NORMAL; /* whose film stays empty */
+    live_render_renew_draft(w);
+    assert_true(samples > 0);
+    assert_int_equal(w->progress.samples, 0);
+    w->session->sample = SAMPLE_LIGHT;
+}
+
 int main(void)
 {
 #define WORK_TEST(f) cmocka_unit_test_setup_teardown(f, open_work, close_work)
@@ -486,6 +521,7 @@ int main(void)
         WORK_TEST(moving_restarts_the_render),
         WORK_TEST(moving_shows_pictures),
         WORK_TEST(drafts_are_live),
+        WORK_TEST(new_drafts_keep_the_samples),
         WORK_TEST(normal_mode_renders_to_its_end),
         WORK_TEST(halted_renders_go_on),
         WORK_TEST(live_mode_pauses),
