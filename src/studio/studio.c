@@ -24,15 +24,9 @@
 #include "studio/camera/camera_control.h"
 #include "studio/panel_draw.h"
 #include "studio/workspace.h"
-#include "terminal/tty_input.h"
+#include "terminal/tty_events.h"
 
-#define MS_NS UINT64_C(1000000)
-#define S_NS  UINT64_C(1000000000)
-#define NEVER UINT64_MAX
-
-/* An ESC byte is the Esc key if no byte follows within this time; it begins the
- * sequence of another key otherwise. */
-#define ESCAPE_NS (50 * MS_NS)
+#define S_NS UINT64_C(1000000000)
 
 /* Factor of the speed of moves by capitals. */
 #define MOVES_FAST 10
@@ -53,9 +47,8 @@ struct studio {
     struct camera_control camera;
     struct workspace workspace;
     struct autosave autosave;
-    struct tty_input input;
-    uint64_t byte_ns; /* time of the last byte of input */
-    int pace;         /* of moves by the present key: 1, or MOVES_FAST */
+    struct tty_events events;
+    int pace; /* of moves by the present key: 1, or MOVES_FAST */
     bool has_mouse;
     enum question question; /* question that waits for an answer */
     char question_text[96]; /* of QUESTION_VIEW */
@@ -82,8 +75,8 @@ static void studio_end(struct studio *studio, int status)
 /* Stops the program until the shell continues it. */
 static void studio_suspend(struct studio *studio)
 {
-    screen_drain(&studio->workspace.screen, &studio->input);
-    studio->input.length = 0; /* keys typed after ^Z are for the shell */
+    screen_drain(&studio->workspace.screen, &studio->events.input);
+    studio->events.input.length = 0; /* keys typed after ^Z are for the shell */
     tty_suspend();
     workspace_layout(&studio->workspace);
 }
@@ -751,9 +744,6 @@ static void take_key(struct studio *studio, int key)
 
 /* ---- events ---- */
 
-/* A pasted text whose end does not come is over after this time. */
-#define PASTE_NS (2 * S_NS)
-
 /* Gives a character of a pasted text to the field that takes text, if there is
  * one: no key of it is a command. */
 static void take_pasted(struct studio *studio, int key)
@@ -809,8 +799,9 @@ static void take_mouse(struct studio *studio, const struct event *event)
     follow_pick(studio);
 }
 
-static void take_event(struct studio *studio, const struct event *event)
+static bool take_event(void *context, const struct event *event)
 {
+    struct studio *studio = context;
     struct workspace *workspace = &studio->workspace;
     enum palette palette = workspace->screen.display.palette;
     enum theme theme = workspace->screen.display.theme;
@@ -834,35 +825,16 @@ static void take_event(struct studio *studio, const struct event *event)
             workspace->screen.display.theme != theme)
             draw_panel(studio);
     }
-}
-
-static void take_byte_events(struct studio *studio, bool nothing_follows)
-{
-    struct event event;
-
-    while (!studio->is_ending &&
-           tty_input_next(&studio->input, nothing_follows, &event))
-        take_event(studio, &event);
+    return !studio->is_ending;
 }
 
 /* Takes all keys that wait before the next frame is drawn. */
 static void take_input(struct studio *studio)
 {
-    unsigned char bytes[1024];
-    int count;
-
-    while (!studio->is_ending && (count = tty_read(bytes, sizeof bytes)) != 0) {
-        if (count < 0) {
-            studio->is_gone = true;
-            studio_end(studio, 128 + SIGHUP);
-            return;
-        }
-        if (clock_ns() > studio->byte_ns + PASTE_NS)
-            studio->input.is_pasting = false;
-        studio->byte_ns = clock_ns();
-        tty_input_feed(&studio->input, bytes, (size_t)count);
-        take_byte_events(studio, false);
-    }
+    if (tty_events_read(&studio->events, take_event, studio))
+        return;
+    studio->is_gone = true;
+    studio_end(studio, 128 + SIGHUP);
 }
 
 static void take_signals(struct studio *studio)
@@ -902,21 +874,12 @@ enum {
     FDS
 };
 
-/* When a sequence that is not complete is taken as it is. The terminal's
- * answers may come in pieces, so they have longer than a lone ESC. */
-static uint64_t input_deadline_ns(const struct studio *studio)
-{
-    if (!tty_input_is_partial(&studio->input))
-        return NEVER;
-    return studio->byte_ns + (studio->input.length == 1 ? ESCAPE_NS : S_NS);
-}
-
 /* When the loop has to go on if no descriptor wakes it. */
 static uint64_t wake_ns(const struct studio *studio, uint64_t now_ns)
 {
     return u64_min(workspace_next_ns(&studio->workspace, now_ns),
                    u64_min(camera_control_next_ns(&studio->camera),
-                           input_deadline_ns(studio)));
+                           tty_events_deadline_ns(&studio->events)));
 }
 
 static void take_reload(struct studio *studio)
@@ -935,8 +898,6 @@ static void take_reload(struct studio *studio)
 /* Keys come last, so that they find finished saves and loaded files. */
 static void take_events(struct studio *studio, struct pollfd fds[FDS])
 {
-    uint64_t now_ns;
-
     if (fds[FD_SIGNALS].revents)
         take_signals(studio);
     if (studio->is_ending)
@@ -957,10 +918,9 @@ static void take_events(struct studio *studio, struct pollfd fds[FDS])
         take_reload(studio);
     if (fds[FD_KEYS].revents)
         take_input(studio);
-    now_ns = clock_ns();
-    if (now_ns >= input_deadline_ns(studio))
-        take_byte_events(studio, true);
-    frame_pacing_tick(&studio->workspace.screen.pace, now_ns);
+    if (!studio->is_ending)
+        tty_events_expire(&studio->events, take_event, studio);
+    frame_pacing_tick(&studio->workspace.screen.pace, clock_ns());
 }
 
 static void wait_for_events(struct studio *studio)
@@ -989,7 +949,7 @@ static void wait_for_events(struct studio *studio)
 
     for (int i = 0; i < FDS; i++)
         fds[i].events = POLLIN;
-    if (ppoll(fds, FDS, until_ns == NEVER ? NULL : &pause, NULL) < 0)
+    if (ppoll(fds, FDS, until_ns == UINT64_MAX ? NULL : &pause, NULL) < 0)
         memset(fds, 0, sizeof fds); /* interrupted: FD_SIGNALS wakes it next */
     take_events(studio, fds);
 }
@@ -1028,7 +988,7 @@ static void close_screen(struct studio *studio)
     if (is_lost)
         tty_ignore_termination(); /* shells send SIGHUP again */
     if (!studio->is_gone)
-        screen_drain(&studio->workspace.screen, &studio->input);
+        screen_drain(&studio->workspace.screen, &studio->events.input);
     /* before what may take longer than stop.h allows: a driver, or a tree */
     stop_hold();
     save_finish(&studio->control);
