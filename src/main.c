@@ -39,6 +39,7 @@
 #include "session/config.h"
 #include "session/session.h"
 #include "session/state_list.h"
+#include "studio/start_screen.h"
 #include "studio/studio.h"
 #include "terminal/xmalloc.h"
 
@@ -247,8 +248,39 @@ static bool begin_cluster(const struct options *o, struct error *err)
     return cluster_begin(o->ranks, arguments, version, err);
 }
 
-static bool run(struct session *s, const struct options *o, uint64_t start_ns,
-                int *status, struct error *err)
+/* Opens scenes on the screen until the person leaves. *listed is the path of a
+ * scene that was chosen from the list, for free(), or NULL: one that cannot be
+ * read leads back to the list. */
+static bool run_screen(struct session *s, struct options *o, uint64_t start_ns,
+                       char **listed, int *status, struct error *err)
+{
+    for (;;) {
+        char *next;
+        bool ok = batch_open(s, o, start_ns, err);
+
+        if (!ok && *listed == NULL)
+            return false;
+        if (ok) {
+            recent_add(o->scene_path);
+            ok = studio_loop(s, status, err);
+            next = s->next_scene;
+            s->next_scene = NULL;
+        } else {
+            ok = start_screen_run(o, err->text, &next, status, err);
+        }
+        if (!ok || *status != EXIT_DONE || next == NULL) {
+            free(next);
+            return ok;
+        }
+        session_close(s);
+        free(*listed);
+        *listed = next;
+        options_use_scene(o, next);
+    }
+}
+
+static bool run(struct session *s, struct options *o, uint64_t start_ns,
+                char **listed, int *status, struct error *err)
 {
     if (o->command == COMMAND_COMPARE)
         return batch_compare_run(o, status, err);
@@ -260,31 +292,9 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
         return batch_films_info(o, err);
     if (o->command == COMMAND_MERGE || o->command == COMMAND_DEVELOP)
         return batch_films_merge(o, start_ns, err);
-    if (!batch_open(s, o, start_ns, err))
-        return false;
-    if (o->batch)
-        return batch_run(s, status, err);
-    recent_add(o->scene_path);
-    return studio_loop(s, status, err);
-}
-
-/* Lets the user choose one of the scenes that were opened last, for free().
- * Returns false if the user quits; *path stays NULL without a list or a
- * terminal. */
-static bool choose_scene(char **path)
-{
-    struct state_list recent;
-    bool wants_one = true;
-
-    if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO))
-        return true;
-    recent_read(&recent);
-    if (recent.count > 0) {
-        *path = recent_choose(&recent, stdin, stdout);
-        wants_one = *path != NULL;
-    }
-    state_list_free(&recent);
-    return wants_one;
+    if (!o->batch)
+        return run_screen(s, o, start_ns, listed, status, err);
+    return batch_open(s, o, start_ns, err) && batch_run(s, status, err);
 }
 
 /* Parses the command line with the scene as its first argument. */
@@ -305,24 +315,25 @@ static bool parse_with_scene(struct options *o, char *scene, int argc,
     return ok;
 }
 
-/* Parses the command line and asks for a scene if none is given: *scene, for
- * free(). The error is empty if the user quits. */
-static bool parse(struct options *o, int argc, char **argv, char **scene,
-                  struct error *err)
+/* Parses the command line, and lets the person choose a scene if none is given:
+ * *listed, for free(). The error is empty if the person leaves instead. */
+static bool parse(struct options *o, int argc, char **argv, char **listed,
+                  int *status, struct error *err)
 {
     struct options before = *o;
 
     if (options_parse(o, argc, argv, err))
         return true;
-    if (!o->lacks_scene)
+    if (!o->lacks_scene || !isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO) ||
+        !start_screen_run(o, NULL, listed, status, err))
         return false;
-    if (!choose_scene(scene))
+    if (*listed == NULL) {
         err->text[0] = '\0';
-    if (!*scene)
         return false;
+    }
     free(o->view_lines);
     *o = before;
-    return parse_with_scene(o, *scene, argc, argv, err);
+    return parse_with_scene(o, *listed, argc, argv, err);
 }
 
 /* Prints the version and the instruction sets of the processor, the one in use
@@ -345,8 +356,8 @@ int main(int argc, char **argv)
     static struct options options; /* as its strings, until the end */
     struct session session = {0};
     struct error err, config_err;
-    char *chosen = NULL;
-    int status = EXIT_DONE;
+    char *listed = NULL;
+    int status;
 
     memory_init();
     fill_standard_files();
@@ -355,8 +366,10 @@ int main(int argc, char **argv)
     options_init(&options);
     /* an error there must not prevent --help */
     bool has_config = config_read(&options, &config_err);
-    if (!parse(&options, argc, argv, &chosen, &err))
-        return err.text[0] == '\0' ? EXIT_DONE : complain(EXIT_USAGE, &err);
+    status = EXIT_USAGE;
+    if (!parse(&options, argc, argv, &listed, &status, &err))
+        return err.text[0] == '\0' ? status : complain(EXIT_USAGE, &err);
+    status = EXIT_DONE;
     uint64_t start_ns = clock_ns();
     if (options.show_help)
         return print_help();
@@ -395,13 +408,13 @@ int main(int argc, char **argv)
         cluster_end(status != EXIT_DONE);
         return status;
     }
-    if (!run(&session, &options, start_ns, &status, &err))
+    if (!run(&session, &options, start_ns, &listed, &status, &err))
         /* as cmp(1): 1 means that the pictures differ */
         status = complain(options.command == COMMAND_COMPARE ? EXIT_USAGE
                                                              : EXIT_FAILED,
                           &err);
     session_close(&session);
     cluster_end(false);
-    free(chosen);
+    free(listed);
     return status;
 }

@@ -8,6 +8,7 @@
 #include <limits.h>
 #include <poll.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -285,6 +286,11 @@ static bool expect_size(const char *path, int64_t size_bytes, struct error *err)
                 (double)memory.size_bytes / (1 << 30), memory.place);
 }
 
+/* Bytes of one read(), after which they are counted. */
+#define READ_BYTES (1 << 24)
+
+static _Atomic uint64_t bytes_read;
+
 /* Reads to the end of the file. Returns the number of bytes, or -1 and errno.
  */
 static int64_t read_all(int fd, char *to, int64_t size_bytes)
@@ -292,7 +298,9 @@ static int64_t read_all(int fd, char *to, int64_t size_bytes)
     int64_t done = 0;
 
     while (done < size_bytes) {
-        ssize_t n = read(fd, to + done, (size_t)(size_bytes - done));
+        int64_t rest = size_bytes - done;
+        ssize_t n = read(fd, to + done,
+                         (size_t)(rest < READ_BYTES ? rest : READ_BYTES));
         if (n < 0 && errno == EINTR)
             continue;
         if (n < 0)
@@ -300,8 +308,14 @@ static int64_t read_all(int fd, char *to, int64_t size_bytes)
         if (n == 0)
             break;
         done += n;
+        atomic_fetch_add(&bytes_read, (uint64_t)n);
     }
     return done;
+}
+
+uint64_t file_bytes_read(void)
+{
+    return atomic_load(&bytes_read);
 }
 
 static bool read_open_file(int fd, const char *path, char **text,

@@ -64,6 +64,10 @@ void temp_file_sweep(const char *folder);
 bool file_read(const char *path, char **text, size_t *size_bytes,
                struct error *err);
 
+/* Returns the bytes of all files that the program has read so far. Any thread
+ * may call it. */
+uint64_t file_bytes_read(void);
+
 /* A file in memory: not owned. */
 struct file_bytes {
     const char *path;

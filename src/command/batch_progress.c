@@ -305,6 +305,7 @@ struct render_progress batch_wait(struct session *s, struct batch_bar *bar)
 /* A line on a terminal for who waits for a large scene. */
 struct notice {
     const char *name;
+    uint64_t before_bytes; /* of all files that were read before */
     struct batch_bar bar;
     pthread_t thread;
     pthread_mutex_t lock;
@@ -312,7 +313,7 @@ struct notice {
     bool is_ending;
 };
 
-/* Shows the line and its seconds until the end. */
+/* Shows the line with what was read, and its seconds, until the end. */
 static void *notice_run(void *context)
 {
     struct notice *n = context;
@@ -327,8 +328,9 @@ static void *notice_run(void *context)
             late = pthread_cond_timedwait(&n->end, &n->lock, &until);
         if (n->is_ending)
             break;
-        snprintf(text, sizeof text, "reading %.40s, %d s (Ctrl-C ends)",
-                 n->name, s);
+        snprintf(text, sizeof text,
+                 "reading %.40s, %.1f MB, %d s (Ctrl-C ends)", n->name,
+                 (double)(file_bytes_read() - n->before_bytes) * 1e-6, s);
         bar_show(&n->bar, text);
     }
     pthread_mutex_unlock(&n->lock);
@@ -340,6 +342,7 @@ static void notice_begin(struct notice *n, const char *path)
 {
     *n = (struct notice){.name = strcmp(path, "-") == 0 ? "standard input"
                                                         : path_name(path),
+                         .before_bytes = file_bytes_read(),
                          .bar = batch_bar_begin()};
     pthread_mutex_init(&n->lock, NULL);
     thread_condition_init(&n->end);

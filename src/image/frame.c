@@ -24,6 +24,40 @@ void frame_free(struct frame *frame)
     *frame = (struct frame){0};
 }
 
+static void scale_pixel(const struct frame *from, const struct frame *to, int x,
+                        int y, uint8_t *rgb)
+{
+    struct area_walk rows = area_walk(from->height, to->height, y, 1);
+    float area = (float)from->width * (float)from->height;
+    float sum[3] = {0.0f, 0.0f, 0.0f};
+
+    while (area_walks(&rows)) {
+        struct area_walk columns = area_walk(from->width, to->width, x, 1);
+        const uint8_t *row =
+            from->rgb + 3 * (size_t)rows.from * (size_t)from->width;
+        float height = area_step(&rows);
+
+        while (area_walks(&columns)) {
+            const uint8_t *p = row + 3 * columns.from;
+            float weight = height * area_step(&columns) / area;
+
+            for (int c = 0; c < 3; c++)
+                sum[c] += weight * (float)p[c];
+        }
+    }
+    for (int c = 0; c < 3; c++)
+        rgb[c] = (uint8_t)(sum[c] + 0.5f);
+}
+
+void frame_scale(const struct frame *from, struct frame *to)
+{
+    uint8_t *rgb = to->rgb;
+
+    for (int y = 0; y < to->height; y++)
+        for (int x = 0; x < to->width; x++, rgb += 3)
+            scale_pixel(from, to, x, y, rgb);
+}
+
 void frame_dot(struct frame *frame, double x, double y, uint32_t rgb)
 {
     uint8_t *pixel;

@@ -105,6 +105,10 @@ static inline bool frame_has_row(const struct frame *frame, int y)
 bool frame_init(struct frame *frame, int width, int height, struct error *err);
 void frame_free(struct frame *frame);
 
+/* Fills a frame with another one in its size: each pixel is the mean over its
+ * area, of the bytes. */
+void frame_scale(const struct frame *from, struct frame *to);
+
 void frame_dot(struct frame *frame, double x, double y, uint32_t rgb);
 
 /* Draws a line one pixel wide, with both ends. */

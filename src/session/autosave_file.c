@@ -290,6 +290,7 @@ void autosave_file_free(struct autosave_file *k)
 #define DAY_S 86400
 
 static const char ending[] = ".session";
+static const char picture_ending[] = ".png";
 
 /* ---- paths ---- */
 
@@ -316,17 +317,27 @@ char *autosave_scene(const char *scene_path)
     return scene;
 }
 
-char *autosave_path(const char *scene)
+/* Returns the path of the file of a scene with this ending. */
+static char *path_of(const char *scene, const char *end)
 {
     char *folder = folder_path();
     char *path = NULL;
 
     if (folder != NULL)
-        path =
-            format_text("%s%016" PRIx64 "%s", folder,
-                        hash_bytes(HASH_BEGIN, scene, strlen(scene)), ending);
+        path = format_text("%s%016" PRIx64 "%s", folder,
+                           hash_bytes(HASH_BEGIN, scene, strlen(scene)), end);
     free(folder);
     return path;
+}
+
+char *autosave_path(const char *scene)
+{
+    return path_of(scene, ending);
+}
+
+char *autosave_path_picture(const char *scene)
+{
+    return path_of(scene, picture_ending);
 }
 
 char *autosave_path_aside(const char *path)
@@ -377,11 +388,10 @@ static int compare_age(const void *a, const void *b)
     return s->tv_nsec > t->tv_nsec ? -1 : s->tv_nsec < t->tv_nsec;
 }
 
-static bool is_session(const char *name)
+/* Returns true if a name is a hash with this ending. */
+static bool has_hash(const char *name, const char *end)
 {
-    size_t length = strlen(name), end = sizeof ending - 1;
-
-    return length == 16 + end && strcmp(name + length - end, ending) == 0;
+    return strlen(name) == 16 + strlen(end) && strcmp(name + 16, end) == 0;
 }
 
 static void add(struct list *list, size_t *capacity, const char *path)
@@ -398,9 +408,9 @@ static void add(struct list *list, size_t *capacity, const char *path)
         list->count++;
 }
 
-/* Lists the folder of `beside`, the last file first. A file for which memory is
- * out is left out. */
-static struct list read_list(const char *beside)
+/* Lists the files with an ending in the folder of `beside`, the last one first.
+ * A file for which memory is out is left out. */
+static struct list read_list(const char *beside, const char *end)
 {
     struct list list = {.count = 0};
     size_t capacity = 0;
@@ -409,8 +419,9 @@ static struct list read_list(const char *beside)
     const struct dirent *file;
 
     while (directory != NULL && (file = readdir(directory)) != NULL) {
-        char *path =
-            is_session(file->d_name) ? path_beside(beside, file->d_name) : NULL;
+        char *path = has_hash(file->d_name, end)
+                         ? path_beside(beside, file->d_name)
+                         : NULL;
 
         add(&list, &capacity, path);
         free(path);
@@ -430,9 +441,10 @@ static void free_list(struct list *list)
     free(list->entries);
 }
 
-int autosave_prune(const char *path, int days_max, uint64_t bytes_max)
+static int prune(const char *path, const char *end, int days_max,
+                 uint64_t bytes_max)
 {
-    struct list list = read_list(path);
+    struct list list = read_list(path, end);
     time_t oldest = time(NULL) - (time_t)days_max * DAY_S;
     uint64_t bytes = 0;
     int count = 0;
@@ -446,6 +458,12 @@ int autosave_prune(const char *path, int days_max, uint64_t bytes_max)
     }
     free_list(&list);
     return count;
+}
+
+int autosave_prune(const char *path, int days_max, uint64_t bytes_max)
+{
+    prune(path, picture_ending, days_max, bytes_max);
+    return prune(path, ending, days_max, bytes_max);
 }
 
 /* ---- texts ---- */
@@ -508,7 +526,7 @@ bool autosave_print_list(FILE *to, struct error *err)
         return fail(err, "found no folder for kept sessions, expected one in "
                          "XDG_STATE_HOME or HOME");
     removed = autosave_prune(folder, AUTOSAVE_DAYS_MAX, AUTOSAVE_BYTES_MAX);
-    list = read_list(folder);
+    list = read_list(folder, ending);
     for (size_t i = 0; i < list.count; i++)
         print_entry(to, &list.entries[i]);
     if (list.count == 0)

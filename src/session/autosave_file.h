@@ -31,7 +31,8 @@
  * checksum. It has the lengths of the parts that follow it. A checksum of its
  * own protects all parts but the film, which has checksums in it. The folder is
  * `sessions` in the user's state folder, with one file for each scene, named
- * after the hash of the scene's absolute path. Files are removed when they are
+ * after the hash of the scene's absolute path, and its last picture as PNG
+ * beside it. Files are removed when they are
  * older than 30 days, and the oldest ones when all together have more than
  * 1 GiB.
  */
@@ -101,6 +102,9 @@ char *autosave_scene(const char *scene_path);
 /* Returns the path of the file of a scene with this absolute path, for free(),
  * or NULL without a state folder. */
 char *autosave_path(const char *scene);
+
+/* The same for the last picture of a scene. */
+char *autosave_path_picture(const char *scene);
 
 /* Returns the path of a file of the same scene that is set aside, for free(),
  * or NULL. */

@@ -48,6 +48,18 @@ bool options_adaptive(const struct options *o)
            (!o->no_adaptive && (o->error_limit > 0 || is_filtered));
 }
 
+void options_use_scene(struct options *o, const char *path)
+{
+    free(o->view_lines);
+    o->scene_path = path;
+    o->view_lines = NULL;
+    o->view_path = NULL;
+    o->camera = NULL;
+    o->choice = (struct scene_choice){0};
+    o->up = SCENE_UP_OF_FILE;
+    o->has_sky = o->has_sun = o->has_crop = false;
+}
+
 struct engine_options options_engine(const struct options *o)
 {
     return (struct engine_options){

@@ -182,6 +182,10 @@ bool options_output_is_film(const struct options *o);
  * one of them if they were given, or if there is no other. */
 struct render_limits options_limits(const struct options *o);
 
+/* Names another scene. What belongs to the scene before is forgotten: its view,
+ * camera, light and crop. The path stays the caller's. */
+void options_use_scene(struct options *o, const char *path);
+
 /* Returns the number of CPU threads. */
 int options_threads(const struct options *o);
 

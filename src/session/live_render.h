@@ -130,8 +130,8 @@ void live_render_step(struct live_render *control);
 /* Restarts the render. Discards the picture of normal mode. */
 void live_render_restart(struct live_render *control);
 
-/* Renders the draft of live mode anew, for another size of the screen or another
- * kind of samples. The film's samples stay. */
+/* Renders the draft of live mode anew, for another size of the screen or
+ * another kind of samples. The film's samples stay. */
 void live_render_renew_draft(struct live_render *control);
 
 /* Restarts in a mode. With the film of an autosaved session, of the same

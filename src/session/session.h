@@ -40,6 +40,7 @@ struct session {
     struct speeds speeds;
     struct error_history errors;
     struct thread_load load;
+    char *next_scene; /* path that the person opens instead, for free() */
 };
 
 /* Loads scene, view and sky and applies the options. A scene without a camera

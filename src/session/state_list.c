@@ -119,39 +119,6 @@ void recent_add(const char *path)
     free(whole);
 }
 
-static char *path_of_answer(const struct state_list *r, const char *answer)
-{
-    char *end;
-    unsigned long number = strtoul(answer, &end, 10);
-
-    if (*end == '\0' && number >= 1 && number <= (unsigned long)r->count)
-        return xstrdup(r->lines[number - 1]);
-    return access(answer, F_OK) == 0 ? xstrdup(answer) : NULL;
-}
-
-char *recent_choose(const struct state_list *r, FILE *in, FILE *out)
-{
-    char *answer = NULL, *path = NULL;
-    size_t capacity = 0;
-
-    for (int i = 0; i < r->count; i++)
-        print_line(out, "%3d  %s", i + 1, r->lines[i]);
-    while (!path) {
-        print_text(out, "number or file of a scene (Enter: 1, q: quit): ");
-        fflush(out);
-        if (getline(&answer, &capacity, in) < 0)
-            break;
-        answer[strcspn(answer, "\n")] = '\0';
-        if (strcmp(answer, "q") == 0)
-            break;
-        path = path_of_answer(r, *answer == '\0' ? "1" : answer);
-        if (!path)
-            print_line(out, "%s: no such scene", answer);
-    }
-    free(answer);
-    return path;
-}
-
 /* ---- glyphs ---- */
 
 /* Returns the name of the terminal, which follows the kind of glyphs. */

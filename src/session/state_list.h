@@ -11,8 +11,6 @@
 #ifndef GLIM_STATE_LIST_H
 #define GLIM_STATE_LIST_H
 
-#include <stdio.h>
-
 #include "terminal/term_caps.h"
 
 /* ---- lists ---- */
@@ -55,10 +53,6 @@ void recent_read(struct state_list *r);
 
 /* Adds a scene in the first place. */
 void recent_add(const char *path);
-
-/* Shows the list and lets the user choose by number or enter another path.
- * Returns the path for free(), or NULL. */
-char *recent_choose(const struct state_list *r, FILE *in, FILE *out);
 
 /* ---- glyphs ---- */
 

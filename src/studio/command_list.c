@@ -136,6 +136,7 @@ void command_list_open(struct command_list *p, const struct keymap *keys,
 
     command_list_find(&whole, keys);
     rows_of(&whole, rows);
+    p->list.does = "runs";
     list_window_open(&p->list, screen, " glim " GLIM_VERSION " ", rows,
                      whole.count);
     draw(p, keys, screen);

@@ -428,27 +428,6 @@ static bool is_same(struct develop a, struct develop b)
            !(a.exposure > b.exposure);
 }
 
-/* Paints a kept render as the screen showed it. Returns false if it was not
- * filtered, or developed in another way. */
-static bool paint_shown(const struct snapshot *k, struct develop how,
-                        struct frame *frame)
-{
-    const struct frame *shown = &k->shown;
-    uint8_t *to = frame->rgb;
-
-    if (shown->rgb == NULL || !is_same(k->develop, how))
-        return false;
-    for (int y = 0; y < frame->height; y++) {
-        const uint8_t *row =
-            shown->rgb + 3 * (size_t)shown->width *
-                             (size_t)area_cell(y, shown->height, frame->height);
-
-        for (int x = 0; x < frame->width; x++, to += 3)
-            memcpy(to, row + 3 * area_cell(x, shown->width, frame->width), 3);
-    }
-    return true;
-}
-
 /* Paints kept render i in the size of the frame, and small. */
 static bool paint_kept(struct comparison *c, int i, const struct frame *frame)
 {
@@ -463,7 +442,9 @@ static bool paint_kept(struct comparison *c, int i, const struct frame *frame)
         frame_free(&c->painted[i]);
         return false;
     }
-    if (!paint_shown(&c->kept[i], c->develop, &c->painted[i]))
+    if (c->kept[i].shown.rgb != NULL && is_same(c->kept[i].develop, c->develop))
+        frame_scale(&c->kept[i].shown, &c->painted[i]);
+    else
         snapshot_paint(&c->kept[i], c->develop, &c->painted[i]);
     snapshot_paint(&c->kept[i], c->develop, &c->thumbs[i]);
     return true;

@@ -11,7 +11,8 @@
 #define ESCAPE    27
 #define BACKSPACE 127
 
-#define TEXT_COLS 52 /* of a row */
+#define TEXT_COLS 52  /* of a row */
+#define ROW_COLS  200 /* with the pane, at most */
 #define KEY_COLS  9
 #define PAGE_ROWS 10
 #define WHEEL     3
@@ -70,18 +71,30 @@ void list_window_open(struct list_window *l, struct screen *screen,
 {
     struct tty_size size = term_size();
     int cols = int_min(TEXT_COLS, size.cols - 2 * LEFT);
+    int pane = l->pane_cols > 0 ? l->pane_cols + 2 : 0;
     const char *lines[LINES_MAX];
-    char blank[TEXT_COLS + 1];
+    char blank[ROW_COLS + 1];
+
+    if (cols + pane > int_min(size.cols - 2 * LEFT, ROW_COLS))
+        pane = 0;
 
     l->is_open = true;
     l->rows =
         int_min(line_of(l, rows, count, count), size.rows - 3 - OTHER_ROWS);
     l->rows = int_min(int_max(l->rows, 1), LINES_MAX - OTHER_ROWS);
-    snprintf(blank, sizeof blank, "%*s", int_max(cols, 1), "");
+    snprintf(blank, sizeof blank, "%*s", int_max(cols + pane, 1), "");
     for (int i = 0; i < l->rows + OTHER_ROWS; i++)
         lines[i] = blank;
     l->at = screen_open_window(screen, WINDOW_MIDDLE, title, lines,
                                l->rows + OTHER_ROWS);
+    l->pane = (struct window_rect){LEFT + cols + 2, TOP + 1,
+                                   pane > 0 ? l->pane_cols : 0, l->rows};
+}
+
+/* Returns the columns of the list. */
+static int text_cols(const struct list_window *l)
+{
+    return l->at.cols - 2 * LEFT - (l->pane.cols > 0 ? l->pane.cols + 2 : 0);
 }
 
 static void scroll(struct list_window *l, const struct list_row *rows,
@@ -117,7 +130,7 @@ static void draw_bar(const struct list_window *l, int all)
         bool is_marked =
             all > l->rows && line >= l->top && line < l->top + l->rows;
 
-        windows_text(WINDOW_OVER, TOP + 1 + i, l->at.cols - 2, 1,
+        windows_text(WINDOW_OVER, TOP + 1 + i, LEFT + text_cols(l), 1,
                      is_marked ? ROLE_SELECTED : ROLE_TEXT, "");
     }
 }
@@ -125,11 +138,11 @@ static void draw_bar(const struct list_window *l, int all)
 void list_window_draw(struct list_window *l, struct screen *screen,
                       const struct list_row *rows, int count, int all)
 {
-    static const struct key_hint hints[] = {{"Enter", "runs"},
-                                            {"Esc", "back"},
-                                            {"type", "to search"},
-                                            {NULL, NULL}};
-    int cols = l->at.cols - 2 * LEFT;
+    const struct key_hint hints[] = {{"Enter", l->does},
+                                     {"Esc", "back"},
+                                     {"type", "to search"},
+                                     {NULL, NULL}};
+    int cols = text_cols(l);
     int lines = line_of(l, rows, count, count);
     char text[LIST_SEARCH + 64];
 

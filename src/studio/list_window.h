@@ -3,6 +3,7 @@
  * list_window.h - a window with a list that is searched by typing and chosen
  * from, by keys or the mouse
  *
+ * Beside the list may be a pane, for a picture, where the terminal has room.
  * The caller has the rows and finds those that match the search. Rows have a
  * key at the left; while nothing is searched for, each group has its title
  * above its first row.
@@ -32,6 +33,9 @@ struct list_window {
     int top;                  /* first line that is shown */
     int rows;                 /* lines that the window has for the list */
     struct window_rect at;
+    const char *does;        /* what Enter does */
+    int pane_cols;           /* that are wanted beside the list, and */
+    struct window_rect pane; /* what there is, in the window; 0 cols: none */
 };
 
 /* Opens the window for at most `count` rows, and no more than the terminal has

@@ -34,7 +34,7 @@
 /* Most questions come before something is lost. */
 enum question {
     QUESTION_NONE,
-    QUESTION_QUIT, /* changes or a render are not saved */
+    QUESTION_QUIT, /* or open another scene: something is not saved */
     QUESTION_LIVE, /* leave normal mode */
     QUESTION_RESTART,
     QUESTION_NUMBER, /* number for a view */
@@ -69,7 +69,8 @@ static void studio_end(struct studio *studio, int status)
 {
     studio->is_ending = true;
     studio->status = status;
-    stop_request(status, false); /* typed keys end it too */
+    if (status != 0 || studio->control.session->next_scene == NULL)
+        stop_request(status, false); /* typed keys end it too */
 }
 
 /* Stops the program until the shell continues it. */
@@ -282,6 +283,7 @@ static const struct command commands[ACTIONS] = {
     [ACTION_BACKEND] = {.control = live_render_switch_backend},
     [ACTION_RESTORE] = {.studio = restore_kept},
     [ACTION_DROP] = {.studio = drop_kept},
+    [ACTION_SCENE] = {.workspace = workspace_open_scenes},
     [ACTION_RELOAD] = {.control = live_render_reload},
     [ACTION_COLORS] = {.workspace = workspace_next_colors},
     [ACTION_THEME] = {.workspace = workspace_next_theme},
@@ -462,11 +464,13 @@ static const char *question_text(struct studio *studio, enum question question)
     }
     if (question != QUESTION_QUIT)
         return questions[question].text;
-    if (!live_render_has_unsaved(control))
-        return "Unsaved changes. Quit? y: yes, s: save, other: no";
-    return live_render_has_unsaved_edit(control)
-               ? "Render, changes unsaved. y: quit, s: save"
-               : "Unsaved render. Quit? y: yes, s: save, other: no";
+    snprintf(studio->question_text, sizeof studio->question_text,
+             "%s. %s? y: yes, s: save, other: no",
+             !live_render_has_unsaved(control)       ? "Unsaved changes"
+             : live_render_has_unsaved_edit(control) ? "Edits, render unsaved"
+                                                     : "Unsaved render",
+             control->session->next_scene != NULL ? "Leave" : "Quit");
+    return studio->question_text;
 }
 
 /* Shows a question instead of the status line. QUESTION_NONE removes it. */
@@ -488,6 +492,13 @@ static void answer_number(struct studio *studio, int key)
                                  (int)action - ACTION_VIEW_1 + 1);
 }
 
+/* Forgets the scene that was to be opened. */
+static void stay(struct studio *studio)
+{
+    free(studio->control.session->next_scene);
+    studio->control.session->next_scene = NULL;
+}
+
 /* Takes any key as the answer and removes the question. */
 static void question_answer(struct studio *studio, int key)
 {
@@ -502,6 +513,8 @@ static void question_answer(struct studio *studio, int key)
     else if (questions[question].save != NULL &&
              small == questions[question].save_key)
         questions[question].save(studio);
+    else if (question == QUESTION_QUIT)
+        stay(studio);
 }
 
 /* ---- input ---- */
@@ -565,13 +578,27 @@ static bool takes_nothing(struct studio *studio, int key, enum action action)
 
 static bool has_list(const struct studio *studio)
 {
-    return studio->workspace.commands.list.is_open;
+    return workspace_has_list(&studio->workspace);
+}
+
+/* Leaves for a scene that was chosen, as the program ends. */
+static void open_chosen(struct studio *studio)
+{
+    char **next = &studio->control.session->next_scene;
+
+    if (studio->workspace.chosen_scene == NULL)
+        return;
+    free(*next);
+    *next = studio->workspace.chosen_scene;
+    studio->workspace.chosen_scene = NULL;
+    studio_quit(studio);
 }
 
 static bool list_takes(struct studio *studio, int key, enum action action)
 {
     (void)action;
     studio_run(studio, workspace_list_key(&studio->workspace, key));
+    open_chosen(studio);
     return true;
 }
 
@@ -779,6 +806,12 @@ static bool wipe_takes(struct studio *studio, const struct event *event)
     return true;
 }
 
+static void take_list_mouse(struct studio *studio, const struct event *event)
+{
+    studio_run(studio, workspace_list_mouse(&studio->workspace, event));
+    open_chosen(studio);
+}
+
 static void take_mouse(struct studio *studio, const struct event *event)
 {
     enum action hint =
@@ -791,7 +824,7 @@ static void take_mouse(struct studio *studio, const struct event *event)
         return;
     }
     if (has_list(studio))
-        studio_run(studio, workspace_list_mouse(&studio->workspace, event));
+        take_list_mouse(studio, event);
     else if (editor_panel_mouse(&studio->workspace.panel, event))
         draw_panel(studio);
     else if (!wipe_takes(studio, event))
@@ -992,6 +1025,7 @@ static void close_screen(struct studio *studio)
     /* before what may take longer than stop.h allows: a driver, or a tree */
     stop_hold();
     save_finish(&studio->control);
+    workspace_keep_picture(&studio->workspace);
     autosave_end(&studio->autosave, is_lost);
     stop_release();
     /* before tty_close(): its end puts back the signal handlers of its start */

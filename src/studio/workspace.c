@@ -2,6 +2,7 @@
 #include "studio/workspace.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <time.h>
 
 #include "base/clock.h"
@@ -133,13 +134,21 @@ static const struct keymap *keys_of(const struct workspace *workspace)
     return &workspace->control->session->options->keys;
 }
 
-/* Opens the list of commands if a person reads it, and the inspector's table
- * otherwise. */
+bool workspace_has_list(const struct workspace *workspace)
+{
+    return workspace->commands.list.is_open || workspace->scenes.list.is_open;
+}
+
+/* Opens the list that a person reads, or else the inspector's table. */
 static void open_window(struct workspace *workspace)
 {
-    if (!workspace->commands.list.is_open)
+    if (!workspace_has_list(workspace))
         inspector_open_table(&workspace->inspector);
-    else if (!workspace->screen.is_too_small)
+    else if (workspace->screen.is_too_small)
+        return;
+    else if (workspace->scenes.list.is_open)
+        scene_list_open(&workspace->scenes, &workspace->screen);
+    else
         command_list_open(&workspace->commands, keys_of(workspace),
                           &workspace->screen);
 }
@@ -303,17 +312,23 @@ void workspace_open_light(struct workspace *workspace)
     workspace_open_panel(workspace);
 }
 
-static void open_list(struct workspace *workspace, bool is_menu)
+/* Closes the windows that are open, for a list. */
+static void begin_list(struct workspace *workspace)
 {
     inspector_close_table(&workspace->inspector);
     screen_close_window(&workspace->screen); /* about the render */
+    workspace_refresh(workspace);
+}
+
+static void open_list(struct workspace *workspace, bool is_menu)
+{
+    begin_list(workspace);
     workspace->commands =
         (struct command_list){.is_menu = is_menu,
                               .in_panel = workspace->panel.is_open,
                               .has_kept = workspace->has_kept};
     command_list_open(&workspace->commands, keys_of(workspace),
                       &workspace->screen);
-    workspace_refresh(workspace);
 }
 
 void workspace_open_commands(struct workspace *workspace)
@@ -326,10 +341,36 @@ void workspace_open_menu(struct workspace *workspace)
     open_list(workspace, true);
 }
 
+void workspace_keep_picture(struct workspace *workspace)
+{
+    struct session *session = workspace->control->session;
+    struct film *film = render_film(session->engine.render);
+    int longest = int_max(film->width, film->height);
+    int side = int_min(longest, SCENE_PICTURE_SIDE);
+    struct frame frame;
+    struct error ignored;
+
+    if (workspace->control->progress.samples == 0 ||
+        !frame_init(&frame, int_max(film->width * side / longest, 1),
+                    int_max(film->height * side / longest, 1), &ignored))
+        return;
+    film_preview(film, NULL, session_develop(session), &frame);
+    scene_picture_keep(session->options->scene_path, &frame);
+    frame_free(&frame);
+}
+
+void workspace_open_scenes(struct workspace *workspace)
+{
+    begin_list(workspace);
+    workspace_keep_picture(workspace);
+    scene_list_free(&workspace->scenes); /* files may have changed */
+    scene_list_open(&workspace->scenes, &workspace->screen);
+}
+
 /* Closes the window of a list that is closed. */
 static enum action end_list(struct workspace *workspace, enum action chosen)
 {
-    if (!workspace->commands.list.is_open) {
+    if (!workspace_has_list(workspace)) {
         screen_close_window(&workspace->screen);
         open_window(workspace);
         workspace_refresh(workspace);
@@ -339,6 +380,11 @@ static enum action end_list(struct workspace *workspace, enum action chosen)
 
 enum action workspace_list_key(struct workspace *workspace, int key)
 {
+    if (workspace->scenes.list.is_open) {
+        workspace->chosen_scene =
+            scene_list_key(&workspace->scenes, &workspace->screen, key);
+        return end_list(workspace, ACTION_NONE);
+    }
     return end_list(workspace,
                     command_list_key(&workspace->commands, keys_of(workspace),
                                      &workspace->screen, key));
@@ -347,6 +393,11 @@ enum action workspace_list_key(struct workspace *workspace, int key)
 enum action workspace_list_mouse(struct workspace *workspace,
                                  const struct event *event)
 {
+    if (workspace->scenes.list.is_open) {
+        workspace->chosen_scene =
+            scene_list_mouse(&workspace->scenes, &workspace->screen, event);
+        return end_list(workspace, ACTION_NONE);
+    }
     return end_list(workspace,
                     command_list_mouse(&workspace->commands, keys_of(workspace),
                                        &workspace->screen, event));
@@ -489,7 +540,7 @@ static void draw_facts(struct workspace *workspace, uint64_t now_ns)
     if (keys_bar_room(&workspace->keys_bar, &room))
         error_graph_draw(workspace->control, screen, &room,
                          says_filtered(workspace, now_ns));
-    if (workspace->has_about && !workspace->commands.list.is_open)
+    if (workspace->has_about && !workspace_has_list(workspace))
         about_window_draw(workspace->control, screen);
     workspace->facts_ns =
         now_ns +
@@ -525,7 +576,7 @@ static void paint(struct workspace *workspace)
         inspector_preview(&workspace->inspector, &workspace->frame);
         outline_selection(workspace);
     }
-    if (workspace->commands.list.is_open)
+    if (workspace_has_list(workspace))
         dim(&workspace->frame);
 }
 
@@ -734,6 +785,8 @@ uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns)
 
 void workspace_free(struct workspace *workspace)
 {
+    scene_list_free(&workspace->scenes);
+    free(workspace->chosen_scene);
     inspector_free(&workspace->inspector);
     editor_panel_free(&workspace->panel);
     comparison_free(&workspace->comparison);

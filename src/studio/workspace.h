@@ -29,6 +29,7 @@
 #include "studio/inspector.h"
 #include "studio/keys_bar.h"
 #include "studio/command_list.h"
+#include "studio/scene_list.h"
 #include "terminal/screen.h"
 
 struct workspace {
@@ -41,6 +42,8 @@ struct workspace {
     struct editor_panel panel;
     bool has_about; /* window about the render; hidden while the list is open */
     struct command_list commands;
+    struct scene_list scenes;
+    char *chosen_scene; /* path from that list, for the taker; NULL: none */
     struct keys_bar keys_bar;
     struct glyph_choice glyph_choice;
     bool has_kept;        /* a kept session is offered */
@@ -106,6 +109,10 @@ void workspace_switch_status(struct workspace *workspace);
 
 void workspace_open_commands(struct workspace *workspace);
 void workspace_open_menu(struct workspace *workspace);
+void workspace_open_scenes(struct workspace *workspace);
+
+/* Returns true if a list is open. */
+bool workspace_has_list(const struct workspace *workspace);
 
 /* Give a key or the mouse to the open list. Return the action of a command that
  * is chosen, or ACTION_NONE. */
@@ -128,6 +135,9 @@ bool workspace_draw(struct workspace *workspace, enum keys_state keys,
 /* When workspace_look() and workspace_draw() are due if no event comes;
  * UINT64_MAX: never. */
 uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns);
+
+/* Keeps a small picture of the scene for the list of scenes. */
+void workspace_keep_picture(struct workspace *workspace);
 
 /* After tty_close(). */
 void workspace_free(struct workspace *workspace);

@@ -33,7 +33,7 @@ read_slowly="glim -b -s 1 -w 2 -h 2 -o x.png - <slow.obj"
 fresh
 start_line "trap : INT; $read_slowly"
 sleep 100 >slow.obj &
-wait_for "^reading standard input, [1-9] s (Ctrl-C ends)"
+wait_for "^reading standard input, 0.0 MB, [1-9] s (Ctrl-C ends)"
 keys C-c
 wait_for "exit 130"
 kill $!
@@ -41,7 +41,7 @@ fresh
 start_line "$read_slowly"
 {
     cat flat.obj
-    wait_for "^reading standard input, [1-9] s (Ctrl-C ends)"
+    wait_for "^reading standard input, 0.0 MB, [1-9] s (Ctrl-C ends)"
 } >slow.obj
 expect_end 0
 reject "reading"

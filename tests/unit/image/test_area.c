@@ -176,11 +176,44 @@ static void sums_of_noise(void **state)
     film_free(&film);
 }
 
+/* Each byte of a scaled frame is the mean over its area. */
+static void scaled_frames_are_means(void **state)
+{
+    static const struct {
+        int width, height;
+    } sizes[] = {{1, 1}, {12, 9}, {37, 23}, {80, 11}};
+    struct frame from, to;
+    struct error err;
+    uint64_t seed = 3;
+
+    (void)state;
+    assert_true(frame_init(&from, 37, 23, &err));
+    for (int i = 0; i < 3 * 37 * 23; i++)
+        from.rgb[i] = (uint8_t)(256 * check_random(&seed));
+    for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
+        assert_true(frame_init(&to, sizes[k].width, sizes[k].height, &err));
+        frame_scale(&from, &to);
+        for (int i = 0; i < 3 * to.width * to.height; i++) {
+            int x = i / 3 % to.width, y = i / 3 / to.width;
+            double sum = 0;
+
+            for (int j = 0; j < 37 * 23; j++)
+                sum += shared(j % 37, 37, x, to.width) *
+                       shared(j / 37, 23, y, to.height) *
+                       from.rgb[3 * j + i % 3];
+            check_close(to.rgb[i], sum * to.width * to.height, 0.51);
+        }
+        frame_free(&to);
+    }
+    frame_free(&from);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(walks_cover_the_axis),
         cmocka_unit_test(sums_of_noise),
+        cmocka_unit_test(scaled_frames_are_means),
         cmocka_unit_test(screens_are_the_average_of_files),
     };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
  * test_recent.c - the list of scenes: the most recent first, each once, none
- * that is gone, at most twenty; answers of a person
+ * that is gone, at most twenty
  */
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
@@ -112,38 +112,6 @@ static void without_a_folder_nothing_is_remembered(void **state)
     assert_int_equal(r.count, 0);
 }
 
-/* Checks the scene for this answer; "" is none. */
-static void check_answer(const char *answer, const char *expected)
-{
-    static char first[] = "/tmp/a\033.obj", second[] = "/tmp/b.obj";
-    const struct state_list r = {.lines = {first, second}, .count = 2};
-    char copy[64], shown[512] = "";
-    FILE *in, *out = fmemopen(shown, sizeof shown, "w");
-    char *path;
-
-    snprintf(copy, sizeof copy, "%s", answer);
-    in = fmemopen(copy, strlen(copy), "r");
-    assert_true(in && out);
-    path = recent_choose(&r, in, out);
-    fclose(in);
-    fclose(out);
-    assert_string_equal(path ? path : "", expected);
-    assert_non_null(strstr(shown, "  1  /tmp/a?.obj\n  2  /tmp/b.obj\n"));
-    free(path);
-}
-
-static void answers_select_a_scene(void **state)
-{
-    (void)state;
-    check_answer("\n", "/tmp/a\033.obj");
-    check_answer("1\n", "/tmp/a\033.obj");
-    check_answer("2", "/tmp/b.obj");
-    check_answer("3\n0\n-1\n2 x\n2\n", "/tmp/b.obj");
-    check_answer("q\n2\n", "");
-    check_answer("/dev/null\n", "/dev/null");
-    check_answer("not there\n", "");
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -151,7 +119,6 @@ int main(void)
         cmocka_unit_test(the_oldest_are_forgotten),
         cmocka_unit_test(unusable_names_are_left_out),
         cmocka_unit_test(without_a_folder_nothing_is_remembered),
-        cmocka_unit_test(answers_select_a_scene),
     };
 
     return cmocka_run_group_tests(tests, enter_folder_with_state,

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "studio/scene_list.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/file.h"
+#include "base/min_max.h"
+#include "base/print.h"
+#include "terminal/cells.h"
+#include "terminal/xmalloc.h"
+
+/* Columns of the pane of the picture, and of a list without it. */
+#define PANE_MIN  22
+#define PANE_MAX  44
+#define LIST_COLS 58
+
+/* ---- rows ---- */
+
+/* Returns true if the text has the letters, in either case. */
+static bool has_letters(const char *text, const char *letters)
+{
+    size_t length = strlen(letters);
+
+    for (; *text != '\0'; text++)
+        if (strncasecmp(text, letters, length) == 0)
+            return true;
+    return length == 0;
+}
+
+/* Returns what is in the column of keys: the ending of a name. */
+static const char *kind_of(const struct scene_file *f)
+{
+    const char *dot = strrchr(path_name(f->path), '.');
+
+    if (f->is_folder)
+        return "folder";
+    return dot != NULL && strlen(dot) < 8 ? dot + 1 : "";
+}
+
+/* Finds the files that match the search. */
+static void find(struct scene_list *s)
+{
+    s->count = 0;
+    for (int i = 0; i < s->files.count; i++) {
+        const struct scene_file *f = &s->files.files[i];
+
+        if (!has_letters(f->text, s->list.search))
+            continue;
+        s->found[s->count] = i;
+        s->rows[s->count++] = (struct list_row){kind_of(f), f->text, f->group};
+    }
+}
+
+static void use_folder(struct scene_list *s, const char *folder)
+{
+    scene_files_free(&s->files);
+    scene_files_list(&s->files, folder);
+    s->rows = xrealloc(s->rows, (size_t)s->files.count * sizeof *s->rows);
+    s->found = xrealloc(s->found, (size_t)s->files.count * sizeof *s->found);
+    s->list.search[0] = '\0';
+    s->list.selected = s->list.top = 0;
+    s->picture_of = -1;
+}
+
+/* ---- the picture ---- */
+
+/* Reads the picture of the selected file, unless that is done. */
+static bool has_picture(struct scene_list *s)
+{
+    int i = s->list.selected < s->count ? s->found[s->list.selected] : -1;
+
+    if (i < 0)
+        return false;
+    if (i != s->picture_of) {
+        frame_free(&s->picture);
+        scene_picture_read(s->files.files[i].path, &s->picture);
+        s->picture_of = i;
+    }
+    return s->picture.rgb != NULL;
+}
+
+/* Paints the picture into cells of the pane. */
+static void paint(const struct frame *picture, const struct screen *screen,
+                  const struct window_rect *pane)
+{
+    const struct term_caps *d = &screen->display;
+    struct tty_size size = term_size();
+    struct cells_rect fit =
+        cells_fit(picture->width, picture->height, pane->cols, pane->rows,
+                  term_caps_cell_aspect(d, &size));
+    struct glyph_grid grid = glyphs_grid(d->glyphs);
+    struct frame frame = {.rgb = NULL};
+    struct cells cells = {.cell = NULL};
+    struct error ignored;
+
+    if (frame_init(&frame, fit.cols * grid.across, fit.rows * grid.down,
+                   &ignored) &&
+        cells_init(&cells, fit.cols, fit.rows, &ignored)) {
+        frame_scale(picture, &frame);
+        cells_from_frame(&cells, &frame, d->palette, d->glyphs);
+        for (int row = 0; row < fit.rows; row++)
+            windows_paint(WINDOW_OVER, pane->row + row, pane->col + fit.col,
+                          cells.cell + (size_t)row * (size_t)fit.cols,
+                          fit.cols);
+    }
+    cells_free(&cells);
+    frame_free(&frame);
+}
+
+static void draw_pane(struct scene_list *s, const struct screen *screen)
+{
+    const struct window_rect *pane = &s->list.pane;
+
+    for (int row = 0; row < pane->rows && pane->cols > 0; row++)
+        windows_text(WINDOW_OVER, pane->row + row, pane->col, pane->cols,
+                     ROLE_TEXT, "");
+    if (pane->cols > 0 && has_picture(s))
+        paint(&s->picture, screen, pane);
+}
+
+/* ---- window ---- */
+
+static void draw(struct scene_list *s, struct screen *screen)
+{
+    find(s);
+    list_window_draw(&s->list, screen, s->rows, s->count, s->files.count);
+    draw_pane(s, screen);
+}
+
+void scene_list_open(struct scene_list *s, struct screen *screen)
+{
+    if (s->files.files == NULL)
+        use_folder(s, NULL);
+    s->list.does = "opens";
+    s->list.pane_cols =
+        int_min(int_max(term_size().cols - LIST_COLS, PANE_MIN), PANE_MAX);
+    find(s);
+    list_window_open(&s->list, screen, " open a scene ", s->rows, s->count);
+    draw(s, screen);
+}
+
+static char *take(struct scene_list *s, struct screen *screen,
+                  enum list_result result)
+{
+    const struct scene_file *f;
+    char *path;
+
+    if (result == LIST_STAYS)
+        draw(s, screen);
+    if (result != LIST_CHOSEN)
+        return NULL;
+    f = &s->files.files[s->found[s->list.selected]];
+    path = xstrdup(f->path);
+    if (!f->is_folder)
+        return path;
+    screen_close_window(screen);
+    use_folder(s, path);
+    free(path);
+    scene_list_open(s, screen);
+    return NULL;
+}
+
+char *scene_list_key(struct scene_list *s, struct screen *screen, int key)
+{
+    return take(s, screen, list_window_key(&s->list, key, s->count));
+}
+
+char *scene_list_mouse(struct scene_list *s, struct screen *screen,
+                       const struct event *event)
+{
+    return take(s, screen,
+                list_window_mouse(&s->list, event, s->rows, s->count));
+}
+
+void scene_list_free(struct scene_list *s)
+{
+    scene_files_free(&s->files);
+    frame_free(&s->picture);
+    free(s->rows);
+    free(s->found);
+    *s = (struct scene_list){.count = 0};
+}
