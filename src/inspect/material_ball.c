@@ -38,6 +38,9 @@ enum { BALL, FLOOR_LIGHT, FLOOR_DARK };
 /* Samples of each pixel that are added together: some 2000 paths. */
 #define SPP_TOGETHER 4
 
+/* Radiance of a white ball where the studio lights it most. */
+#define WHITE_RADIANCE 2.1f
+
 /* Arrays of the studio's world. */
 struct ball_arrays {
     struct vec3 positions[POINTS], normals[CORNERS];
@@ -271,9 +274,13 @@ bool material_ball_add(struct material_ball *b, const struct world *world,
     return true;
 }
 
+/* Exposes for what a white ball reflects and what this one emits, so that
+ * neither is all white. */
 void material_ball_paint(const struct material_ball *b, struct frame *frame)
 {
-    float scale = b->spp > 0 ? 1.0f / (float)b->spp : 0.0f;
+    float white =
+        WHITE_RADIANCE + v3_max_component(b->materials[BALL].emission);
+    float scale = b->spp > 0 ? 1.0f / (white * (float)b->spp) : 0.0f;
 
     for (size_t i = 0; i < (size_t)BALL_PIXELS * BALL_PIXELS; i++) {
         struct vec3 c = v3_scale(b->sums[i], scale);

@@ -381,8 +381,7 @@ static void click(struct editor_panel *p, int col, int row)
 {
     struct selection *s = &p->selection;
     int list_row = p->list_top + row - 1;
-    int parameter_row =
-        row - 2 - p->list_rows - (p->shows_ball ? BALL_ROWS : 0);
+    int parameter_row = row - 2 - p->list_rows;
 
     p->is_typing = false;
     if (row == 0) {

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/min_max.h"
 #include "base/print.h"
 #include "studio/keys_bar.h"
 #include "studio/material_parameters.h"
@@ -13,9 +14,9 @@
 /* Rows besides list and parameters: pages, a title, hints. */
 #define HINT_ROWS  2
 #define OTHER_ROWS (2 + HINT_ROWS)
-#define LIST_MIN   3
 
-/* Rows of the list beside a ball, at least. */
+/* Rows of a long list, at least, and beside a ball. */
+#define LIST_MIN       3
 #define LIST_WITH_BALL 5
 
 /* Columns for names that come from files. */
@@ -26,10 +27,15 @@
 #define NUMBER_COLS 9
 #define NAME_BYTES  100
 
-/* Column of the colour at the left of a line, and of the text. */
+/* Column of the colour at the left of a line, with an edge at each side, and of
+ * the text. */
 #define SWATCH_COL  2
 #define SWATCH_COLS 2
 #define TEXT_COL    1
+
+/* Right and left eighth of a cell: edges beside a swatch. */
+#define EDGE_LEFT  0x2595u
+#define EDGE_RIGHT 0x258fu
 
 /* Texels across a quarter of a texture that its mean is taken of. */
 #define TEXELS 8u
@@ -68,13 +74,31 @@ static struct rgb srgb_of(const double linear[3])
                         (int)srgb_byte((float)linear[2])};
 }
 
+/* Paints cells at the left of the last line, whose role is given. Their edges
+ * are visible where the cells have the colour of the panel. */
+static void paint_swatch(const struct sheet *s, enum text_role role,
+                         const struct cell cells[SWATCH_COLS])
+{
+    const struct term_caps *d = &s->screen->display;
+    uint32_t fg = theme_style(d->theme, d->palette, ROLE_FRAME).fg;
+    uint32_t bg = theme_style(d->theme, d->palette, role).bg;
+    struct cell all[SWATCH_COLS + 2] = {{fg, bg,
+                                         d->has_unicode ? EDGE_LEFT : '['},
+                                        cells[0],
+                                        cells[1],
+                                        {fg, bg,
+                                         d->has_unicode ? EDGE_RIGHT : ']'}};
+
+    windows_paint(WINDOW_PANEL, s->row - 1, SWATCH_COL, all, SWATCH_COLS + 2);
+}
+
 /* Shows a linear colour at the left of the last line. */
-static void add_swatch(const struct sheet *s, const double rgb[3])
+static void add_swatch(const struct sheet *s, enum text_role role,
+                       const double rgb[3])
 {
     struct cell cell = cells_of_color(srgb_of(rgb), s->screen->display.palette);
-    struct cell cells[SWATCH_COLS] = {cell, cell};
 
-    windows_paint(WINDOW_PANEL, s->row - 1, SWATCH_COL, cells, SWATCH_COLS);
+    paint_swatch(s, role, (const struct cell[]){cell, cell});
 }
 
 static void add_pages(struct sheet *s, enum selection_page page)
@@ -98,13 +122,13 @@ static void add_pages(struct sheet *s, enum selection_page page)
                  "Tab");
 }
 
-/* Scrolls, so that the selected row is shown. *top is the first row shown. */
-static void scroll(int *top, int selected, int rows)
+/* Scrolls, so that the selected row of `count` is shown. *top is the first row
+ * shown; there are no empty rows behind the last one. */
+static void scroll(int *top, int selected, int rows, int count)
 {
-    if (*top > selected)
-        *top = selected;
-    if (*top < selected - rows + 1)
-        *top = selected - rows + 1;
+    *top = int_min(*top, int_min(selected, count - rows));
+    *top = int_max(*top, selected - rows + 1);
+    *top = int_max(*top, 0);
 }
 
 /* Adds a material with its kind, or an object with its material. */
@@ -117,6 +141,9 @@ static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
     const struct material_values *source =
         &edit_shown(sel->edit)->sources[material];
     char text[LINE_BYTES], name[NAME_BYTES], other[NAME_BYTES];
+    enum text_role role = !is_selected          ? ROLE_TEXT
+                          : p->is_in_parameters ? ROLE_PICKED
+                                                : ROLE_SELECTED;
     const char *kind;
     double rgb[3];
 
@@ -129,25 +156,17 @@ static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
                    OTHER_COLS);
     snprintf(text, sizeof text, "%s    %s %s", is_selected ? ">" : " ", name,
              other);
-    add_line(s,
-             !is_selected          ? ROLE_TEXT
-             : p->is_in_parameters ? ROLE_PICKED
-                                   : ROLE_SELECTED,
-             text);
-    add_swatch(s, rgb);
+    add_line(s, role, text);
+    add_swatch(s, role, rgb);
 }
 
-static void add_list(struct editor_panel *p, struct sheet *s, int rows)
+static void add_list(struct editor_panel *p, struct sheet *s)
 {
     const struct selection *sel = &p->selection;
 
-    scroll(&p->list_top, sel->row, rows);
-    for (int row = p->list_top; row < p->list_top + rows; row++) {
-        if (row < sel->listed_count)
-            add_item(p, s, sel->listed[row]);
-        else
-            add_line(s, ROLE_TEXT, "");
-    }
+    scroll(&p->list_top, sel->row, p->list_rows, sel->listed_count);
+    for (int row = 0; row < p->list_rows; row++)
+        add_item(p, s, sel->listed[p->list_top + row]);
 }
 
 /* Formats what the title says after the name: what differs from the files. */
@@ -225,7 +244,7 @@ static struct rgb quarter_of(const struct host_world *w,
 
 /* Shows a texture as four dots at the left of the last line. */
 static void add_texture(const struct editor_panel *p, const struct sheet *s,
-                        uint32_t texture)
+                        enum text_role role, uint32_t texture)
 {
     const struct host_world *w = &p->control->session->engine.world;
     const struct term_caps *d = &s->screen->display;
@@ -242,7 +261,7 @@ static void add_texture(const struct editor_panel *p, const struct sheet *s,
         if (d->has_unicode && d->palette != PALETTE_MONO)
             cells[i] = (struct cell){upper.bg, lower.bg, CELL_UPPER};
     }
-    windows_paint(WINDOW_PANEL, s->row - 1, SWATCH_COL, cells, SWATCH_COLS);
+    paint_swatch(s, role, cells);
 }
 
 /* Shows where a number is on its scale. The slider of a channel has the colours
@@ -280,6 +299,7 @@ static void add_parameter(struct editor_panel *p, struct sheet *s,
     char text[LINE_BYTES], value[NAME_BYTES];
     size_t length = strlen(p->typed);
     bool is_typed = is_selected && p->is_typing;
+    enum text_role role = is_selected ? ROLE_SELECTED : ROLE_TEXT;
 
     text_width_cut(value, sizeof value, v->text,
                    v->fraction >= 0 ? NUMBER_COLS : VALUE_COLS);
@@ -290,27 +310,26 @@ static void add_parameter(struct editor_panel *p, struct sheet *s,
         snprintf(text, sizeof text, "     %-10s %s", v->label, value);
     if (is_selected)
         text[0] = '>';
-    add_line(s, is_selected ? ROLE_SELECTED : ROLE_TEXT, text);
+    add_line(s, role, text);
     if (v->has_color)
-        add_swatch(s, v->color);
+        add_swatch(s, role, v->color);
     if (v->texture != NO_INDEX)
-        add_texture(p, s, v->texture);
+        add_texture(p, s, role, v->texture);
     if (v->fraction >= 0 && !is_typed)
         add_slider(p, s, v);
 }
 
-static void add_parameters(struct editor_panel *p, struct sheet *s, int rows)
+static void add_parameters(struct editor_panel *p, struct sheet *s)
 {
     struct parameter list[PARAMETERS_MAX];
     int count = panel_parameters(p, list);
 
-    scroll(&p->parameter_top, p->parameter, rows);
-    for (int row = p->parameter_top; row < p->parameter_top + rows; row++) {
-        if (row < count)
-            add_parameter(p, s, &list[row],
-                          p->is_in_parameters && row == p->parameter);
-        else
-            add_line(s, ROLE_TEXT, "");
+    scroll(&p->parameter_top, p->parameter, p->parameter_rows, count);
+    for (int i = 0; i < p->parameter_rows; i++) {
+        int row = p->parameter_top + i;
+
+        add_parameter(p, s, &list[row],
+                      p->is_in_parameters && row == p->parameter);
     }
 }
 
@@ -381,34 +400,42 @@ static bool has_room_for_ball(const struct editor_panel *p, int rows)
     const struct term_caps *d = &p->screen->display;
 
     return d->has_unicode && d->palette != PALETTE_MONO &&
-           rows >= BALL_ROWS + LIST_WITH_BALL &&
+           p->selection.listed_count > 0 &&
+           rows >=
+               BALL_ROWS + int_min(p->selection.listed_count, LIST_WITH_BALL) &&
            p->screen->panel_cols >= TEXT_COL + BALL_COLS;
+}
+
+/* Shares the rows: the values have those they need, the ball what it needs of
+ * the rest, and the list what is left. */
+static void share_rows(struct editor_panel *p, int rows)
+{
+    struct parameter list[PARAMETERS_MAX];
+    int listed = p->selection.listed_count;
+
+    p->parameter_rows =
+        int_min(panel_parameters(p, list), rows - int_min(listed, LIST_MIN));
+    rows -= p->parameter_rows;
+    p->shows_ball = has_room_for_ball(p, rows);
+    p->list_rows = int_min(listed, rows - (p->shows_ball ? BALL_ROWS : 0));
 }
 
 void panel_draw(struct editor_panel *p)
 {
     struct sheet s = {p->screen, 0};
-    struct parameter list[PARAMETERS_MAX];
-    int rows = term_size().rows - 1 - OTHER_ROWS;
+    int rows = term_size().rows - 1;
 
     if (!p->is_open || p->screen->is_too_small)
         return;
     selection_settle(&p->selection);
-    p->parameter_rows = panel_parameters(p, list);
-    if (p->parameter_rows > rows - LIST_MIN)
-        p->parameter_rows = rows - LIST_MIN;
-    if (p->selection.page == PAGE_LIGHT)
-        p->parameter_rows = rows;
-    p->shows_ball = p->selection.page != PAGE_LIGHT &&
-                    selection_has_one(&p->selection) &&
-                    has_room_for_ball(p, rows - p->parameter_rows);
-    p->list_rows = rows - p->parameter_rows - (p->shows_ball ? BALL_ROWS : 0);
+    share_rows(p, rows - OTHER_ROWS);
     screen_begin_panel(p->screen);
     add_pages(&s, p->selection.page);
-    add_list(p, &s, p->list_rows);
+    add_list(p, &s);
     add_title(p, &s);
+    add_parameters(p, &s);
     if (p->shows_ball)
         add_ball(p, &s);
-    add_parameters(p, &s, p->parameter_rows);
+    s.row = rows - HINT_ROWS;
     add_hints(p, &s);
 }

@@ -58,10 +58,10 @@ keys Space
 wait_for_rows 20 "$YELLOW"
 # a number is for the question, not for the value
 keys Tab Enter
-wait_for "│>    type"
+wait_for "│>....type"
 keys Down k 5
 wait_for "stored as view 5"
-expect "│>    colour     #000000$"
+expect "│>....colour     #000000$"
 # Esc is Esc
 raw_keys "$(printf '\033\033\021')"
 expect_end 0

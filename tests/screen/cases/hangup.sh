@@ -120,7 +120,7 @@ keys Tab
 wait_for "│ Materials  Objects  Light "
 keys Enter
 keys Down Down Down Down Down Down Down Down
-wait_for "│>    of colour  #ffffff"
+wait_for "│>....of colour  #ffffff"
 raw_keys '#ff0000'
 keys Enter
 shows '255;0;0'

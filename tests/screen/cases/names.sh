@@ -13,16 +13,16 @@ size=80x24
 start names.obj
 wait_for LIVE
 keys Tab
-wait_for "│>    plain             diffuse"
-expect "│     ünïcödé           diffuse"
-expect "│     日本語の材料名前  diffuse"
-expect "│     tab?and?\[31m      diffuse"
-expect "│     00000000000000000 diffuse"
+wait_for "│>....plain             diffuse"
+expect "│.....ünïcödé           diffuse"
+expect "│.....日本語の材料名前  diffuse"
+expect "│.....tab?and?\[31m      diffuse"
+expect "│.....00000000000000000 diffuse"
 keys Tab
-wait_for "│>    of plain          plain"
-expect "│     of ünïcödé        ünïcödé"
-expect "│     of 日本語の材料名 日本語の材料"
-expect "│     of tab?and?\[31m   tab?and?\[31m"
+wait_for "│>....of plain          plain"
+expect "│.....of ünïcödé        ünïcödé"
+expect "│.....of 日本語の材料名 日本語の材料"
+expect "│.....of tab?and?\[31m   tab?and?\[31m"
 # every row has the bar
 wait_until eval "screen | grep -c '│' | grep -qx 23"
 keys C-q

@@ -13,7 +13,10 @@ wait_for LIVE
 shows '255;255;255'
 keys Tab
 wait_for "│ Materials  Objects  Light "
-expect "│>    l                 diffuse"
+expect "│>....l                 diffuse"
+# the values are under the list, without a gap
+screen | sed -n 3p | grep -q '│─ l ─' || die "row 3: $(screen | sed -n 3p)"
+screen | sed -n 4p | grep -q '│     type ' || die "row 4: $(screen | sed -n 4p)"
 expect "     light      1        ███▋"
 wait_for "LIVE"
 # the help begins with the panel's own keys
@@ -24,7 +27,7 @@ wait_until_gone "choose; change"
 # by hand: red light, typed
 keys Enter
 keys Down Down Down Down Down Down Down Down
-wait_for "^.*│>    of colour  #ffffff"
+wait_for "^.*│>....of colour  #ffffff"
 raw_keys '#ff0000'
 wait_for "of colour  #ff0000_"
 keys Enter
@@ -35,24 +38,24 @@ keys w c
 wait_for "Change lamp.view?"
 keys y
 wait_for "wrote the view"
-expect "│>    of colour  #ff0000"
+expect "│>....of colour  #ff0000"
 # a type is not typed: Enter goes to the next, and back with the undo
 keys Up Up Up Up Up Up Up Up
-wait_for "│>    type       diffuse"
+wait_for "│>....type       diffuse"
 keys 5
 wait_for "changed with the arrows, or Enter"
 keys Enter
-wait_for "│>    type       [^d ]"
+wait_for "│>....type       [^d ]"
 keys u
-wait_for "│>    type       diffuse"
+wait_for "│>....type       diffuse"
 keys Down Down Down Down Down Down Down Down
-wait_for "│>    of colour  #ff0000"
+wait_for "│>....of colour  #ff0000"
 # half as bright by the arrows: one step of undo
 keys Up
 keys Left Left Left
-wait_for "│>    light      0.751"
+wait_for "│>....light      0.751"
 keys u
-wait_for "│>    light      1   "
+wait_for "│>....light      1   "
 wait_for "undone: material l"
 # the camera's move, the colour before it
 keys u
@@ -82,11 +85,11 @@ printf '# mine\nnewmtl l\nKd 0 0 0 # black\nKe 1 0 0\naniso .5\n' |
 # a copy for the object, in green
 keys Tab
 wait_for "─ (no name) / l "
-expect "│>    (no name)         l$"
+expect "│>....(no name)         l$"
 keys IC
 wait_for "has its own material now: l.2"
 keys Tab Tab
-wait_for "│>    l.2               diffuse"
+wait_for "│>....l.2               diffuse"
 keys Enter Down Down Down Down Down Down Down Down
 raw_keys '#0f0'
 keys Enter
@@ -99,9 +102,9 @@ keys Escape
 wait_for "Ins copy"
 keys Tab Tab
 wait_for "─ Sky and picture"
-expect "│>    sun        off"
+expect "│>....sun        off"
 keys Right
-wait_for "│>    sun        on"
+wait_for "│>....sun        on"
 expect "     elevation  45       █████▌"
 expect "     strength   1"
 keys Down Down
@@ -111,9 +114,9 @@ wait_for "found '91', expected a number from -90 to 90"
 keys Escape
 wait_until_gone "91_"
 keys ')'
-wait_for "│>    elevation  55"
+wait_for "│>....elevation  55"
 keys Up Up Left
-wait_for "│>    sun        off"
+wait_for "│>....sun        off"
 keys Down Down
 raw_keys '0 0 1'
 keys Enter
@@ -138,23 +141,23 @@ fresh
 start lamp.obj
 wait_for LIVE
 keys Tab
-wait_for "│>    l  "
+wait_for "│>....l  "
 click=$(printf '\033[<0;%d;%dM\033[<0;%d;%dm' 55 3 55 3)
 raw_keys "$click"
-wait_for "│>    l\.2 "
-raw_keys "$(printf '\033[<0;60;20M\033[<0;60;20m')"
-wait_for "│>    light "
-raw_keys "$(printf '\033[<65;60;20M')"
-wait_for "│>    light      0.909"
+wait_for "│>....l\.2 "
+raw_keys "$(printf '\033[<0;60;12M\033[<0;60;12m')"
+wait_for "│>....light "
+raw_keys "$(printf '\033[<65;60;12M')"
+wait_for "│>....light      0.909"
 # a slider is dragged, and one undo takes the whole drag back
-raw_keys "$(printf '\033[<0;70;15M')"
-wait_for "│>    red        0\.[0-9]"
-raw_keys "$(printf '\033[<32;78;15M')"
-wait_for "│>    red        0\.86"
+raw_keys "$(printf '\033[<0;70;7M')"
+wait_for "│>....red        0\.[0-9]"
+raw_keys "$(printf '\033[<32;78;7M')"
+wait_for "│>....red        0\.86"
 raw_keys "$(printf '\033[<32;90;23M\033[<0;90;23m')"
-wait_for "│>    red        1 "
+wait_for "│>....red        1 "
 keys u
-wait_for "│>    red        0 "
+wait_for "│>....red        0 "
 raw_keys "$(printf '\033[<0;66;1M\033[<0;66;1m')"
 wait_for "Sky and picture"
 keys u
@@ -165,7 +168,7 @@ wait_until_gone "│"
 keys Tab
 wait_for "Sky and picture"
 raw_keys "$(printf '\033[<0;22;8M\033[<0;22;8m')"
-wait_for "│>    l\.2 "
+wait_for "│>....l\.2 "
 keys C-q
 expect_end 0
 # it is all there again; monochrome has the numbers
@@ -183,6 +186,19 @@ keys Enter Down
 wait_for "│>.*colour     #"
 keys Escape Escape
 wait_until_gone "│"
+keys C-q
+expect_end 0
+# white beside the light theme's paper: its swatch has edges of another colour
+fresh
+size=80x24
+printf 'newmtl l\nKd 1 1 1\n' >lamp.mtl
+start --theme light lamp.obj
+wait_for LIVE
+keys Tab
+wait_for "│>▕  ▏l  "
+screen_colors | grep 'colour  ' |
+    grep -q '38;2;124;133;145m▕.*48;2;255;255;255m  .*▏' ||
+    die "swatch: $(screen_colors | grep 'colour  ' | cat -v)"
 keys C-q
 expect_end 0
 # in normal mode nothing moves or is edited; the row of keys knows

@@ -8,9 +8,9 @@ size=100x24
 start --watch lamp.obj
 wait_for LIVE
 keys Tab Enter
-wait_for "│>    "
+wait_for "│>...."
 keys Down Down Down Down Down Down Down Down
-wait_for "│>    of colour  #ffffff"
+wait_for "│>....of colour  #ffffff"
 raw_keys '#ff0000'
 keys Enter
 wait_for " l \*"
@@ -25,17 +25,17 @@ grep -q '^Ke 1 0 0$' lamp.mtl || die "lamp.mtl: $(cat lamp.mtl)"
 wait_for "LIVE .*spp"
 reject "changed"
 # the same is selected, and what is being typed goes on
-expect "│>    of colour  #ff0000"
+expect "│>....of colour  #ff0000"
 raw_keys '#00'
-wait_for "│>    of colour  #00_"
+wait_for "│>....of colour  #00_"
 printf 'newmtl first\nKd 1 1 1\nnewmtl l\nKd 0 0 0\nKe 1 0 0\n' >lamp.mtl
 wait_for "loaded lamp.obj"
-wait_for "│>    of colour  #00_"
+wait_for "│>....of colour  #00_"
 expect "│─ l ─"
 # saved by ourselves
 raw_keys 'ff00'
 keys Enter
-wait_for "│>    of colour  #00ff00"
+wait_for "│>....of colour  #00ff00"
 keys C-s
 wait_for "wrote 1 material to lamp.mtl"
 wait_until_gone "wrote 1 material" # a load would say so in its place

@@ -23,7 +23,7 @@ keys Escape Escape
 wait_until_gone "quit_"
 # a value takes it
 keys Tab Enter Down Down Down Down Down Down Down Down
-wait_for "│>    of colour"
+wait_for "│>....of colour"
 mux set-buffer '#ff0000'
 mux paste-buffer -p
 wait_for "of colour  #ff0000_"

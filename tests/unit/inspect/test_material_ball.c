@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
  * test_material_ball.c - a ball that only glows has its radiance in every pixel
- * of its disc; a change begins the picture anew; samples end
+ * of its disc; white and lamps are exposed so that neither is a white disc; a
+ * change begins the picture anew; samples end
  */
 #include <math.h>
 
@@ -84,11 +85,73 @@ static void white_is_brighter_than_black(void **state)
     material_ball_free(&ball);
 }
 
+/* Least and largest green of the painted disc. */
+struct range {
+    int least, most;
+};
+
+static struct range painted(struct material_ball *ball,
+                            const struct material *m, struct frame *frame)
+{
+    struct range r = {255, 0};
+
+    finish(ball, m);
+    material_ball_paint(ball, frame);
+    for (int y = 0; y < BALL_PIXELS; y++)
+        for (int x = 0; x < BALL_PIXELS; x++) {
+            int green = frame->rgb[3 * (y * BALL_PIXELS + x) + 1];
+
+            if (hypot(x + .5 - BALL_PIXELS / 2., y + .5 - BALL_PIXELS / 2.) >
+                BALL_PIXELS / 3.)
+                continue;
+            r.least = green < r.least ? green : r.least;
+            r.most = green > r.most ? green : r.most;
+        }
+    return r;
+}
+
+static double linear_of(uint8_t srgb)
+{
+    return pow((srgb / 255. + 0.055) / 1.055, 2.4);
+}
+
+/* A white ball is light grey to white and nowhere as white as can be; half the
+ * albedo is darker. The painted disc of a lamp has the ratios of its emission.
+ */
+static void white_and_lamps_are_exposed(void **state)
+{
+    struct material_ball ball = {.kernel = NULL};
+    struct material white = material_default(), grey = white, lamp = white;
+    struct frame frame;
+    struct range of_white, of_grey;
+    struct error err;
+    const uint8_t *middle;
+
+    (void)state;
+    assert_true(frame_init(&frame, BALL_PIXELS, BALL_PIXELS, &err));
+    white.color = v3(1.0f, 1.0f, 1.0f);
+    grey.color = v3(0.5f, 0.5f, 0.5f);
+    of_white = painted(&ball, &white, &frame);
+    assert_in_range(of_white.most, 220, 254);
+    assert_true(of_white.most - of_white.least > 60);
+    of_grey = painted(&ball, &grey, &frame);
+    assert_true(of_grey.most < of_white.most - 40);
+    lamp.color = v3(0.0f, 0.0f, 0.0f);
+    lamp.emission = v3(1700.0f, 1200.0f, 400.0f);
+    assert_in_range(painted(&ball, &lamp, &frame).most, 200, 254);
+    middle = frame.rgb + 3 * (12 * BALL_PIXELS + 12);
+    check_close(linear_of(middle[1]) / linear_of(middle[0]), 12 / 17., 0.02);
+    check_close(linear_of(middle[2]) / linear_of(middle[0]), 4 / 17., 0.02);
+    frame_free(&frame);
+    material_ball_free(&ball);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(glow_is_the_radiance),
         cmocka_unit_test(white_is_brighter_than_black),
+        cmocka_unit_test(white_and_lamps_are_exposed),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
