@@ -243,6 +243,8 @@ static void add_sample(struct material_ball *b)
     b->spp++;
 }
 
+_Static_assert(BALL_SPP % SPP_TOGETHER == 0, "see material_ball_add()");
+
 bool material_ball_is_done(const struct material_ball *b)
 {
     return b->spp >= BALL_SPP;
@@ -267,10 +269,9 @@ bool material_ball_add(struct material_ball *b, const struct world *world,
     if (material_ball_is_done(b))
         return true;
     lend_textures(&b->studio, world);
-    for (int i = 0; i < SPP_TOGETHER && !*is_new; i++) {
+    for (int i = 0; i < SPP_TOGETHER; i++)
         add_sample(b);
-        *is_new = (b->spp & (b->spp - 1)) == 0;
-    }
+    *is_new = b->spp == SPP_TOGETHER || material_ball_is_done(b);
     return true;
 }
 

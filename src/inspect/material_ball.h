@@ -42,7 +42,7 @@ struct material_ball {
 /* Adds some samples of a material to the picture, in a few milliseconds. The
  * first ones after a change begin it anew. `world` has the textures, and
  * `textures` is their version. *is_new tells if the picture should be shown
- * again: its samples have doubled. */
+ * again, as a draft or finished. */
 bool material_ball_add(struct material_ball *ball, const struct world *world,
                        uint64_t textures, const struct material *material,
                        bool *is_new, struct error *err);

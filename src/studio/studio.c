@@ -291,7 +291,7 @@ static const struct command commands[ACTIONS] = {
     [ACTION_ABOUT] = {.workspace = workspace_switch_about},
     [ACTION_HIDE] = {.workspace = workspace_switch_status},
     [ACTION_MOUSE] = {.studio = switch_mouse},
-    [ACTION_REDRAW] = {.workspace = workspace_layout},
+    [ACTION_REDRAW] = {.workspace = workspace_redraw},
     [ACTION_HELP] = {.workspace = workspace_open_commands},
     [ACTION_SUSPEND] = {.studio = studio_suspend},
     [ACTION_ABORT] = {.end_signal = SIGQUIT},

@@ -36,8 +36,8 @@
 #define STATUS_NS      (250 * MS_NS)
 #define STATUS_SLOW_NS S_NS
 
-/* A new layout clears the screen. It waits so long for a picture, so that both
- * appear together. */
+/* A new layout waits so long for a picture, so that text and picture appear
+ * together. */
 #define LAYOUT_NS (100 * MS_NS)
 
 /* The status line says that the picture is filtered until it was not for this
@@ -172,6 +172,12 @@ void workspace_layout(struct workspace *workspace)
     panel_draw(&workspace->panel);
     screen_draft_fit(workspace->control, &workspace->screen);
     open_window(workspace); /* the layout closed it */
+}
+
+void workspace_redraw(struct workspace *workspace)
+{
+    tty_relayout(true);
+    workspace_layout(workspace);
 }
 
 void workspace_init(struct workspace *workspace, struct live_render *control,
@@ -627,8 +633,7 @@ static void limit_frame(struct workspace *workspace, uint64_t now_ns)
 }
 
 /* Writes text that has changed, then a frame if `has_frame`, which is a new one
- * if `is_new`. The text of a new layout, which clears the screen, waits for the
- * frame. */
+ * if `is_new`. The text of a new layout waits for the frame. */
 static enum screen_result send(struct workspace *workspace, bool has_frame,
                                bool is_new)
 {

@@ -76,6 +76,9 @@ void workspace_open(struct workspace *workspace);
  * open stay open. */
 void workspace_layout(struct workspace *workspace);
 
+/* The same on a screen that is cleared first: others have written to it. */
+void workspace_redraw(struct workspace *workspace);
+
 /* Draws all parts again as soon as possible. */
 void workspace_refresh(struct workspace *workspace);
 

@@ -43,7 +43,7 @@ void ansi_diff_invalidate(struct ansi_diff *a, struct ansi_diff_rect rect)
     for (int y = rect.row; y < rect.row + rect.rows; y++) {
         for (int x = rect.col; x < rect.col + rect.cols; x++) {
             if (x >= 0 && x < a->cols && y >= 0 && y < a->rows)
-                a->shown[(size_t)y * (size_t)a->cols + (size_t)x].glyph = 0;
+                ansi_diff_shown(a, x, y)->glyph = 0;
         }
     }
 }
@@ -51,6 +51,11 @@ void ansi_diff_invalidate(struct ansi_diff *a, struct ansi_diff_rect rect)
 void ansi_diff_invalidate_all(struct ansi_diff *a)
 {
     ansi_diff_invalidate(a, (struct ansi_diff_rect){0, 0, a->cols, a->rows});
+}
+
+struct cell *ansi_diff_shown(const struct ansi_diff *a, int col, int row)
+{
+    return &a->shown[(size_t)row * (size_t)a->cols + (size_t)col];
 }
 
 void ansi_diff_begin(struct ansi_diff *a)
@@ -246,14 +251,14 @@ int ansi_diff_uncovered(const struct ansi_diff_draw *how, int col, int row)
 static int put_row(struct ansi_diff *a, const struct cells *cells, int row,
                    int begin, int end, const struct ansi_diff_draw *how)
 {
-    size_t first = (size_t)row * (size_t)a->cols;
+    const struct cell *made = &cells->cell[(size_t)row * (size_t)cells->cols];
     int step = cells->palette == PALETTE_24BIT ? how->step : 0;
     int from = -1;
 
     for (int col = ansi_diff_uncovered(how, begin, row); col < end;
          col = ansi_diff_uncovered(how, col + 1, row)) {
-        const struct cell *cell = &cells->cell[first + (size_t)col];
-        struct cell *shown = &a->shown[first + (size_t)col];
+        const struct cell *cell = &made[col];
+        struct cell *shown = ansi_diff_shown(a, how->col + col, how->row + row);
 
         if (may_stay(shown, cell, cells->glyphs, step))
             continue;
@@ -282,7 +287,8 @@ bool ansi_diff_picture(struct ansi_diff *a, struct cells *cells,
     int start_row = a->next_row;
     int start_col = a->next_col;
 
-    assert(cells->cols == a->cols && cells->rows == a->rows);
+    assert(how->col >= 0 && how->col + cells->cols <= a->cols);
+    assert(how->row >= 0 && how->row + cells->rows <= a->rows);
     a->begun = a->length;
     /* colour numbers and glyphs have another meaning now */
     if (cells->palette != a->palette || cells->glyphs != a->glyphs)
@@ -290,10 +296,10 @@ bool ansi_diff_picture(struct ansi_diff *a, struct cells *cells,
     a->palette = cells->palette;
     a->glyphs = cells->glyphs;
     /* The first row comes twice: its right part first, its left part last. */
-    for (int i = 0; i <= a->rows; i++) {
-        int row = (start_row + i) % a->rows;
+    for (int i = 0; i <= cells->rows; i++) {
+        int row = (start_row + i) % cells->rows;
         int begin = i == 0 ? start_col : 0;
-        int end = i == a->rows ? start_col : a->cols;
+        int end = i == cells->rows ? start_col : cells->cols;
         int stop;
 
         if (i > 0 && cells->frame && frame_is_cancelled(cells->frame))

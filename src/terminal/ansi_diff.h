@@ -3,11 +3,11 @@
  * ansi_diff.h - terminal cells to escape sequences, by difference, and a
  * picture as lines of coloured text
  *
- * An ansi_diff remembers what the terminal shows and writes only cells that
- * differ; a colour is set only when it changes. A byte budget ends a frame
- * early. The next frame continues where it ended, so that every cell is
- * updated in turn. The text of a picture has the same cells as the screen at
- * the same size.
+ * An ansi_diff remembers what the terminal shows, also while the picture moves
+ * on it, and writes only cells that differ; a colour is set only when it
+ * changes. A byte budget ends a frame early. The next frame continues where it
+ * ended, so that every cell is updated in turn. The text of a picture has the
+ * same cells as the screen at the same size.
  *
  * Units:     terminal cells, bytes
  * Ownership: ansi_diff_free() frees; a zeroed struct is empty; a text is for
@@ -27,7 +27,7 @@
 /* ---- differences ---- */
 
 struct ansi_diff {
-    int cols, rows;
+    int cols, rows; /* of the terminal */
     struct cell *shown;
     enum palette palette;   /* of `shown` */
     enum glyphs glyphs;     /* of `shown` */
@@ -51,15 +51,17 @@ struct ansi_diff_draw {
     int covered_count;
 };
 
-/* Initializes for a picture of cols x rows cells, with unknown contents of the
- * screen. */
+/* Initializes for a terminal of cols x rows cells, with unknown contents. */
 bool ansi_diff_init(struct ansi_diff *a, int cols, int rows, struct error *err);
 void ansi_diff_free(struct ansi_diff *a);
 
-/* Marks cells as unknown, for example because something else was drawn
- * there. */
+/* Marks cells of the terminal as unknown, for example because something else
+ * was drawn there. */
 void ansi_diff_invalidate(struct ansi_diff *a, struct ansi_diff_rect rect);
 void ansi_diff_invalidate_all(struct ansi_diff *a);
+
+/* Returns what the terminal shows in a cell. */
+struct cell *ansi_diff_shown(const struct ansi_diff *a, int col, int row);
 
 /* Empties the buffer. The terminal's default colours must be set at this
  * point. */

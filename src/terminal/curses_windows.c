@@ -172,13 +172,16 @@ static void leave_to_picture(int (*erase_cells)(WINDOW *))
     bkgrndset(&blank);
 }
 
-void windows_clear(void)
+bool windows_reset(bool must_clear)
 {
     size_t count = (size_t)LINES * (size_t)COLS;
 
     windows_close();
     windows_hide_panel();
     leave_to_picture(werase);
+    touch_rows(0, shown.rows);
+    if (!must_clear && shown.cols == COLS && shown.rows == LINES)
+        return shown.must_clear;
     free_shown();
     shown.cell = xcalloc(count, sizeof *shown.cell);
     for (int i = 0; i < WINDOW_PARTS; i++)
@@ -187,6 +190,7 @@ void windows_clear(void)
     shown.cols = COLS;
     shown.rows = LINES;
     shown.must_clear = true;
+    return true;
 }
 
 /* Columns that a text takes if there are `cols`. */
@@ -323,6 +327,24 @@ const struct window_cell *windows_shown(int col, int row)
 {
     assert(col < shown.cols && row < shown.rows);
     return &shown.cell[row * shown.cols + col];
+}
+
+/* True for a cell that is never written, since that would scroll the screen. */
+static bool would_scroll(int col, int row)
+{
+    return tty_scrolls_at_end() && col == shown.cols - 1 &&
+           row == shown.rows - 1;
+}
+
+void windows_set_shown(int col, int row, enum window_cell_kind kind)
+{
+    struct window_cell cell;
+
+    memset(&cell, 0, sizeof cell); /* also the padding, which is compared */
+    cell.kind = kind;
+    if (!would_scroll(col, row))
+        shown.cell[row * shown.cols + col] = cell;
+    touch_rows(row, 1);
 }
 
 static bool has_cell(const WINDOW *w, int col, int row)
@@ -487,9 +509,7 @@ static void update_cell(struct writer *w, int col, int row)
     struct window_cell now;
 
     look_at(col, row, &now);
-    if (memcmp(was, &now, sizeof now) == 0 ||
-        (tty_scrolls_at_end() && col == shown.cols - 1 &&
-         row == shown.rows - 1))
+    if (memcmp(was, &now, sizeof now) == 0 || would_scroll(col, row))
         return;
     *was = now;
     if (now.kind != WINDOW_CELL_TAIL)

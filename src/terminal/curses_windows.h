@@ -15,6 +15,7 @@
 #ifndef GLIM_CURSES_WINDOWS_H
 #define GLIM_CURSES_WINDOWS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <wchar.h>
 
@@ -27,9 +28,10 @@ struct window_rect {
 /* Sets the colours of all text from the next update on. */
 void windows_use_theme(enum theme theme, enum palette palette);
 
-/* Closes all windows. The next update clears the screen and leaves it to the
- * picture. */
-void windows_clear(void);
+/* Closes all windows and leaves the screen to the picture. The next update
+ * clears it if `must_clear` or if its size is another one, and else overwrites
+ * what it shows. Returns true if it will clear. */
+bool windows_reset(bool must_clear);
 
 /* Frees all. Call it before the screen is left. */
 void windows_free(void);
@@ -83,8 +85,9 @@ void windows_hide_panel(void);
 /* Shows text in the middle of an empty screen. */
 void windows_notice(const char *text);
 
-/* Writes what has changed, and blanks once where the picture will be. Returns
- * the number of bytes. The cursor is in the last row, column 0, afterwards. */
+/* Writes what has changed, and blanks where text gives way to the picture.
+ * Returns the number of bytes. The cursor is in the last row, column 0,
+ * afterwards. */
 size_t windows_update(void);
 
 enum window_cell_kind {
@@ -92,7 +95,8 @@ enum window_cell_kind {
     WINDOW_CELL_TEXT,
     WINDOW_CELL_LINE,    /* a name of curses' line drawing */
     WINDOW_CELL_PAINTED, /* a glyph of windows_paint() */
-    WINDOW_CELL_TAIL     /* the right half of a wide character */
+    WINDOW_CELL_TAIL,    /* the right half of a wide character */
+    WINDOW_CELL_UNKNOWN
 };
 
 /* A character and those that combine with it. */
@@ -106,5 +110,9 @@ struct window_cell {
 
 /* Returns what the terminal shows in a cell since the last update. */
 const struct window_cell *windows_shown(int col, int row);
+
+/* Sets what it shows: WINDOW_CELL_SPARED, so that the next update writes text
+ * only, or WINDOW_CELL_UNKNOWN, so that it writes text or a blank. */
+void windows_set_shown(int col, int row, enum window_cell_kind kind);
 
 #endif

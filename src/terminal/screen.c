@@ -51,7 +51,6 @@ static void free_sized(struct screen *screen)
     pixel_graphics_free(&screen->graphics);
     cells_free(&screen->cells);
     screen->frame_width = screen->frame_height = 0;
-    ansi_diff_free(&screen->ansi);
 }
 
 static void say_too_small(const struct tty_size *size)
@@ -147,13 +146,20 @@ bool screen_layout(struct screen *screen, int width_px, int height_px,
                    struct error *err)
 {
     struct pixel_graphics before = screen->graphics;
+    const struct term_caps *d = &screen->display;
+    bool must_clear = before.shape.kind != PIXEL_GRAPHICS_NONE ||
+                      term_caps_pixels(d) != PIXEL_GRAPHICS_NONE ||
+                      screen->ansi.palette != d->palette ||
+                      screen->ansi.glyphs != d->glyphs;
     struct tty_size size;
     bool ok;
 
     free_sized(screen);
-    windows_use_theme(screen->display.theme, screen->display.palette);
-    tty_relayout();
+    windows_use_theme(d->theme, d->palette);
+    if (tty_relayout(must_clear))
+        ansi_diff_free(&screen->ansi);
     size = term_size();
+    screen->is_new = true;
     screen->window = (struct ansi_diff_rect){0};
     screen->has_status = false;
     screen->must_update = true;
@@ -171,8 +177,9 @@ bool screen_layout(struct screen *screen, int width_px, int height_px,
         screen->cursor_col < screen->fit.cols ? screen->cursor_col : 0;
     screen->cursor_row =
         screen->cursor_row < screen->fit.rows ? screen->cursor_row : 0;
-    ok = ansi_diff_init(&screen->ansi, screen->fit.cols, screen->fit.rows,
-                        err) &&
+    screen->ansi.next_row = screen->ansi.next_col = 0;
+    ok = (screen->ansi.shown ||
+          ansi_diff_init(&screen->ansi, size.cols, size.rows, err)) &&
          (init_pixels(screen, &before, &size, width_px, height_px, err) ||
           init_cells(screen, err));
     if (screen->graphics.shape.kind == PIXEL_GRAPHICS_KITTY)
@@ -212,6 +219,8 @@ const char *screen_glyphs_name(const struct screen *screen)
 /* The picture has to be drawn again where text was. */
 static void give_to_picture(struct screen *screen, struct ansi_diff_rect rect)
 {
+    rect.col += screen->fit.col;
+    rect.row += screen->fit.row;
     ansi_diff_invalidate(&screen->ansi, rect);
     pixel_graphics_invalidate(&screen->graphics);
 }
@@ -342,11 +351,38 @@ static bool add_picture(struct screen *screen, const struct screen_frame *frame,
     return ansi_diff_picture(&screen->ansi, &screen->cells, &draw);
 }
 
+/* Carries the cells of the terminal over to a new layout. The picture
+ * overwrites text that was where it is now; text or blanks overwrite all else.
+ */
+static void take_over(struct screen *screen)
+{
+    const struct cells_rect *fit = &screen->fit;
+    struct ansi_diff *a = &screen->ansi;
+
+    for (int i = 0; i < a->cols * a->rows; i++) {
+        int col = i % a->cols, row = i / a->cols;
+        bool was_text = windows_shown(col, row)->kind != WINDOW_CELL_SPARED;
+        bool is_picture = !screen_is_hidden(screen) && col >= fit->col &&
+                          col < fit->col + fit->cols && row >= fit->row &&
+                          row < fit->row + fit->rows;
+
+        if (is_picture || !was_text)
+            windows_set_shown(col, row,
+                              is_picture ? WINDOW_CELL_SPARED
+                                         : WINDOW_CELL_UNKNOWN);
+        if (was_text || !is_picture)
+            ansi_diff_shown(a, col, row)->glyph = 0;
+    }
+}
+
 void screen_draw_text(struct screen *screen)
 {
     if (!screen->must_update)
         return;
     screen->must_update = false;
+    if (screen->is_new && !screen->is_too_small)
+        take_over(screen);
+    screen->is_new = false;
     if (tty_has_sync() && !screen->is_too_small) {
         tty_write(TTY_SYNC_BEGIN, sizeof TTY_SYNC_BEGIN - 1);
         screen->text_bytes = sizeof TTY_SYNC_BEGIN - 1;
@@ -445,4 +481,5 @@ void screen_drain(struct screen *screen, struct tty_input *input)
 void screen_free(struct screen *screen)
 {
     free_sized(screen);
+    ansi_diff_free(&screen->ansi);
 }

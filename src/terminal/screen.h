@@ -53,7 +53,8 @@ struct screen {
     struct pixel_graphics graphics; /* used instead of cells unless NONE */
     int image_layer;                /* of its images in the layout before */
     bool has_old_images;            /* kitty shows images of a layout before */
-    struct ansi_diff ansi;
+    struct ansi_diff ansi;          /* of the whole terminal */
+    bool is_new;                    /* nothing of this layout was drawn yet */
     struct status_row status;
     bool has_status;
     struct ansi_diff_rect window; /* in the picture's cells; 0 cols: closed */
@@ -75,7 +76,8 @@ struct cells_rect screen_expect(const struct term_caps_choice *choice,
 void screen_init(struct screen *screen, const struct term_caps_choice *choice);
 
 /* Fits a picture of this size to the present size of the terminal. The window
- * closes, and everything has to be drawn anew. */
+ * closes, and everything has to be drawn anew, over what the terminal shows:
+ * only another size or palette, other glyphs and pixels clear it. */
 bool screen_layout(struct screen *screen, int width_px, int height_px,
                    struct error *err);
 

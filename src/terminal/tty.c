@@ -325,7 +325,7 @@ bool tty_open(struct error *err)
     term.may_ask_colors = !is_simple(getenv("TERM"));
     tty_ask_through_tmux();
     refresh(); /* enters the screen */
-    tty_relayout();
+    tty_relayout(true);
     windows_update();
     ask();
     tty_set_mouse(true);
@@ -491,8 +491,7 @@ void tty_resume(void)
     erase();
     refresh();
     curs_set(0);
-    tty_relayout();
-    windows_update();
+    tty_relayout(true);
     tty_set_mouse(term.has_mouse);
     tty_write(PASTE_ON, sizeof PASTE_ON - 1);
 }
@@ -502,14 +501,14 @@ void tty_flush_input(void)
     tcflush(STDIN_FILENO, TCIFLUSH);
 }
 
-void tty_relayout(void)
+bool tty_relayout(bool must_clear)
 {
     struct winsize w = {0};
 
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) == 0 && w.ws_col > 0 &&
         w.ws_row > 0)
         resizeterm(w.ws_row, w.ws_col);
-    windows_clear();
+    return windows_reset(must_clear);
 }
 
 void tty_set_mouse(bool is_on)

@@ -80,19 +80,19 @@ bool tty_has_input(void);
  * asks the program to end. */
 bool tty_write(const char *bytes, size_t size_bytes);
 
-/* Restores the terminal and stops the process until it is continued. The screen
- * is empty afterwards. */
+/* Restores the terminal and stops the process until it is continued, then
+ * resumes. */
 void tty_suspend(void);
 
-/* Sets all modes again after another process has continued this one. The screen
- * is empty afterwards. */
+/* Sets all modes again after another process has continued this one. The next
+ * windows_update() clears the screen. */
 void tty_resume(void);
 
 /* Discards input that was not read. */
 void tty_flush_input(void);
 
-/* Applies a new size and clears the screen at the next windows_update(). */
-void tty_relayout(void);
+/* Applies a new size, and resets the windows: windows_reset(). */
+bool tty_relayout(bool must_clear);
 
 void tty_set_mouse(bool is_on);
 

@@ -95,12 +95,12 @@ static void tell_text(void)
     }
 }
 
-static void tell_cells(const struct ansi_diff *a, int col, int row)
+static void tell_cells(const struct ansi_diff *a, const struct cells_rect *fit)
 {
-    for (int y = 0; y < a->rows; y++) {
-        for (int x = 0; x < a->cols; x++) {
-            const struct cell *shown = &a->shown[y * a->cols + x];
-            struct belief_cell *cell = &shared->cell[row + y][col + x];
+    for (int y = fit->row; y < fit->row + fit->rows; y++) {
+        for (int x = fit->col; x < fit->col + fit->cols; x++) {
+            const struct cell *shown = ansi_diff_shown(a, x, y);
+            struct belief_cell *cell = &shared->cell[y][x];
 
             cell->kind = shown->glyph == 0 ? BELIEF_UNKNOWN : BELIEF_PICTURE;
             cell->picture = *shown;
@@ -115,7 +115,7 @@ static void tell_picture(const struct screen *screen)
     const struct ansi_diff_rect *r = &screen->window;
 
     memcpy(under, shared->cell, sizeof under);
-    tell_cells(&screen->ansi, screen->fit.col, screen->fit.row);
+    tell_cells(&screen->ansi, &screen->fit);
     for (int y = r->row; y < r->row + r->rows; y++)
         for (int x = r->col; x < r->col + r->cols; x++)
             shared->cell[screen->fit.row + y][screen->fit.col + x] =

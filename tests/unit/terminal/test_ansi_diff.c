@@ -114,7 +114,7 @@ static struct ansi_diff make_ansi(int cols, int rows)
 static void screen_shows_the_cells(void **state)
 {
     struct cells c = make_cells(30, 9);
-    struct ansi_diff a = make_ansi(30, 9);
+    struct ansi_diff a = make_ansi(COLS, ROWS);
     struct ansi_diff_draw how = {.col = 4, .row = 2, .budget_bytes = SIZE_MAX};
     static const enum glyphs kinds[5] = {GLYPHS_HALF, GLYPHS_LOWER,
                                          GLYPHS_QUADRANT, GLYPHS_SEXTANT,

@@ -115,7 +115,7 @@ static int open_screen(void **state)
         return 1;
     resizeterm(24, 80);
     windows_use_theme(THEME_DARK, PALETTE_24BIT);
-    windows_clear();
+    windows_reset(true);
     update();
     return 0;
 }
