@@ -87,10 +87,14 @@ static struct cells_rect fit_to(const struct screen *screen,
                     term_caps_pixels(&screen->display) == PIXEL_GRAPHICS_SIXEL;
 
     int beside = screen->panel_cols < size->cols ? screen->panel_cols : 0;
+    struct cells_rect fit =
+        cells_fit(width_px, height_px, size->cols - beside,
+                  size->rows - (is_short ? 1 : 0),
+                  term_caps_cell_aspect(&screen->display, size));
 
-    return cells_fit(width_px, height_px, size->cols - beside,
-                     size->rows - (is_short ? 1 : 0),
-                     term_caps_cell_aspect(&screen->display, size));
+    if (beside > 0)
+        fit.col = 0; /* where it is beside a bar: it stays there */
+    return fit;
 }
 
 struct cells_rect screen_expect(const struct term_caps_choice *choice,
