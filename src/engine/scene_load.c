@@ -544,9 +544,9 @@ static bool add_light(const struct scene *scene, struct host_world *host,
     struct lighting *light = &view->lighting;
     struct lamp lamp;
 
-    memcpy(light->background, scene->has_own_mtl ? studio_sky : soft_sky,
+    memcpy(light->background, scene->is_model ? studio_sky : soft_sky,
            sizeof light->background);
-    if (!scene->has_own_mtl)
+    if (!scene->is_model)
         return true;
     light->has_background = true; /* written with the lamp */
     lamp_init(&lamp, LAMP_DIRECTIONAL);
@@ -564,7 +564,7 @@ static bool remove_light(const struct scene *scene, struct host_world *host,
 {
     memset(view->lighting.background, 0, sizeof view->lighting.background);
     view->lighting.has_background = false;
-    if (!scene->has_own_mtl)
+    if (!scene->is_model)
         return true;
     lamps_remove(&view->lamps, (uint32_t)view->lamps.count - 1);
     return world_set_lamps(host, scene, view, err);
@@ -577,7 +577,7 @@ static bool help_light(const struct scene *scene, struct host_world *host,
                        struct error *err)
 {
     struct light_probe own, with;
-    bool is_model = scene->has_own_mtl;
+    bool is_model = scene->is_model;
     bool has_own_lamps = claims_lamps(host);
 
     if (!light_probe_take(&own, host, scene, view, !is_model, err) ||
@@ -611,7 +611,7 @@ static bool complete_light(const struct scene *scene, struct host_world *host,
         return true;
     if (world_has_emitters(host) || has_lamps(host))
         return help_light(scene, host, view, report, err);
-    if (!scene->has_own_mtl)
+    if (!scene->is_model)
         warnings_add(report, "scenes without light",
                      "%s: found no light: lit by a soft sky", scene->path);
     return add_light(scene, host, view, err);

@@ -36,6 +36,7 @@ bool mesh_begin(struct scene *scene, const char *path, struct error *err)
         scene->object_names[0] == NULL)
         return fail(err, "%s: out of memory for the scene", path);
     scene->object_count = 1;
+    scene->is_model = true;
     return true;
 }
 

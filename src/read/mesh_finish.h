@@ -4,7 +4,8 @@
  *
  * An MTL file beside the scene, such as model.ply.mtl for model.ply, may define
  * their materials anew; glim writes edits there. All faces of PLY and STL files
- * have the material "clay".
+ * have the material "clay", those of OBJ files without MTL files "material" or
+ * the names that they use.
  *
  * Ownership: everything belongs to the scene
  * Threads:   one for each scene
@@ -19,7 +20,8 @@
 /* Number of the material of all faces. */
 #define MESH_MATERIAL 1u
 
-/* Sets the scene's path and adds the object of all faces, named "". */
+/* Begins a model: sets the scene's path and adds the object of all faces, named
+ * "". */
 bool mesh_begin(struct scene *scene, const char *path, struct error *err);
 
 /* Adds normals that are smooth below a crease if the scene has none. */

@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,6 +14,7 @@
 #include "base/name_table.h"
 #include "read/asset_path.h"
 #include "read/face_tris.h"
+#include "read/mesh_finish.h"
 #include "read/mtl.h"
 #include "read/obj_runs.h"
 #include "read/scene_lists.h"
@@ -400,7 +402,7 @@ static bool load_library_named(struct parser *p, const char *name)
     if (path == NULL) {
         warnings_add_named(p->report, "missing material files", name,
                            "%s:%" PRIu64 ": found no file '%s' for mtllib: its "
-                           "materials will be grey",
+                           "materials are missing",
                            p->path, p->lex.line, name);
         return true;
     }
@@ -580,17 +582,53 @@ static bool read_statement(struct parser *p)
     return skip_unknown(p, key);
 }
 
+/* Name of the material of faces before the first usemtl without MTL files. */
+#define NAMELESS "material"
+
+static bool has_nameless_faces(const struct parser *p)
+{
+    for (uint32_t i = 0; i < p->scene->tri_count; i++)
+        if (p->scene->tris[i].material == 0)
+            return true;
+    return false;
+}
+
+/* Gives a scene without MTL files grey materials that can be edited and saved:
+ * those that its faces name. */
+static bool add_own_materials(struct parser *p)
+{
+    char *text = NULL;
+    size_t size_bytes;
+    FILE *to = open_memstream(&text, &size_bytes);
+    bool ok = to != NULL;
+
+    for (uint32_t i = 1; ok && i < p->materials.count; i++)
+        fprintf(to, "newmtl %s%s\n", p->materials.items[i],
+                lexer_rest_guard(p->materials.items[i]));
+    if (ok && has_nameless_faces(p))
+        fputs("newmtl " NAMELESS "\n", to);
+    ok = ok && fclose(to) == 0;
+    if (!ok)
+        out_of_memory(p);
+    else if (size_bytes > 0)
+        ok = mesh_mtl_begin(p->scene, text, p->report, p->err) &&
+             mesh_mtl_read(p->scene, p->report, p->err);
+    free(text);
+    return ok;
+}
+
 /* Returns the material of faces before the first usemtl. In a file without
  * usemtl a single material of the MTL files is meant, as libassimp reads it. */
 static uint32_t material_of_none(struct parser *p)
 {
     const struct scene *scene = p->scene;
     uint32_t found = scene->material_count - 1;
-    bool is_needed = false;
 
-    for (uint32_t i = 0; !is_needed && i < scene->tri_count; i++)
-        is_needed = scene->tris[i].material == 0;
-    if (!is_needed || found == 0 || p->materials.count > 1)
+    if (found == 0 || !has_nameless_faces(p))
+        return 0;
+    if (scene->has_own_mtl)
+        return mtl_find(scene, NAMELESS);
+    if (p->materials.count > 1)
         return 0;
     if (found == 1)
         warnings_add(p->report, "faces without usemtl",
@@ -603,6 +641,16 @@ static uint32_t material_of_none(struct parser *p)
                      " materials: grey is used",
                      p->path, found);
     return found == 1;
+}
+
+/* True for a material of add_own_materials() that no file defines. */
+static bool is_own_grey(const struct scene *scene, uint32_t material)
+{
+    const struct material_values none = material_values_empty();
+
+    return scene->has_own_mtl &&
+           material_values_equal(&scene->material_origins[material].source,
+                                 &none);
 }
 
 /* Replaces the numbers of names in usemtl by those of materials. This is done
@@ -620,11 +668,11 @@ static bool resolve_materials(struct parser *p)
         numbers[0] = material_of_none(p);
     for (uint32_t i = 1; ok && i < p->materials.count; i++) {
         const char *name = p->materials.items[i];
+        uint32_t found = name_table_find(&known, name);
 
-        numbers[i] = name_table_find(&known, name);
-        if (numbers[i] != NO_NAME)
+        numbers[i] = found != NO_NAME ? found : 0;
+        if (found != NO_NAME && !is_own_grey(scene, found))
             continue;
-        numbers[i] = 0;
         warnings_add_named(p->report, "unknown materials", name,
                            "%s:%" PRIu64
                            ": found no material '%s': grey is used instead",
@@ -722,7 +770,8 @@ static bool parse_lines(struct parser *p)
                     p->path, p->unknown_count);
     if (!vertex_colors_finish(p->scene, &p->color_capacity))
         return out_of_memory(p);
-    return resolve_materials(p);
+    return (p->scene->mtl_path_count > 0 || add_own_materials(p)) &&
+           resolve_materials(p);
 }
 
 static bool begin(struct parser *p)

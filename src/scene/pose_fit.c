@@ -159,7 +159,7 @@ void scene_frame(const struct scene *scene, struct view *view)
     for (int k = 0; k < 3; k++)
         half[k] =
             (scene->bounds_hi[k] / 2 - scene->bounds_lo[k] / 2) * scene->scale;
-    azimuth = scene->has_own_mtl || half[0] < WALL_THICKNESS * half[2]
+    azimuth = scene->is_model || half[0] < WALL_THICKNESS * half[2]
                   ? angle_rad(FRAME_AZIMUTH_DEG)
                   : 0;
     memcpy(pose->at, scene->center, sizeof pose->at);
@@ -167,7 +167,7 @@ void scene_frame(const struct scene *scene, struct view *view)
     pose->eye[1] = pose->at[1] + distance * sin(elevation);
     pose->eye[2] = pose->at[2] + distance * cos(elevation) * cos(azimuth);
     pose_fit_begin(&fit, pose, (double)view->width_px / view->height_px);
-    if (scene->has_own_mtl && scene->tri_count > 0)
+    if (scene->is_model && scene->tri_count > 0)
         add_model(&fit, scene);
     else
         pose_fit_add_box(&fit, half);

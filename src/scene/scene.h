@@ -121,6 +121,7 @@ struct scene {
     char **data_paths; /* paths of further files, such as buffers of glTF */
     uint32_t data_path_count;
     bool has_own_mtl; /* the first is glim's, for edits, and may not exist */
+    bool is_model;    /* one thing without a scene's light: lit as a studio */
 
     struct texture *textures; /* lookup parameters, without texels */
     char **texture_paths;

@@ -34,7 +34,7 @@ static void note_additions(struct session *s)
                  "no light in the scene: lit by a soft sky");
     else if (warnings_have(&s->engine.report, SCENE_LITTLE_LIGHT))
         snprintf(s->notice, sizeof s->notice, "its own light shows little%s",
-                 s->engine.scene.has_own_mtl ? ": lit as a studio" : "");
+                 s->engine.scene.is_model ? ": lit as a studio" : "");
 }
 
 /* Updates the world to the shown state of the edit, whose view is *view. If the

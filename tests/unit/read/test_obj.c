@@ -194,6 +194,7 @@ static void faces_keep_their_numbers(void **state)
 
 static void unknown_materials_are_warned_of(void **state)
 {
+    static const char *const names[] = {"red", "two words", "red", "material"};
     struct loaded l =
         load_good(SQUARE "usemtl red\nf 1 2 3\nusemtl two words \nf 1 2 3\n"
                          "usemtl red\nf 1 2 3\nusemtl\nf 1 2 3\n",
@@ -207,10 +208,54 @@ static void unknown_materials_are_warned_of(void **state)
     assert_string_equal(
         l.report.entries[1].text,
         "a.obj:7: found no material 'two words': grey is used instead");
-    for (int t = 0; t < 4; t++)
-        assert_int_equal(l.scene.tris[t].material, 0);
-    check_close(l.scene.materials[0].color.x, 0.8, 1e-7);
+    for (int t = 0; t < 4; t++) {
+        uint32_t material = l.scene.tris[t].material;
+
+        assert_string_equal(l.scene.material_names[material], names[t]);
+        check_close(l.scene.materials[material].color.x, 0.8, 1e-7);
+    }
     unload(&l);
+}
+
+/* Without an MTL file the materials belong to one beside the OBJ file, which is
+ * read if it is there, also in place of one that is missing. */
+static void materials_without_mtl_have_a_file(void **state)
+{
+    struct loaded l;
+    uint32_t red;
+
+    (void)state;
+    l = load_good(SQUARE "f 1 2 3\n", 1);
+    assert_true(l.scene.has_own_mtl && !l.scene.is_model);
+    assert_string_equal(l.scene.mtl_paths[0], "a.obj.mtl");
+    assert_string_equal(l.scene.material_names[l.scene.tris[0].material],
+                        "material");
+    assert_int_equal(l.report.entry_count, 0);
+    unload(&l);
+    put("a.obj.mtl", "newmtl red\nKd .9 0 0\nnewmtl material\nKd 0 0 .7\n"
+                     "newmtl material.2\nKd 0 1 0\n");
+    l = load_good("mtllib none.mtl\n" SQUARE "f 1 2 3\nusemtl red\nf 1 2 3\n"
+                  "usemtl blue\nf 1 2 3\n",
+                  3);
+    check_close(l.scene.materials[l.scene.tris[0].material].color.z, 0.7, 1e-7);
+    red = l.scene.tris[1].material;
+    check_close(l.scene.materials[red].color.x, 0.9, 1e-7);
+    assert_int_equal(l.scene.material_count, 5);
+    assert_int_equal(l.report.entry_count, 2);
+    assert_string_equal(l.report.entries[0].text,
+                        "a.obj:1: found no file 'none.mtl' for mtllib: its "
+                        "materials are missing");
+    assert_string_equal(
+        l.report.entries[1].text,
+        "a.obj:9: found no material 'blue': grey is used instead");
+    unload(&l);
+    put("one.mtl", "newmtl red\nKd 1 0 0\n");
+    l = load_good("mtllib one.mtl\n" SQUARE "usemtl red\nf 1 2 3\n", 1);
+    assert_false(l.scene.has_own_mtl);
+    check_close(l.scene.materials[l.scene.tris[0].material].color.x, 1, 1e-7);
+    unload(&l);
+    unlink("one.mtl");
+    unlink("a.obj.mtl");
 }
 
 static void texture_coordinates_are_finite(void **state)
@@ -326,6 +371,7 @@ int main(void)
         cmocka_unit_test(faces_have_their_object),
         cmocka_unit_test(faces_keep_their_numbers),
         cmocka_unit_test(unknown_materials_are_warned_of),
+        cmocka_unit_test(materials_without_mtl_have_a_file),
         cmocka_unit_test(texture_coordinates_are_finite),
         cmocka_unit_test(many_names_take_linear_time),
         cmocka_unit_test(colors_of_zbrush_are_read),

@@ -330,7 +330,7 @@ static void libraries_are_found_beside_the_scene(void **state)
     assert_int_equal(l.report.entry_count, 3);
     assert_string_equal(l.report.entries[0].text,
                         "a.obj:1: found no file 'no such.mtl' for mtllib: its "
-                        "materials will be grey");
+                        "materials are missing");
     assert_int_equal(l.report.entries[0].count, 2);
     unload(&l);
 }
