@@ -139,34 +139,11 @@ static void put_colors(struct ansi_diff *a, const struct cell *cell,
     put_char(a, 'm');
 }
 
-/* Returns the cell with the same dots, inverse glyph and exchanged colours, or
- * the cell itself if there is no inverse glyph. Blanks stay: in some fonts the
- * full block leaves hairlines of the background, which flat areas do not
- * hide. */
-static struct cell inverse_of(const struct cell *cell, enum glyphs glyphs)
-{
-    struct glyph_grid grid = glyphs_grid(glyphs);
-    unsigned all = (1u << grid.across * grid.down) - 1;
-    unsigned mask;
-
-    if (!glyphs_are_solid(glyphs) || cell->bg == CELL_DEFAULT ||
-        !glyphs_mask(glyphs, cell->glyph, &mask) || mask == 0)
-        return *cell;
-    return (struct cell){cell->bg, cell->fg,
-                         glyphs_of_mask(glyphs, all & ~mask)};
-}
-
-/* Writes the cell or its inverse, whichever changes fewer colours. In a dither
- * of two colours the glyphs alternate and the colours stay. */
 static void put_cell(struct ansi_diff *a, const struct cells *cells,
                      const struct cell *cell)
 {
-    struct cell inverse = inverse_of(cell, cells->glyphs);
-    int changes = needs_fg(a, cell) + needs_bg(a, cell);
     char bytes[4];
 
-    if (needs_fg(a, &inverse) + needs_bg(a, &inverse) < changes)
-        cell = &inverse;
     put_colors(a, cell, cells->palette);
     put(a, bytes, (size_t)glyph_utf8(cell->glyph, bytes));
 }

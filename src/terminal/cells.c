@@ -68,26 +68,31 @@ static struct dots dots_of(const struct frame *frame, struct glyph_grid grid,
     return dots;
 }
 
+static int root_mean(int sum, int count)
+{
+    return (int)(sqrtf((float)sum / (float)count) + 0.5f);
+}
+
 /* Returns the mean colour of the dots whose bit in the mask is `bit`; there is
- * at least one. The mean is taken of sRGB values, not of light: the eye sees no
- * difference for neighbouring colours, and a cell of one colour is coarse
- * anyway. */
+ * at least one. The mean is taken of squared values, roughly the light, which
+ * is what the eye averages. */
 static struct rgb mean_of(const struct dots *dots, unsigned mask, unsigned bit)
 {
     struct rgb sum = {0, 0, 0};
     int count = 0;
 
     for (int i = 0; i < dots->count; i++) {
+        const struct rgb *c = &dots->color[i];
+
         if ((mask >> i & 1) != bit)
             continue;
-        sum.r += dots->color[i].r;
-        sum.g += dots->color[i].g;
-        sum.b += dots->color[i].b;
+        sum.r += c->r * c->r;
+        sum.g += c->g * c->g;
+        sum.b += c->b * c->b;
         count++;
     }
-    return (struct rgb){(sum.r + count / 2) / count,
-                        (sum.g + count / 2) / count,
-                        (sum.b + count / 2) / count};
+    return (struct rgb){root_mean(sum.r, count), root_mean(sum.g, count),
+                        root_mean(sum.b, count)};
 }
 
 static int largest(struct rgb c)
@@ -138,21 +143,41 @@ static struct cell mono_cell(const struct cells *cells, const struct dots *dots,
                          glyphs_of_mask(cells->glyphs, mask)};
 }
 
-/* Gain of each mask. Take the dots relative to their mean, and let S be the sum
- * over the k of n dots in one group. The other group has the sum -S, and two
- * colours instead of one reduce the squared error by |S|^2 n / (k (n - k)). The
- * table holds the factor of |S|^2. */
-struct partition {
-    float share[MASKS_MAX];
+/* Share of the gain of a glyph whose foreground is the darker colour. In many
+ * fonts glyphs do not reach the edge of their cell: a line of the background is
+ * visible there, which disturbs where it is the lighter colour. */
+#define DARK_SHARE 0.5f
+
+/* Masks with a glyph, and the gain of each. Take the dots relative to their
+ * mean, and let S be the sum over the k of n dots in one group. The other group
+ * has the sum -S, and two colours instead of one reduce the squared error by
+ * |S|^2 n / (k (n - k)). The table holds the factor of |S|^2 where the group is
+ * the lighter one, and where it is the darker one. */
+struct partitions {
+    int count;
+    struct {
+        unsigned mask;
+        float lighter, darker;
+    } item[MASKS_MAX];
 };
 
-static void partition_init(struct partition *p, int dots)
+static void partitions_init(struct partitions *p, enum glyphs glyphs, int dots)
 {
-    p->share[0] = 0.0f;
-    for (int mask = 1; mask < 1 << (dots - 1); mask++) {
-        int k = __builtin_popcount((unsigned)mask);
+    unsigned all = (1u << dots) - 1;
 
-        p->share[mask] = (float)dots / (float)(k * (dots - k));
+    p->count = 0;
+    for (unsigned mask = 1; mask <= all / 2; mask++) {
+        int k = __builtin_popcount(mask);
+        float share = (float)dots / (float)(k * (dots - k));
+        bool has_glyph = glyphs_of_mask(glyphs, mask) != 0;
+        bool has_inverse = glyphs_of_mask(glyphs, all & ~mask) != 0;
+
+        if (!has_glyph && !has_inverse)
+            continue;
+        p->item[p->count].mask = mask;
+        p->item[p->count].lighter = has_glyph ? share : DARK_SHARE * share;
+        p->item[p->count].darker = has_inverse ? share : DARK_SHARE * share;
+        p->count++;
     }
 }
 
@@ -185,9 +210,8 @@ static void centre(const struct dots *dots, float values[3][GLYPH_DOTS_MAX])
     }
 }
 
-/* Returns the mask whose two groups have the least squared error. All masks are
- * tried. */
-static unsigned best_mask(const struct partition *p, const struct dots *dots)
+/* Returns the mask with the most gain. All masks with a glyph are tried. */
+static unsigned best_mask(const struct partitions *p, const struct dots *dots)
 {
     float values[3][GLYPH_DOTS_MAX];
     float r[MASKS_MAX], g[MASKS_MAX], b[MASKS_MAX];
@@ -198,12 +222,15 @@ static unsigned best_mask(const struct partition *p, const struct dots *dots)
     sum_masks(values[0], dots->count, r);
     sum_masks(values[1], dots->count, g);
     sum_masks(values[2], dots->count, b);
-    for (unsigned i = 1; i < 1u << (dots->count - 1); i++) {
-        float gain = p->share[i] * (r[i] * r[i] + g[i] * g[i] + b[i] * b[i]);
+    for (int i = 0; i < p->count; i++) {
+        unsigned m = p->item[i].mask;
+        float share =
+            r[m] + g[m] + b[m] > 0.0f ? p->item[i].lighter : p->item[i].darker;
+        float gain = share * (r[m] * r[m] + g[m] * g[m] + b[m] * b[m]);
 
         if (gain > most) {
             most = gain;
-            best = i;
+            best = m;
         }
     }
     return best;
@@ -214,61 +241,85 @@ static struct cell solid_cell(uint32_t color)
     return (struct cell){color, color, ' '};
 }
 
+static int brightness_of(uint32_t color, enum palette palette)
+{
+    return rgb_brightness(palette == PALETTE_24BIT
+                              ? (struct rgb){(int)(color >> 16),
+                                             (int)(color >> 8 & 255),
+                                             (int)(color & 255)}
+                              : dither_value(color, palette));
+}
+
+/* Returns true if the other dots are to be the foreground. In many fonts a
+ * glyph does not reach the edge of its cell, and a line of the background is
+ * visible there: a dark line beside light dots disturbs less than a light line
+ * beside dark dots. Where dots leave gaps, most of a cell is background. */
+static bool is_inverse(const struct cells *cells, const struct cell *cell,
+                       unsigned mask, unsigned all)
+{
+    switch (cells->drawn) {
+    case GLYPHS_UPPER: return false;
+    case GLYPHS_LOWER: return true;
+    case GLYPHS_BRAILLE:
+        return __builtin_popcount(mask) > __builtin_popcount(all & ~mask);
+    default: break;
+    }
+    if (cell->glyph == 0 || glyphs_of_mask(cells->drawn, all & ~mask) == 0)
+        return cell->glyph == 0;
+    return brightness_of(cell->fg, cells->palette) <
+           brightness_of(cell->bg, cells->palette);
+}
+
 /* Returns a cell with the mean colours of the two groups of the mask. */
 static struct cell block_cell(struct cells *cells, const struct dots *dots,
                               unsigned mask, int col, int row)
 {
-    bool is_lower = cells->glyphs == GLYPHS_LOWER;
     struct dither *d = &cells->dither;
-    uint32_t fg;
-    uint32_t bg;
+    unsigned all = (1u << dots->count) - 1;
+    struct cell cell;
 
+    cell.bg = dither_color(d, mean_of(dots, mask, 0), col, 2 * row + (mask > 0),
+                           cells->palette);
     if (mask == 0)
-        return solid_cell(
-            dither_color(d, mean_of(dots, 0, 0), col, 2 * row, cells->palette));
-    fg = dither_color(d, mean_of(dots, mask, 1), col, 2 * row + is_lower,
-                      cells->palette);
-    bg = dither_color(d, mean_of(dots, mask, 0), col, 2 * row + !is_lower,
-                      cells->palette);
-    if (fg == bg)
-        return solid_cell(fg);
-    return (struct cell){fg, bg, glyphs_of_mask(cells->glyphs, mask)};
+        return solid_cell(cell.bg);
+    cell.fg =
+        dither_color(d, mean_of(dots, mask, 1), col, 2 * row, cells->palette);
+    if (cell.fg == cell.bg)
+        return solid_cell(cell.fg);
+    cell.glyph = glyphs_of_mask(cells->drawn, mask);
+    if (is_inverse(cells, &cell, mask, all))
+        return (struct cell){cell.bg, cell.fg,
+                             glyphs_of_mask(cells->drawn, all & ~mask)};
+    return cell;
 }
 
 static struct cell cell_of(struct cells *cells, const struct dots *dots,
-                           const struct partition *partition, int col, int row)
+                           const struct partitions *partitions, int col,
+                           int row)
 {
     bool is_mono = cells->palette == PALETTE_MONO;
-    unsigned mask;
 
-    if (cells->glyphs == GLYPHS_ASCII || (is_mono && dots->count <= 2))
+    if (cells->glyphs == GLYPHS_ASCII ||
+        (is_mono && cells->glyphs != GLYPHS_BRAILLE))
         return ascii_cell(cells, mean_of(dots, 0, 0));
     if (is_mono)
         return mono_cell(cells, dots, col, row);
-    switch (cells->glyphs) {
-    case GLYPHS_SPACE: return block_cell(cells, dots, 0, col, row);
-    case GLYPHS_HALF:
-    case GLYPHS_UPPER: return block_cell(cells, dots, 1, col, row);
-    case GLYPHS_LOWER: return block_cell(cells, dots, 2, col, row);
-    default: break;
-    }
-    mask = best_mask(partition, dots);
-    /* where dots leave gaps, most of a cell is background */
-    if (!glyphs_are_solid(cells->glyphs) &&
-        2 * __builtin_popcount(mask) > dots->count)
-        mask ^= (1u << dots->count) - 1;
-    return block_cell(cells, dots, mask, col, row);
+    return block_cell(cells, dots,
+                      dots->count > 2 ? best_mask(partitions, dots)
+                                      : (unsigned)dots->count - 1,
+                      col, row);
 }
 
 void cells_begin(struct cells *cells, const struct frame *frame,
                  enum palette palette, enum glyphs glyphs)
 {
-    struct glyph_grid grid = glyphs_grid(glyphs);
-
-    assert(frame->width == grid.across * cells->cols &&
-           frame->height == grid.down * cells->rows);
     cells->palette = palette;
     cells->glyphs = glyphs;
+    cells->drawn = frame->width == cells->cols && glyphs == GLYPHS_BLOCK
+                       ? GLYPHS_HALF
+                       : glyphs;
+    assert(frame->width == glyphs_grid(cells->drawn).across * cells->cols &&
+           frame->height == glyphs_grid(cells->drawn).down * cells->rows);
     cells->frame = frame;
     cells->has_mark = false;
 }
@@ -280,15 +331,15 @@ static struct cell *row_of(struct cells *cells, int row)
 
 static void convert_row(struct cells *cells, int row)
 {
-    struct glyph_grid grid = glyphs_grid(cells->glyphs);
+    struct glyph_grid grid = glyphs_grid(cells->drawn);
     struct cell *out = row_of(cells, row);
-    struct partition partition;
+    struct partitions partitions;
 
-    partition_init(&partition, grid.across * grid.down);
+    partitions_init(&partitions, cells->drawn, grid.across * grid.down);
     for (int col = 0; col < cells->cols; col++) {
         struct dots dots = dots_of(cells->frame, grid, col, row);
 
-        out[col] = cell_of(cells, &dots, &partition, col, row);
+        out[col] = cell_of(cells, &dots, &partitions, col, row);
     }
 }
 
@@ -307,9 +358,9 @@ struct cell cells_of_color(struct rgb color, enum palette palette)
 
     switch (palette) {
     case PALETTE_24BIT:
-    case PALETTE_16: /* middle threshold, as in ascii_cell() */
-        return solid_cell(dither_color(NULL, color, 1, 3, palette));
-    case PALETTE_256: return solid_cell(dither_nearest_256(color));
+        return solid_cell(dither_color(NULL, color, 0, 0, palette));
+    case PALETTE_16:
+    case PALETTE_256: return solid_cell(dither_nearest(color, palette));
     case PALETTE_MONO: break;
     }
     return ascii_cell(&mono, color);

@@ -29,6 +29,7 @@ struct cells {
     int cols, rows;
     enum palette palette;
     enum glyphs glyphs;
+    enum glyphs drawn; /* GLYPHS_HALF for a small frame of GLYPHS_BLOCK */
     struct cell *cell; /* cols * rows, row 0 at the top */
     struct dither dither;
     const struct frame *frame; /* of cells_row(); NULL: all rows are made */
@@ -40,9 +41,9 @@ bool cells_init(struct cells *cells, int cols, int rows, struct error *err);
 void cells_free(struct cells *cells);
 
 /* Begins cells of a frame of cols * across by rows * down pixels, see
- * glyphs_grid(): cells_row() makes each row from it. Without colours
- * (PALETTE_MONO) each dot is set or not; glyphs of one or two dots become
- * characters, since so few dots show no shades. */
+ * glyphs_grid(): cells_row() makes each row from it. Blocks also take a frame
+ * for half blocks. Without colours (PALETTE_MONO) each dot of braille is set or
+ * not; other glyphs become characters, since they show no shades. */
 void cells_begin(struct cells *cells, const struct frame *frame,
                  enum palette palette, enum glyphs glyphs);
 void cells_row(struct cells *cells, int row);

@@ -36,14 +36,16 @@ static inline int rgb_brightness(struct rgb c)
     return (2 * c.r + 5 * c.g + c.b) / 8;
 }
 
-/* Colour of the 256-colour palette. */
+/* Colour of a palette. */
 struct palette_color {
     struct vec3 light; /* linear RGB */
     struct vec3 lab;   /* OKLab */
 };
 
 struct dither {
-    struct palette_color *colors; /* 16..255, from index 0 on */
+    enum palette palette;  /* of the mixes; PALETTE_MONO: none yet */
+    uint32_t first, count; /* numbers of its colours */
+    struct palette_color *colors;
     uint64_t *mixes; /* cache: each mix is computed when it is first needed */
 };
 
@@ -55,9 +57,9 @@ void dither_free(struct dither *d);
 uint32_t dither_color(struct dither *d, struct rgb c, int x, int y,
                       enum palette palette);
 
-/* Returns the number of a colour of PALETTE_256 that looks like this one: the
- * nearest grey, or the nearest of the cube. */
-uint32_t dither_nearest_256(struct rgb c);
+/* Returns the number of a colour of PALETTE_256 or PALETTE_16 that looks like
+ * this one: of 256 the nearest grey, or the nearest of the cube. */
+uint32_t dither_nearest(struct rgb c, enum palette palette);
 
 /* Returns the sRGB colour of a number of PALETTE_256 or PALETTE_16. */
 struct rgb dither_value(uint32_t number, enum palette palette);

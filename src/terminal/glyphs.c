@@ -2,23 +2,24 @@
 #include "terminal/glyphs.h"
 
 #include <assert.h>
+#include <stddef.h>
 
-/* Quadrants by mask, U+2580..259F. The first four masks also index half blocks,
- * where bit 1 means the lower half. */
+/* Half blocks by mask; bit 1 means the lower half. */
 static const uint32_t halves[4] = {' ', CELL_UPPER, CELL_LOWER, CELL_FULL};
 
-static const uint32_t quadrants[16] = {' ',        0x2598, 0x259d, CELL_UPPER,
-                                       0x2596,     0x258c, 0x259e, 0x259b,
-                                       0x2597,     0x259a, 0x2590, 0x259c,
-                                       CELL_LOWER, 0x2599, 0x259f, CELL_FULL};
-
-/* Sextants from U+1FB00 on, by mask. Unicode omits those that existed before:
- * none, left half, right half and all. */
-#define SEXTANT_FIRST 0x1fb00u
-#define SEXTANT_LAST  0x1fb3bu
-#define LEFT_HALF     0x15u
-#define RIGHT_HALF    0x2au
-#define SEXTANT_ALL   0x3fu
+/* Block elements of 2x4 dots: quadrants and lower quarters. The upper quarters
+ * are their inverses. */
+static const struct {
+    unsigned mask;
+    uint32_t glyph;
+} blocks[] = {
+    {0x00, ' '},    {0x05, 0x2598},     {0x0a, 0x259d}, {0x0f, CELL_UPPER},
+    {0x50, 0x2596}, {0x55, 0x258c},     {0x5a, 0x259e}, {0x5f, 0x259b},
+    {0xa0, 0x2597}, {0xa5, 0x259a},     {0xaa, 0x2590}, {0xaf, 0x259c},
+    {0xc0, 0x2582}, {0xf0, CELL_LOWER}, {0xf5, 0x2599}, {0xfa, 0x259f},
+    {0xfc, 0x2586}, {0xff, CELL_FULL},
+};
+#define BLOCKS (sizeof blocks / sizeof blocks[0])
 
 /* Braille code points: U+2800 plus these bits for each dot. The standard
  * numbers the first three rows by columns, then the fourth. */
@@ -33,8 +34,7 @@ static const struct {
     [GLYPHS_HALF] = {{1, 2}, "half blocks"},
     [GLYPHS_UPPER] = {{1, 2}, "upper half blocks"},
     [GLYPHS_LOWER] = {{1, 2}, "lower half blocks"},
-    [GLYPHS_QUADRANT] = {{2, 2}, "quadrants"},
-    [GLYPHS_SEXTANT] = {{2, 3}, "sextants"},
+    [GLYPHS_BLOCK] = {{2, 4}, "blocks"},
     [GLYPHS_BRAILLE] = {{2, 4}, "braille"},
     [GLYPHS_SPACE] = {{1, 1}, "blanks"},
     [GLYPHS_ASCII] = {{1, 1}, "letters"},
@@ -50,22 +50,12 @@ const char *glyphs_name(enum glyphs glyphs)
     return kinds[glyphs].name;
 }
 
-bool glyphs_are_solid(enum glyphs glyphs)
+static uint32_t block(unsigned mask)
 {
-    return glyphs == GLYPHS_HALF || glyphs == GLYPHS_QUADRANT ||
-           glyphs == GLYPHS_SEXTANT;
-}
-
-static uint32_t sextant(unsigned mask)
-{
-    switch (mask) {
-    case 0: return ' ';
-    case LEFT_HALF: return quadrants[5];
-    case RIGHT_HALF: return quadrants[10];
-    case SEXTANT_ALL: return CELL_FULL;
-    default: break;
-    }
-    return SEXTANT_FIRST + mask - 1 - (mask > LEFT_HALF) - (mask > RIGHT_HALF);
+    for (size_t i = 0; i < BLOCKS; i++)
+        if (blocks[i].mask == mask)
+            return blocks[i].glyph;
+    return 0;
 }
 
 static uint32_t braille(unsigned mask)
@@ -80,8 +70,7 @@ static uint32_t braille(unsigned mask)
 uint32_t glyphs_of_mask(enum glyphs glyphs, unsigned mask)
 {
     switch (glyphs) {
-    case GLYPHS_QUADRANT: return quadrants[mask];
-    case GLYPHS_SEXTANT: return sextant(mask);
+    case GLYPHS_BLOCK: return block(mask);
     case GLYPHS_BRAILLE: return braille(mask);
     case GLYPHS_SPACE:
     case GLYPHS_ASCII: return ' ';
@@ -89,31 +78,21 @@ uint32_t glyphs_of_mask(enum glyphs glyphs, unsigned mask)
     }
 }
 
-/* Finds a glyph among the first `count` of a table; its index is the mask. */
-static bool find(const uint32_t *table, unsigned count, uint32_t glyph,
-                 unsigned *mask)
+static bool half_mask(uint32_t glyph, unsigned *mask)
 {
-    for (*mask = 0; *mask < count; ++*mask) {
-        if (table[*mask] == glyph)
-            return true;
-    }
-    return false;
+    for (*mask = 0; *mask < 4 && halves[*mask] != glyph;)
+        ++*mask;
+    return *mask < 4;
 }
 
-static bool sextant_mask(uint32_t glyph, unsigned *mask)
+static bool block_mask(uint32_t glyph, unsigned *mask)
 {
-    if (glyph < SEXTANT_FIRST || glyph > SEXTANT_LAST) {
-        static const uint32_t others[4] = {' ', 0x258c, 0x2590, CELL_FULL};
+    size_t i = 0;
 
-        if (!find(others, 4, glyph, mask))
-            return false;
-        *mask *= LEFT_HALF; /* times 2: right half, times 3: all */
-        return true;
-    }
-    *mask = glyph - SEXTANT_FIRST + 1;
-    *mask += *mask >= LEFT_HALF;
-    *mask += *mask >= RIGHT_HALF;
-    return true;
+    while (i < BLOCKS && blocks[i].glyph != glyph)
+        i++;
+    *mask = i < BLOCKS ? blocks[i].mask : 0;
+    return i < BLOCKS;
 }
 
 static bool braille_mask(uint32_t glyph, unsigned *mask)
@@ -129,12 +108,11 @@ static bool braille_mask(uint32_t glyph, unsigned *mask)
 bool glyphs_mask(enum glyphs glyphs, uint32_t glyph, unsigned *mask)
 {
     switch (glyphs) {
-    case GLYPHS_QUADRANT: return find(quadrants, 16, glyph, mask);
-    case GLYPHS_SEXTANT: return sextant_mask(glyph, mask);
+    case GLYPHS_BLOCK: return block_mask(glyph, mask);
     case GLYPHS_BRAILLE: return braille_mask(glyph, mask);
     case GLYPHS_SPACE:
-    case GLYPHS_ASCII: return find(halves, 1, glyph, mask);
-    default: return find(halves, 4, glyph, mask);
+    case GLYPHS_ASCII: *mask = 0; return glyph == ' ';
+    default: return half_mask(glyph, mask);
     }
 }
 

@@ -17,8 +17,7 @@ enum glyphs {
     GLYPHS_HALF,  /* half blocks, upper or lower */
     GLYPHS_UPPER, /* half blocks, upper only */
     GLYPHS_LOWER,
-    GLYPHS_QUADRANT,
-    GLYPHS_SEXTANT,
+    GLYPHS_BLOCK, /* half blocks, quadrants and quarters */
     GLYPHS_BRAILLE,
     GLYPHS_SPACE, /* blanks, one colour a cell */
     GLYPHS_ASCII, /* ASCII characters by brightness */
@@ -39,16 +38,13 @@ struct glyph_grid {
 /* Returns the number of dots across and down a cell. */
 struct glyph_grid glyphs_grid(enum glyphs glyphs);
 
-/* Returns the glyph whose dots in the mask have the foreground colour, or the
- * nearest glyph if there is none. */
+/* Returns the glyph whose dots in the mask have the foreground colour; 0 if
+ * there is none. Blocks have a glyph for some masks only, or for the inverse.
+ */
 uint32_t glyphs_of_mask(enum glyphs glyphs, unsigned mask);
 
 /* Returns the mask of a glyph. False if the glyph is none of this kind. */
 bool glyphs_mask(enum glyphs glyphs, uint32_t glyph, unsigned *mask);
-
-/* Returns true if every mask has a glyph and the dots leave no gaps, so that
- * inverse glyphs exist for exchanged colours. */
-bool glyphs_are_solid(enum glyphs glyphs);
 
 /* Returns the name as a person sees it. */
 const char *glyphs_name(enum glyphs glyphs);

@@ -8,10 +8,10 @@
 
 #include "terminal/tty.h"
 
-const char *const term_caps_glyph_names[] = {"auto",    "half",     "upper",
-                                             "lower",   "quadrant", "sextant",
-                                             "braille", "space",    "ascii",
-                                             "sixel",   "kitty",    NULL};
+const char *const term_caps_glyph_names[] = {"auto",  "half",  "upper",
+                                             "lower", "block", "braille",
+                                             "space", "ascii", "sixel",
+                                             "kitty", NULL};
 
 /* Plausible sizes and aspect ratios of cells; answers beyond them are
  * ignored. */
@@ -37,7 +37,9 @@ static enum glyphs common_glyphs(enum palette palette, bool has_unicode)
 {
     if (palette == PALETTE_MONO)
         return has_unicode ? GLYPHS_BRAILLE : GLYPHS_ASCII;
-    return has_unicode ? GLYPHS_HALF : GLYPHS_SPACE;
+    if (!has_unicode)
+        return GLYPHS_SPACE;
+    return palette == PALETTE_16 ? GLYPHS_HALF : GLYPHS_BLOCK;
 }
 
 enum glyphs term_caps_glyphs(enum glyph_mode mode, enum palette palette,
@@ -47,8 +49,7 @@ enum glyphs term_caps_glyphs(enum glyph_mode mode, enum palette palette,
     case GLYPH_HALF: return GLYPHS_HALF;
     case GLYPH_UPPER: return GLYPHS_UPPER;
     case GLYPH_LOWER: return GLYPHS_LOWER;
-    case GLYPH_QUADRANT: return GLYPHS_QUADRANT;
-    case GLYPH_SEXTANT: return GLYPHS_SEXTANT;
+    case GLYPH_BLOCK: return GLYPHS_BLOCK;
     case GLYPH_BRAILLE: return GLYPHS_BRAILLE;
     case GLYPH_SPACE: return GLYPHS_SPACE;
     case GLYPH_ASCII: return GLYPHS_ASCII;
@@ -277,10 +278,10 @@ static bool is_pixels(enum glyph_mode mode)
 
 void term_caps_next_glyphs(struct term_caps *d)
 {
-    static const enum glyph_mode modes[] = {GLYPH_HALF,    GLYPH_QUADRANT,
-                                            GLYPH_SEXTANT, GLYPH_BRAILLE,
-                                            GLYPH_SPACE,   GLYPH_ASCII,
-                                            GLYPH_SIXEL,   GLYPH_KITTY};
+    static const enum glyph_mode modes[] = {GLYPH_BLOCK,   GLYPH_HALF,
+                                            GLYPH_BRAILLE, GLYPH_SPACE,
+                                            GLYPH_ASCII,   GLYPH_SIXEL,
+                                            GLYPH_KITTY};
     size_t count = sizeof modes / sizeof modes[0];
     size_t i = 0;
 
@@ -290,7 +291,7 @@ void term_caps_next_glyphs(struct term_caps *d)
         for (i = 0; i < count && glyphs_of(d, modes[i]) != d->glyphs;)
             i++;
     if (i == count) /* upper and lower count as half blocks */
-        i = 0;
+        i = 1;
     do
         i = (i + 1) % count;
     while (!has_mode(d, modes[i]));

@@ -198,7 +198,8 @@ struct text_style theme_style(enum theme theme, enum palette palette,
         return (struct text_style){c->fg_16, c->bg_16,
                                    c->fg_16 < GREY ? 0 : bold};
     if (palette == PALETTE_256)
-        return (struct text_style){dither_nearest_256(channels(c->fg)),
-                                   dither_nearest_256(channels(c->bg)), bold};
+        return (struct text_style){dither_nearest(channels(c->fg), palette),
+                                   dither_nearest(channels(c->bg), palette),
+                                   bold};
     return (struct text_style){c->fg, c->bg, bold};
 }

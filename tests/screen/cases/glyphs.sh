@@ -1,30 +1,28 @@
 # SPDX-License-Identifier: MIT
-# Half blocks, blanks, characters or dots, by option and by key.
+# Blocks, blanks, characters or dots, by option and by key.
 lamp_scene
 start lamp.obj
+wait_for "[▖▗▘▙▛▜▝▞▟▌▐▂▆]"
+keys G
+wait_for "half blocks"
 wait_for "[▀▄]"
-keys G
-wait_for "quadrants"
-wait_for "[▖▗▘▙▛▜▝▞▟▌▐]"
-keys G
-wait_for "sextants"
-wait_for "[🬕🬂🬎🬁🬓]"
+reject "[▖▗▘▙▛▜▝▞▟▌▐▂▆]"
 keys G
 wait_for "braille"
 wait_for "[⢀⡀⣀⣠⣄⠘⠉⣤⢠⡄⠙⠋⠛]"
-reject "[▀▄🬕🬂🬎🬁🬓]"
+reject "[▀▄]"
 keys G
 wait_for "letters"
 wait_for "@@@"
 keys G # this terminal has no pixels: round to the first
-wait_for "half blocks"
-wait_for "[▀▄]"
+wait_for "blocks"
+wait_for "[▖▗▘▙▛▜▝▞▟▌▐▂▆]"
 reject "@@@"
 keys C-q
 expect_end 0
-for case in "upper:▀" "lower:▄" "sextant:[🬕🬂🬎🬁🬓]" "ascii:@@@" \
-    "braille --color mono:⣿⣿" "quadrant --color mono:[▟▙]" \
-    "half --color mono:@@@"; do
+for case in "upper:▀" "lower:▄" "block:[▖▗▘▙▛▜▝▞▟▌▐▂▆]" "ascii:@@@" \
+    "braille --color mono:⣿⣿" "block --color mono:@@@" \
+    "block --color 16:[▖▗▘▙▛▜▝▞▟▌▐▂▆]" "half --color mono:@@@"; do
     fresh
     start "--glyph ${case%%:*}" lamp.obj
     wait_for "${case#*:}"
@@ -35,8 +33,8 @@ done
 for case in "sixel:sixels" "kitty:kitty pixels"; do
     fresh
     start --glyph ${case%%:*} lamp.obj
-    wait_for "half blocks: the terminal reports no ${case#*:}"
-    wait_for "[▀▄]"
+    wait_for "blocks: the terminal reports no ${case#*:}"
+    wait_for "[▖▗▘▙▛▜▝▞▟▌▐▂▆]"
     keys C-q
     expect_end 0
 done
@@ -44,7 +42,7 @@ mkdir -p config/glim
 echo 'option glyph sixel' >config/glim/config
 fresh
 start_line "XDG_CONFIG_HOME=\$PWD/config TERM=tmux-256color glim lamp.obj"
-wait_for "half blocks: the terminal reports no sixels"
+wait_for "blocks: the terminal reports no sixels"
 keys C-q
 expect_end 0
 fresh
@@ -87,42 +85,43 @@ lamp="TERM=tmux-256color glim lamp.obj"
 start_line "$lamp"
 wait_for "LIVE .* spp"
 keys G
-wait_for "quadrants from now on; Esc goes back"
-wait_for "[▖▗▘▙▛▜▝▞▟▌▐]"
-keys G
-wait_for "sextants from now on; Esc goes back"
-keys Escape
-wait_for "half blocks again"
+wait_for "half blocks from now on; Esc goes back"
 wait_for "[▀▄]"
-reject "[🬕🬂🬎🬁🬓]"
 keys G
-wait_for "quadrants from now on"
+wait_for "braille from now on; Esc goes back"
+keys Escape
+wait_for "blocks again"
+wait_for "[▖▗▘▙▛▜▝▞▟▌▐▂▆]"
+keys G
+wait_for "half blocks from now on"
 keys C-q
 expect_end 0
 fresh
 start_line "$lamp"
-wait_for "[▖▗▘▙▛▜▝▞▟▌▐]"
+wait_for "LIVE .* spp"
+wait_for "[▀▄]"
+reject "[▖▗▘▙▛▜▝▞▟▌▐▂▆]"
 keys C-q
 expect_end 0
-for case in "half:[▀▄]" "auto:[▀▄]" "braille:[⢀⡀⣀⣠⣄⠘⠉⣤⢠⡄⠙⠋⠛]"; do
+for case in "block:[▖▗▘▙▛▜▝▞▟▌▐▂▆]" "auto:[▖▗▘▙▛▜▝▞▟▌▐▂▆]" \
+    "braille:[⢀⡀⣀⣠⣄⠘⠉⣤⢠⡄⠙⠋⠛]"; do
     fresh
     start --glyph ${case%%:*} lamp.obj
     wait_for "LIVE .* spp"
     wait_for "${case#*:}"
-    reject "[▖▗▘▙▛▜▝▞▟▌▐]"
     keys C-q
     expect_end 0
 done
-echo 'option glyph sextant' >config/glim/config
+echo 'option glyph block' >config/glim/config
 fresh
 start_line "XDG_CONFIG_HOME=\$PWD/config $lamp"
-wait_for "[🬕🬂🬎🬁🬓]"
+wait_for "[▖▗▘▙▛▜▝▞▟▌▐▂▆]"
 keys C-q
 expect_end 0
 # Another terminal has its own.
 fresh
 start_line "TERM=screen-256color TMUX= glim lamp.obj"
 wait_for "LIVE .* spp"
-wait_for "[▀▄]"
+wait_for "[▖▗▘▙▛▜▝▞▟▌▐▂▆]"
 keys C-q
 expect_end 0

@@ -100,8 +100,7 @@ static void check_frame(struct film *film, const struct frame *picture,
  * picture. */
 static void check_terminals(struct film *film, struct develop how)
 {
-    static const enum glyphs kinds[] = {GLYPHS_HALF, GLYPHS_QUADRANT,
-                                        GLYPHS_SEXTANT, GLYPHS_BRAILLE,
+    static const enum glyphs kinds[] = {GLYPHS_HALF, GLYPHS_BLOCK,
                                         GLYPHS_SPACE};
     static const struct {
         int cols, rows;

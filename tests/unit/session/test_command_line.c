@@ -131,8 +131,7 @@ static void words_select_values(void **state)
     assert_int_equal(good("a --glyph space").display.glyph, GLYPH_SPACE);
     assert_int_equal(good("a --glyph ascii").display.glyph, GLYPH_ASCII);
     assert_int_equal(good("a --glyph half").display.glyph, GLYPH_HALF);
-    assert_int_equal(good("a --glyph quadrant").display.glyph, GLYPH_QUADRANT);
-    assert_int_equal(good("a --glyph sextant").display.glyph, GLYPH_SEXTANT);
+    assert_int_equal(good("a --glyph block").display.glyph, GLYPH_BLOCK);
     assert_int_equal(good("a --glyph braille").display.glyph, GLYPH_BRAILLE);
     assert_int_equal(good("a --glyph sixel").display.glyph, GLYPH_SIXEL);
     assert_int_equal(good("a --glyph kitty").display.glyph, GLYPH_KITTY);

@@ -30,8 +30,8 @@ static void each_terminal_has_its_own(void **state)
     assert_int_equal(glyph_memory_read("kitty(0.26.5)"), GLYPH_KITTY);
     assert_int_equal(glyph_memory_read("XTerm(380)"), GLYPH_BRAILLE);
     assert_int_equal(glyph_memory_read("XTerm"), GLYPH_AUTO);
-    glyph_memory_write("XTerm(379)", GLYPH_SEXTANT);
-    assert_int_equal(glyph_memory_read("XTerm(379)"), GLYPH_SEXTANT);
+    glyph_memory_write("XTerm(379)", GLYPH_BLOCK);
+    assert_int_equal(glyph_memory_read("XTerm(379)"), GLYPH_BLOCK);
     glyph_memory_write("XTerm(379)", GLYPH_AUTO);
     assert_int_equal(glyph_memory_read("XTerm(379)"), GLYPH_AUTO);
     assert_int_equal(glyph_memory_read("kitty(0.26.5)"), GLYPH_KITTY);
@@ -44,24 +44,24 @@ static void the_last_fifty_are_remembered(void **state)
     (void)state;
     for (int i = 0; i < 60; i++) {
         snprintf(name, sizeof name, "term-%d", i);
-        glyph_memory_write(name, GLYPH_QUADRANT);
+        glyph_memory_write(name, GLYPH_BLOCK);
     }
     for (int i = 0; i < 60; i++) {
         snprintf(name, sizeof name, "term-%d", i);
         assert_int_equal(glyph_memory_read(name),
-                         i < 10 ? GLYPH_AUTO : GLYPH_QUADRANT);
+                         i < 10 ? GLYPH_AUTO : GLYPH_BLOCK);
     }
 }
 
 static void other_lines_are_left_out(void **state)
 {
     (void)state;
-    write_file("sextant\n\n \nhexagon a\nsextant b\nbraille b\nascii");
+    write_file("block\n\n \nhexagon a\nblock b\nbraille b\nascii");
     assert_int_equal(glyph_memory_read("a"), GLYPH_AUTO);
-    assert_int_equal(glyph_memory_read("b"), GLYPH_SEXTANT);
+    assert_int_equal(glyph_memory_read("b"), GLYPH_BLOCK);
     assert_int_equal(glyph_memory_read(""), GLYPH_AUTO);
     glyph_memory_write("c", GLYPH_ASCII);
-    assert_int_equal(glyph_memory_read("b"), GLYPH_SEXTANT);
+    assert_int_equal(glyph_memory_read("b"), GLYPH_BLOCK);
     assert_int_equal(glyph_memory_read("c"), GLYPH_ASCII);
 }
 

@@ -73,48 +73,6 @@ static void one_pixel_is_a_blank(void **state)
     frame_free(&f);
 }
 
-/* A flat area in 16 colours has on average, in linear light (squared), its own
- * colour. The four by four thresholds round to a sixteenth. */
-static void sixteen_colours_keep_the_average(void **state)
-{
-    static const int colors[][3] = {{60, 100, 20},   {128, 128, 128},
-                                    {170, 0, 0},     {0, 0, 0},
-                                    {255, 255, 255}, {90, 40, 140}};
-    struct frame f;
-    struct cells c = make_cells(&f, 8, 4);
-
-    (void)state;
-    for (size_t i = 0; i < sizeof colors / sizeof colors[0]; i++) {
-        const int *v = colors[i];
-        double light[3] = {0};
-
-        for (int y = 0; y < 8; y++)
-            for (int x = 0; x < 8; x++)
-                set(&f, x, y, v[0], v[1], v[2]);
-        cells_from_frame(&c, &f, PALETTE_16, GLYPHS_UPPER);
-        for (int n = 0; n < 32; n++) {
-            const struct cell *cell = &c.cell[n];
-            uint32_t half[2] = {cell->glyph == ' ' ? cell->bg : cell->fg,
-                                cell->bg};
-
-            for (int h = 0; h < 2; h++) {
-                assert_in_range(half[h], 0, 15);
-                for (int k = 0; k < 3; k++) {
-                    int on = (int)(half[h] >> k & 1);
-                    int value = half[h] < 8 ? 170 * on : 85 + 170 * on;
-
-                    light[k] += value * value / 64.0;
-                }
-            }
-        }
-        for (int k = 0; k < 3; k++)
-            check_close(light[k], v[k] * v[k],
-                        (255.0 * 255 - 85 * 85) / 32 + 1);
-    }
-    cells_free(&c);
-    frame_free(&f);
-}
-
 /* Returns the sum of squared distances to the means of the two groups of dots,
  * those of set and of clear bits, weighted as in the program. */
 static double squared_error(const struct frame *f, unsigned mask)
@@ -143,22 +101,23 @@ static double squared_error(const struct frame *f, unsigned mask)
     return total;
 }
 
-/* Returns the rounded mean of a channel over the dots whose bit has this
- * value. */
+/* Returns the root of the mean square over the dots whose bit has this value,
+ * of each channel. */
 static uint32_t mean(const struct frame *f, unsigned mask, unsigned bit)
 {
     uint32_t color = 0;
 
     for (int c = 0; c < 3; c++) {
-        int sum = 0, n = 0;
+        int n = 0;
+        double sum = 0;
 
         for (int i = 0; i < f->width * f->height; i++) {
             if ((mask >> i & 1) != bit)
                 continue;
-            sum += f->rgb[3 * i + c];
+            sum += pow(f->rgb[3 * i + c], 2);
             n++;
         }
-        color = color << 8 | (uint32_t)floor((double)sum / n + 0.5);
+        color = color << 8 | (uint32_t)floor(sqrt(sum / n) + 0.5);
     }
     return color;
 }
@@ -167,25 +126,21 @@ static uint32_t mean(const struct frame *f, unsigned mask, unsigned bit)
  * the groups. */
 static void dots_are_divided_into_the_best_groups(void **state)
 {
-    static const enum glyphs kinds[] = {GLYPHS_QUADRANT, GLYPHS_SEXTANT,
-                                        GLYPHS_BRAILLE};
     uint64_t seed = 3;
 
     (void)state;
-    for (int round = 0; round < 900; round++) {
+    for (int round = 0; round < 300; round++) {
         struct frame f;
-        enum glyphs glyphs = kinds[round % 3];
-        struct cells c = make_cells_of(&f, 1, 1, glyphs);
-        int dots = f.width * f.height;
+        struct cells c = make_cells_of(&f, 1, 1, GLYPHS_BRAILLE);
         double least = 1e30;
         unsigned mask;
 
-        for (int i = 0; i < 3 * dots; i++)
+        for (int i = 0; i < 24; i++)
             f.rgb[i] = (uint8_t)(256 * check_random(&seed));
-        cells_from_frame(&c, &f, PALETTE_24BIT, glyphs);
-        for (unsigned m = 0; m < 1u << dots; m++)
+        cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_BRAILLE);
+        for (unsigned m = 0; m < 256; m++)
             least = fmin(least, squared_error(&f, m));
-        assert_true(glyphs_mask(glyphs, c.cell[0].glyph, &mask));
+        assert_true(glyphs_mask(GLYPHS_BRAILLE, c.cell[0].glyph, &mask));
         check_close(squared_error(&f, mask), least, 1e-5 * least);
         assert_int_equal(c.cell[0].fg, mean(&f, mask, 1));
         assert_int_equal(c.cell[0].bg, mean(&f, mask, 0));
@@ -194,17 +149,112 @@ static void dots_are_divided_into_the_best_groups(void **state)
     }
 }
 
+/* Returns the mean of the dots whose bit has this value, weighted as in the
+ * program. */
+static double lightness(const struct frame *f, unsigned mask, unsigned bit)
+{
+    static const double root[3] = {1.41421356, 2, 1.73205081};
+    double sum = 0;
+    int n = 0;
+
+    for (int i = 0; i < f->width * f->height; i++) {
+        if ((mask >> i & 1) != bit)
+            continue;
+        for (int c = 0; c < 3; c++)
+            sum += root[c] * f->rgb[3 * i + c];
+        n++;
+    }
+    return sum / n;
+}
+
+/* Blocks have the least error of the pictures of the Unicode chart, where one
+ * that needs a dark foreground counts half of what it gains: halves and
+ * quadrants can be exchanged with their inverse, and have the lighter colour as
+ * foreground. */
+static void blocks_are_the_best_of_the_chart(void **state)
+{
+    /* halves, one quadrant, the diagonal; then quarters */
+    static const unsigned masks[] = {0x0f, 0x55, 0x05, 0x0a, 0x50,
+                                     0xa0, 0xa5, 0xc0, 0xfc};
+    int quarters = 0, dark = 0;
+    uint64_t seed = 4;
+
+    (void)state;
+    for (int round = 0; round < 3000; round++) {
+        struct frame f;
+        struct cells c = make_cells_of(&f, 1, 1, GLYPHS_BLOCK);
+        double whole, gain = 0, most = 0;
+        unsigned mask;
+
+        for (int i = 0; i < 24; i++)
+            f.rgb[i] = (uint8_t)(round % 2 * 120 * (i >= 18) +
+                                 136 * check_random(&seed));
+        cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_BLOCK);
+        assert_true(glyphs_mask(GLYPHS_BLOCK, c.cell[0].glyph, &mask));
+        whole = squared_error(&f, 0);
+        for (int i = 0; i < 9; i++) {
+            bool is_dark = i >= 7 && lightness(&f, masks[i], 1) <
+                                         lightness(&f, masks[i], 0);
+            double g =
+                (whole - squared_error(&f, masks[i])) * (is_dark ? 0.5 : 1.0);
+
+            most = fmax(most, g);
+            if (mask == masks[i] || mask == (255 ^ masks[i])) {
+                gain = g;
+                quarters += i >= 7;
+                dark += is_dark;
+            }
+        }
+        check_close(gain, most, 1e-3 * most);
+        assert_int_equal(c.cell[0].fg, mean(&f, mask, 1));
+        assert_int_equal(c.cell[0].bg, mean(&f, mask, 0));
+        cells_free(&c);
+        frame_free(&f);
+    }
+    assert_true(quarters > 300 && dark > 30);
+}
+
+/* In every palette the foreground of half blocks is the lighter colour. A
+ * dither of two colours then sets them once, and the glyphs alternate. Blocks
+ * take the same frames while a picture moves. */
+static void light_dots_are_the_foreground(void **state)
+{
+    struct frame f;
+    struct cells c = make_cells(&f, 1, 1);
+
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        enum glyphs glyphs = i < 2 ? GLYPHS_HALF : GLYPHS_BLOCK;
+        enum palette palette = i % 2 ? PALETTE_24BIT : PALETTE_256;
+
+        set(&f, 0, 0, 215, 215, 95);
+        set(&f, 0, 1, 0, 0, 95);
+        cells_from_frame(&c, &f, palette, glyphs);
+        struct cell upper = c.cell[0];
+        set(&f, 0, 0, 0, 0, 95);
+        set(&f, 0, 1, 215, 215, 95);
+        cells_from_frame(&c, &f, palette, glyphs);
+        assert_int_equal(upper.glyph, CELL_UPPER);
+        assert_int_equal(c.cell[0].glyph, CELL_LOWER);
+        assert_int_equal(upper.fg, palette == PALETTE_256 ? 185 : 0xd7d75f);
+        assert_int_equal(upper.bg, palette == PALETTE_256 ? 17 : 0x00005f);
+        assert_int_equal(c.cell[0].fg, upper.fg);
+        assert_int_equal(c.cell[0].bg, upper.bg);
+    }
+    cells_free(&c);
+    frame_free(&f);
+}
+
 /* Without colours, the share of dots is the grey's light (squared). */
 static void mono_dots_keep_the_average(void **state)
 {
-    static const enum glyphs kinds[] = {GLYPHS_QUADRANT, GLYPHS_BRAILLE};
+    enum glyphs glyphs = GLYPHS_BRAILLE;
 
     (void)state;
-    for (int round = 0; round < 512; round++) {
-        enum glyphs glyphs = kinds[round % 2];
+    for (int v = 0; v < 256; v++) {
         struct frame f;
         struct cells c = make_cells_of(&f, 4, 4, glyphs);
-        int v = round / 2, on = 0;
+        int on = 0;
 
         for (int i = 0; i < 3 * f.width * f.height; i++)
             f.rgb[i] = (uint8_t)v;
@@ -342,8 +392,9 @@ int main(void)
         cmocka_unit_test(two_pixels_make_a_half_block),
         cmocka_unit_test(one_pixel_is_a_blank),
         cmocka_unit_test(dots_are_divided_into_the_best_groups),
+        cmocka_unit_test(blocks_are_the_best_of_the_chart),
+        cmocka_unit_test(light_dots_are_the_foreground),
         cmocka_unit_test(mono_dots_keep_the_average),
-        cmocka_unit_test(sixteen_colours_keep_the_average),
         cmocka_unit_test(mono_characters_grow_with_brightness),
         cmocka_unit_test(ascii_keeps_the_hue),
         cmocka_unit_test(pictures_keep_their_shape),
