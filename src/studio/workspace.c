@@ -7,7 +7,6 @@
 
 #include "base/clock.h"
 #include "base/min_max.h"
-#include "film/filter/screen_filter.h"
 #include "session/live_render.h"
 #include "studio/error_graph.h"
 #include "studio/panel_draw.h"
@@ -83,9 +82,10 @@ static void screen_draft_fit(struct live_render *control,
     const struct film *draft = render_surfaces(s->engine.render);
 
     screen_draft_expect(s, &screen->fit);
-    if (s->is_filtered)
-        screen_filter_draft_size(screen->frame_width, screen->frame_height,
-                                 &s->draft_width, &s->draft_height);
+    if (s->is_filtered) {
+        s->draft_width = screen->moving_width;
+        s->draft_height = screen->moving_height;
+    }
     if (draft == NULL)
         draft = render_draft(s->engine.render);
     if (!control->is_halted && s->draft_has_surfaces && draft != NULL &&
@@ -599,19 +599,16 @@ static enum pixel_graphics_pace pace_of(const struct workspace *workspace,
                                            : PIXEL_GRAPHICS_RESTS;
 }
 
-/* A picture of pixels has no more of them than the draft until it rests. */
+/* A picture has no more pixels than the draft until it rests. */
 static void size_frame(struct workspace *workspace,
                        enum pixel_graphics_pace pace)
 {
     const struct screen *screen = &workspace->screen;
-    struct frame *frame = &workspace->frame;
+    bool rests = pace == PIXEL_GRAPHICS_RESTS;
 
-    frame->width = screen->frame_width;
-    frame->height = screen->frame_height;
-    if (pace != PIXEL_GRAPHICS_RESTS &&
-        screen->graphics.shape.kind != PIXEL_GRAPHICS_NONE)
-        screen_filter_draft_size(screen->frame_width, screen->frame_height,
-                                 &frame->width, &frame->height);
+    workspace->frame.width = rests ? screen->frame_width : screen->moving_width;
+    workspace->frame.height =
+        rests ? screen->frame_height : screen->moving_height;
 }
 
 static void make_frame(struct workspace *workspace,

@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "base/min_max.h"
+#include "film/filter/screen_filter.h"
 #include "image/frame.h"
 #include "terminal/kitty.h"
 
@@ -134,6 +135,8 @@ static bool init_pixels(struct screen *screen,
         return false;
     screen->frame_width = int_min(screen->graphics.width_px, width_px);
     screen->frame_height = int_min(screen->graphics.height_px, height_px);
+    screen_filter_draft_size(screen->frame_width, screen->frame_height,
+                             &screen->moving_width, &screen->moving_height);
     return true;
 }
 
@@ -143,6 +146,10 @@ static bool init_cells(struct screen *screen, struct error *err)
 
     screen->frame_width = grid.across * screen->fit.cols;
     screen->frame_height = grid.down * screen->fit.rows;
+    if (screen->display.glyphs == GLYPHS_BLOCK)
+        grid = glyphs_grid(GLYPHS_HALF);
+    screen->moving_width = grid.across * screen->fit.cols;
+    screen->moving_height = grid.down * screen->fit.rows;
     return cells_init(&screen->cells, screen->fit.cols, screen->fit.rows, err);
 }
 

@@ -48,7 +48,8 @@ struct screen {
     bool has_all_answers; /* to the questions of tty_open() */
     /* These have the size of the present layout. */
     struct cells_rect fit;
-    int frame_width, frame_height; /* pixels of the frames it wants */
+    int frame_width, frame_height;   /* pixels of the frames it wants at rest */
+    int moving_width, moving_height; /* and while the picture moves */
     struct cells cells;
     struct pixel_graphics graphics; /* used instead of cells unless NONE */
     int image_layer;                /* of its images in the layout before */
@@ -126,7 +127,7 @@ struct screen_frame {
 };
 
 /* Writes a frame, and ends what screen_draw_text() began. It has frame_width x
- * frame_height pixels, or fewer where pixels are shown. */
+ * frame_height pixels, or moving_width x moving_height. */
 enum screen_result screen_draw(struct screen *screen,
                                const struct screen_frame *frame);
 

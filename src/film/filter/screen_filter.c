@@ -53,25 +53,11 @@ void screen_filter_draft_size(int frame_width, int frame_height, int *width,
     *height = (int)fmax(frame_height * scale, 1.0);
 }
 
-/* Returns true if the draft has this size, or that of a film with fewer pixels.
- */
-static bool has_size(const struct film *draft, int width, int height,
-                     const struct film *film)
+/* Returns true if the draft has at most the pixels of the frame along both
+ * axes. */
+static bool fits(const struct film *draft, const struct frame *frame)
 {
-    return draft->width == int_min(width, film->width) &&
-           draft->height == int_min(height, film->height);
-}
-
-/* Returns true if the draft has the size of one for the frame, or that of the
- * frame. */
-static bool fits(const struct film *film, const struct film *draft,
-                 const struct frame *frame)
-{
-    int width, height;
-
-    screen_filter_draft_size(frame->width, frame->height, &width, &height);
-    return has_size(draft, width, height, film) ||
-           has_size(draft, frame->width, frame->height, film);
+    return draft->width <= frame->width && draft->height <= frame->height;
 }
 
 /* ---- memory ---- */
@@ -411,7 +397,7 @@ bool screen_filter_show(struct screen_filter *f,
                                          frame->cancel};
     struct target target = {&context, how, frame};
 
-    if (!fits(film, surfaces, frame) || !resize(f, surfaces, film, frame))
+    if (!fits(surfaces, frame) || !resize(f, surfaces, film, frame))
         return false;
     screen_halves_begin(&f->halves);
     context.far = film_features_far(surfaces, FAR_STRIDE);

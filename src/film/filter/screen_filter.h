@@ -2,15 +2,15 @@
 /*
  * screen_filter.h - the denoising filter for the screen of live mode
  *
- * The filter works at the size of the draft, which is that of the screen, on
- * the mean of draft and film over each pixel of the screen. Features are those
- * of the draft's first surfaces; the film needs none. Direct and indirect light
- * are filtered together.
+ * The filter works at the size of the draft, which is at most that of the
+ * screen, on the mean of draft and film over each pixel of the draft. Features
+ * are those of the draft's first surfaces; the film needs none. Direct and
+ * indirect light are filtered together.
  *
  * A picture whose film is young is filtered in fewer levels, which is faster.
  *
- * A frame of more than SCREEN_FILTER_PIXELS is filtered with about that many
- * pixels; the film's detail is added to the enlarged result (screen_halves.h).
+ * A frame with more pixels than the draft shows the enlarged result, to which
+ * the film's detail is added (screen_halves.h).
  *
  * Lamps and the sky are shown without the filter, as the draft's pixels see
  * them. Pixels that the filter hardly changes, with their neighbours, are shown
@@ -60,8 +60,8 @@ struct screen_filter {
  */
 #define SCREEN_FILTER_ERROR 1.8
 
-/* Sets the size of the draft for a frame, which is that of the frame or a
- * smaller one of nearly its shape. */
+/* Sets the size of a draft for a frame of pixels, which is that of the frame or
+ * a smaller one of nearly its shape. */
 void screen_filter_draft_size(int frame_width, int frame_height, int *width,
                               int *height);
 
@@ -75,9 +75,8 @@ struct screen_films {
 };
 
 /* Fills a frame as film_preview() does, but filtered. Returns false and leaves
- * the frame as it is without memory, or if `surfaces` has neither the size of a
- * draft for the frame nor that of the frame, or of the film if the frame
- * enlarges it. Blocks. */
+ * the frame as it is without memory, or if `surfaces` has more pixels than the
+ * frame along an axis. Blocks. */
 bool screen_filter_show(struct screen_filter *f,
                         const struct screen_films *films, struct develop how,
                         enum filter_form form, struct frame *frame);

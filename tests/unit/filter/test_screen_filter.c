@@ -301,8 +301,8 @@ static void edges_under_a_black_sky_stay(void **state)
     close_films();
 }
 
-/* The films of one screen are not used for a frame of another size. */
-static void other_frames_stay(void **state)
+/* A draft is not used for a frame with fewer pixels. */
+static void smaller_frames_stay(void **state)
 {
     struct frame other;
     struct error err;
@@ -331,7 +331,7 @@ int main(void)
         cmocka_unit_test(the_noise_left_is_known),
         cmocka_unit_test(lamps_stay_sharp),
         cmocka_unit_test(edges_under_a_black_sky_stay),
-        cmocka_unit_test(other_frames_stay),
+        cmocka_unit_test(smaller_frames_stay),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
