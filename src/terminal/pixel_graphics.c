@@ -64,10 +64,10 @@ bool pixel_graphics_init(struct pixel_graphics *g,
         retire(g, before->images[i].id);
     rows_px = (size_t)image_rows_max(g) * (size_t)shape->cell_height_px;
     g->pixels = alloc_array(3 * rows_px, SIXEL_WIDTH_MAX);
-    g->numbers = alloc_array(rows_px, SIXEL_WIDTH_MAX);
+    g->numbers = alloc_array(2 * rows_px, SIXEL_WIDTH_MAX);
     if (g->pixels && g->numbers &&
         frame_init(&g->shown, g->width_px, g->height_px, err) &&
-        dither_init(&g->dither, err))
+        color_cut_init(&g->cut, err))
         return true;
     pixel_graphics_free(g);
     return fail(err, "out of memory for a picture of %dx%d cells as pixels",
@@ -79,7 +79,7 @@ void pixel_graphics_free(struct pixel_graphics *g)
     free(g->pixels);
     free(g->numbers);
     frame_free(&g->shown);
-    dither_free(&g->dither);
+    color_cut_free(&g->cut);
     *g = (struct pixel_graphics){0};
 }
 
@@ -242,38 +242,28 @@ static void reduce(const struct frame *frame, const struct area *area,
     }
 }
 
-/* Makes the palette numbers of an image of the terminal's pixels, which repeats
- * those of g->pixels. A repeated pixel is dithered as one. */
-static void fill_numbers(struct pixel_graphics *g, const struct area *area,
-                         int width, int height)
+/* Makes a palette for g->pixels, and the numbers of an image of the terminal's
+ * pixels, which repeats them. A repeated pixel is dithered as one. Returns the
+ * numbers. */
+static const uint8_t *fill_numbers(struct pixel_graphics *g,
+                                   const struct area *area, int width,
+                                   int height)
 {
-    uint8_t *number = g->numbers;
-    int before_y = -1;
+    uint8_t *to = g->numbers + (size_t)width * (size_t)height;
+    struct color_cut_image image = {g->pixels, width, height,
+                                    area->x * width / area->width,
+                                    area->y * height / area->height};
 
+    color_cut(&g->cut, &image, g->shape.colors, g->numbers);
+    if (width == area->width && height == area->height)
+        return g->numbers;
     for (int y = 0; y < area->height; y++) {
-        int from_y = y * height / area->height;
-        int before_x = -1;
+        const uint8_t *from = g->numbers + y * height / area->height * width;
 
-        if (from_y == before_y) {
-            memcpy(number, number - area->width, (size_t)area->width);
-            number += area->width;
-            continue;
-        }
-        for (int x = 0; x < area->width; x++, number++) {
-            int from_x = x * width / area->width;
-            const uint8_t *p = g->pixels + 3 * (from_y * width + from_x);
-
-            if (from_x == before_x)
-                *number = number[-1];
-            else
-                *number = (uint8_t)dither_color(
-                    &g->dither, (struct rgb){p[0], p[1], p[2]},
-                    area->x * width / area->width + from_x,
-                    area->y * height / area->height + from_y, g->shape.palette);
-            before_x = from_x;
-        }
-        before_y = from_y;
+        for (int x = 0; x < area->width; x++)
+            to[y * area->width + x] = from[x * width / area->width];
     }
+    return to;
 }
 
 /* ---- sending ---- */
@@ -377,8 +367,8 @@ static bool put_image(struct pixel_graphics *g, struct ansi_diff *a,
     struct area screen = area_in(g, &image->rect, g->width_px, g->height_px);
     int width = int_min((int)ceil(screen.width / block), from.width);
     int height = int_min((int)ceil(screen.height / block), from.height);
-    struct sixel_image sixel = {screen.width, screen.height, g->shape.palette,
-                                g->numbers};
+    struct sixel_image sixel = {screen.width, screen.height, g->cut.colors,
+                                NULL};
     size_t before = a->length;
 
     if (!ansi_diff_reserve(a,
@@ -389,7 +379,7 @@ static bool put_image(struct pixel_graphics *g, struct ansi_diff *a,
     if (g->shape.kind == PIXEL_GRAPHICS_KITTY) {
         put_kitty(g, a, image, width, height, how);
     } else {
-        fill_numbers(g, &screen, width, height);
+        sixel.numbers = fill_numbers(g, &screen, width, height);
         a->length += sixel_encode(&sixel, a->bytes + a->length);
     }
     g->pixel_bytes +=

@@ -20,6 +20,7 @@
 #include <stdint.h>
 
 #include "terminal/ansi_diff.h"
+#include "terminal/color_cut.h"
 
 enum pixel_graphics_kind {
     PIXEL_GRAPHICS_NONE,
@@ -31,8 +32,8 @@ struct pixel_graphics_shape {
     enum pixel_graphics_kind kind;
     int cols, rows; /* size of the picture */
     int cell_width_px, cell_height_px;
-    enum palette palette; /* of sixels: 256, or 16 for few registers */
-    bool is_in_tmux;      /* kitty's images go through it */
+    int colors;      /* most of a sixel image: its registers */
+    bool is_in_tmux; /* kitty's images go through it */
 };
 
 struct pixel_graphics_image {
@@ -59,8 +60,8 @@ struct pixel_graphics {
     int width_px, height_px;
     struct frame shown; /* pixels of fine images; no pixels before the first */
     uint8_t *pixels;    /* of one image */
-    uint8_t *numbers;   /* its palette numbers */
-    struct dither dither;
+    uint8_t *numbers; /* its colours in `cut`, then those of its enlargement */
+    struct color_cut cut;
 };
 
 /* Initializes for a layout of the screen. The images of the layout before,

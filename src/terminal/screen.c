@@ -19,9 +19,6 @@
  * and a key waits for that. */
 #define PIXEL_BYTES_MAX ((size_t)512 << 10)
 
-/* A sixel terminal with fewer colours gets the palette of 16. */
-#define SIXEL_COLORS_MIN 256
-
 /* Smallest window that has room for a picture and a status line. */
 #define COLS_MIN 40
 #define ROWS_MIN 12
@@ -118,12 +115,12 @@ static bool init_pixels(struct screen *screen,
                         int height_px, struct error *err)
 {
     const struct term_caps *d = &screen->display;
-    bool is_poor = d->sixel_colors > 0 && d->sixel_colors < SIXEL_COLORS_MIN;
     struct pixel_graphics_shape shape = {
         .kind = term_caps_pixels(d),
         .cols = screen->fit.cols,
         .rows = screen->fit.rows,
-        .palette = is_poor ? PALETTE_16 : PALETTE_256,
+        .colors = d->sixel_colors > 0 ? int_min(d->sixel_colors, COLOR_CUT_MAX)
+                                      : COLOR_CUT_MAX,
         .is_in_tmux = tty_is_in_tmux(),
     };
 

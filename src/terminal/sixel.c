@@ -67,7 +67,7 @@ static char *put_colors(char *p, const struct sixel_image *image)
     for (int n = 0; n < COLORS; n++) {
         if (!has[n])
             continue;
-        struct rgb c = dither_value((uint32_t)n, image->palette);
+        struct rgb c = image->colors[n];
         p += sprintf(p, "#%d;2;%d;%d;%d", n, percent(c.r), percent(c.g),
                      percent(c.b));
     }

@@ -20,10 +20,10 @@
 /* Widest image in pixels. */
 #define SIXEL_WIDTH_MAX 512
 
-/* Image of numbers of PALETTE_256 or PALETTE_16, row 0 at the top. */
+/* Image of numbers of colours, row 0 at the top. */
 struct sixel_image {
     int width, height;
-    enum palette palette;
+    const struct rgb *colors;
     const uint8_t *numbers;
 };
 

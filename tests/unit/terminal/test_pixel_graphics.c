@@ -23,7 +23,7 @@
 #define IDS 256
 
 struct screen {
-    int pixel[HEIGHT][WIDTH]; /* 0xRRGGBB, a colour number, or BLANK */
+    int pixel[HEIGHT][WIDTH]; /* 0xRRGGBB, or BLANK */
     int owner[HEIGHT][WIDTH]; /* kitty's image there */
     int col, row;
     bool has_image[IDS]; /* kitty's */
@@ -160,6 +160,16 @@ static const char *take_placeholders(struct screen *s, const char *p)
     return p;
 }
 
+/* Returns the colour of a sixel's register. */
+static int color_of(const int percent[3])
+{
+    int color = 0;
+
+    for (int c = 0; c < 3; c++)
+        color = color << 8 | (percent[c] * 255 + 50) / 100;
+    return color;
+}
+
 static void screen_write(struct screen *s, struct ansi_diff *a)
 {
     static struct sixels sixels;
@@ -180,6 +190,8 @@ static void screen_write(struct screen *s, struct ansi_diff *a)
             p = take_kitty(s, p);
         } else {
             p = sixels_read(p, &sixels);
+            for (int i = 0; i < sixels.width * sixels.height; i++)
+                sixels.number[i] = color_of(sixels.percent[sixels.number[i]]);
             put_pixels(s, sixels.width, sixels.height, sixels.number,
                        sixels.width, sixels.height, 0);
         }
@@ -191,7 +203,6 @@ struct fixture {
     struct pixel_graphics g;
     struct ansi_diff a;
     struct frame frame;
-    struct dither dither;
     struct screen screen;
 };
 
@@ -208,7 +219,7 @@ static void begin_layout(int way)
         .rows = ROWS,
         .cell_width_px = CELL_W,
         .cell_height_px = CELL_H,
-        .palette = PALETTE_256,
+        .colors = COLOR_CUT_MAX,
         .is_in_tmux = way == 2,
     };
     struct pixel_graphics before = st.g;
@@ -216,6 +227,15 @@ static void begin_layout(int way)
 
     pixel_graphics_free(&st.g);
     assert_true(pixel_graphics_init(&st.g, &shape, &before, &err));
+}
+
+/* Returns a channel of one of 64 colours, which sixels show exactly: they have
+ * more registers, whose values are whole percents. */
+static uint8_t random_level(uint64_t *seed)
+{
+    static const uint8_t levels[4] = {0, 51, 204, 255};
+
+    return levels[(int)(4 * check_random(seed))];
 }
 
 static void fixture_init(int way, uint64_t *seed)
@@ -226,9 +246,8 @@ static void fixture_init(int way, uint64_t *seed)
     begin_layout(way);
     assert_true(ansi_diff_init(&st.a, COLS, ROWS, &err));
     assert_true(frame_init(&st.frame, WIDTH, HEIGHT, &err));
-    assert_true(dither_init(&st.dither, &err));
     for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
-        st.frame.rgb[i] = (uint8_t)(256 * check_random(seed));
+        st.frame.rgb[i] = random_level(seed);
     blank(&st.screen, 0, 0, COLS, ROWS);
 }
 
@@ -237,7 +256,6 @@ static void fixture_free(void)
     pixel_graphics_free(&st.g);
     ansi_diff_free(&st.a);
     frame_free(&st.frame);
-    dither_free(&st.dither);
 }
 
 /* Draws a frame and returns the number of its images. */
@@ -267,11 +285,8 @@ static int draw_all(const struct ansi_diff_draw *how)
 static int wanted(int x, int y)
 {
     const uint8_t *p = st.frame.rgb + 3 * (y * WIDTH + x);
-    struct rgb c = {p[0], p[1], p[2]};
 
-    if (st.g.shape.kind == PIXEL_GRAPHICS_SIXEL)
-        return (int)dither_color(&st.dither, c, x, y, PALETTE_256);
-    return c.r << 16 | c.g << 8 | c.b;
+    return p[0] << 16 | p[1] << 8 | p[2];
 }
 
 /* Checks that the terminal shows the picture, and BLANK in the window. */
@@ -515,7 +530,7 @@ static void small_frames_are_enlarged(void **state)
         fixture_init(i, &seed);
         assert_true(frame_init(&small, WIDTH / 7, HEIGHT / 5, &err));
         for (int k = 0; k < 3 * small.width * small.height; k++)
-            small.rgb[k] = (uint8_t)(64 * (int)(4 * check_random(&seed)));
+            small.rgb[k] = random_level(&seed);
         for (int k = 0; k < 10 && !is_done; k++) {
             ansi_diff_begin(&st.a);
             is_done = pixel_graphics_picture(&st.g, &st.a, &small,
@@ -527,12 +542,9 @@ static void small_frames_are_enlarged(void **state)
             for (int x = 0; x < WIDTH; x++) {
                 const uint8_t *p =
                     small.rgb + 3 * (y / 5 * small.width + x / 7);
-                struct rgb c = {p[0], p[1], p[2]};
-                int color = i == 0 ? (int)dither_color(&st.dither, c, x / 7,
-                                                       y / 5, PALETTE_256)
-                                   : c.r << 16 | c.g << 8 | c.b;
 
-                assert_int_equal(st.screen.pixel[y][x], color);
+                assert_int_equal(st.screen.pixel[y][x],
+                                 p[0] << 16 | p[1] << 8 | p[2]);
             }
         }
         frame_free(&small);
