@@ -599,16 +599,22 @@ static enum pixel_graphics_pace pace_of(const struct workspace *workspace,
                                            : PIXEL_GRAPHICS_RESTS;
 }
 
-/* A picture has no more pixels than the draft until it rests. */
+/* A picture has no more pixels than the draft until it rests. A filtered one
+ * also waits until noise is less than half of the light: detail above the
+ * draft's resolution is the film's, and not filtered. */
 static void size_frame(struct workspace *workspace,
                        enum pixel_graphics_pace pace)
 {
     const struct screen *screen = &workspace->screen;
-    bool rests = pace == PIXEL_GRAPHICS_RESTS;
+    const struct film_error *e = &workspace->control->progress.film_error;
+    bool is_clean = !workspace->inspector.view_mode.is_filtered ||
+                    (e->is_known && e->error < 0.5);
+    bool is_fine = pace == PIXEL_GRAPHICS_RESTS && is_clean;
 
-    workspace->frame.width = rests ? screen->frame_width : screen->moving_width;
+    workspace->frame.width =
+        is_fine ? screen->frame_width : screen->moving_width;
     workspace->frame.height =
-        rests ? screen->frame_height : screen->moving_height;
+        is_fine ? screen->frame_height : screen->moving_height;
 }
 
 static void make_frame(struct workspace *workspace,
