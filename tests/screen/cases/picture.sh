@@ -5,7 +5,7 @@ start --cell-aspect 2 flat.obj
 wait_for "LIVE .* spp"
 wait_for_rows 15 "48;2;188;124;0"
 # the bar of five rows is below the picture, and has the noise and the keys
-wait_for "noise over time  .* [0-9.]* k*M*samples/s"
+wait_for "noise [a-z ]*  .* [0-9.]* k*M*samples/s"
 wait_for "wasdqe move"
 screen_colors >colors
 [ "$(grep -n '48;2;188;124;0m' colors | head -n 1 | cut -d: -f1)" = 1 ] ||
@@ -30,7 +30,7 @@ start --cell-aspect 2 flat.obj # 80x20 cells: no room beside it
 wait_for "LIVE .* spp"
 wait_for_rows 20 "48;2;188;124;0"
 mux resize-window -x 128 -y 25
-wait_for "  noise over time$"
+wait_for "  noise [a-z ]*$"
 wait_for "  wasdqe move$"
 wait_for "  arrows look$"
 screen_colors | head -n 24 >colors
