@@ -812,12 +812,13 @@ struct film *render_film(struct render *r)
 
 struct film *render_draft(struct render *r)
 {
-    bool is_young;
+    bool is_shown;
 
     pthread_mutex_lock(&r->lock);
-    is_young = r->spp_done < FILM_YOUNG_SPP;
+    is_shown =
+        r->spp_done < FILM_YOUNG_SPP || !render_films_want_light(&r->job);
     pthread_mutex_unlock(&r->lock);
-    return is_young && r->films.draft.width > 0 ? &r->films.draft : NULL;
+    return is_shown && r->films.draft.width > 0 ? &r->films.draft : NULL;
 }
 
 struct film *render_surfaces(struct render *r)

@@ -139,8 +139,8 @@ const uint16_t *render_shares(struct render *r);
 struct film *render_film(struct render *r);
 
 /* Returns the draft, which film_preview() adds to the film, or NULL if there is
- * none or the film has FILM_YOUNG_SPP samples. It is valid until the next
- * render_start(). */
+ * none or the film has FILM_YOUNG_SPP samples, unless the draft has numbers. It
+ * is valid until the next render_start(). */
 struct film *render_draft(struct render *r);
 
 /* Returns the draft if it has surfaces, in a film of any age, for

@@ -81,6 +81,7 @@ KEY(SAVE, "save", "save a PNG file, as shown",
     "screenshot export picture image", 'p')
 KEY(SAVE_RAW, "save-raw", "save a PNG with its noise", "export picture raw", 0)
 KEY(SAVE_LINEAR, "save-linear", "save a linear HDR file", "export picture", 'P')
+KEY(SAVE_EXR, "save-exr", "save a linear EXR file", "export picture openexr", 0)
 KEY(SAVE_TEXT, "save-text", "save coloured text", "export ansi", 'x', 'X')
 KEY(RESTORE, "restore", "go on with what was kept", "recover session",
     CTRL('R'))

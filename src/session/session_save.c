@@ -278,6 +278,39 @@ static char *say_written(const struct written *w, const char *view_path)
                    view_path != NULL ? view_path : "");
 }
 
+/* Appends a part of a list, which it takes. */
+static void append(char **list, char *part)
+{
+    char *longer = *list != NULL ? xformat("%s, %s", *list, part) : NULL;
+
+    if (longer != NULL)
+        free(part);
+    free(*list);
+    *list = longer != NULL ? longer : part;
+}
+
+char *session_unsaved(struct session *s)
+{
+    struct mtl_change *changes =
+        xcalloc(s->edit.material_count, sizeof *changes);
+    uint32_t *materials = xcalloc(s->edit.material_count, sizeof *materials);
+    char *list = NULL;
+
+    for (uint32_t i = 0; i < s->engine.scene.mtl_path_count; i++) {
+        size_t count = collect(s, i, changes, materials);
+
+        if (count > 0)
+            append(&list,
+                   xformat("%zu material%s to %s", count, print_plural(count),
+                           path_name(s->engine.scene.mtl_paths[i])));
+    }
+    if (edit_has_unsaved_view(&s->edit))
+        append(&list, xstrdup(path_name(s->engine.view_path)));
+    free(changes);
+    free(materials);
+    return list;
+}
+
 bool session_save_edit(struct session *s, struct file_watch *watch, char **what,
                        struct error *err)
 {

@@ -76,6 +76,10 @@ void save_thread_free(struct save_thread *s);
 bool session_save_edit(struct session *s, struct file_watch *watch, char **what,
                        struct error *err);
 
+/* Returns what session_save_edit() would write, for free(), or NULL if nothing
+ * has changed: "2 materials to room.mtl, room.view". */
+char *session_unsaved(struct session *s);
+
 /* Makes the view that would be saved now, for view_free(), with the size and
  * the bounces of this run. Materials that objects are given keep their order in
  * the saved view. */

@@ -86,6 +86,8 @@ static void find_menu(struct command_list *p, const struct keymap *keys)
         for (int i = 0; keymap_command(keys, i, &c); i++)
             if (c.action == menu[k]) {
                 c.group = "";
+                if (c.action == ACTION_SAVE_EDIT && p->changes[0] != '\0')
+                    c.text = p->changes;
                 p->commands[p->count++] = c;
             }
     p->all = p->count;

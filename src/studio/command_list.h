@@ -17,11 +17,12 @@
 
 struct command_list {
     struct list_window list;
-    bool is_menu;  /* while nothing is searched for: only what leaves */
-    bool in_panel; /* keys of the panel come first */
-    bool has_kept; /* the menu has what to do with a kept session */
-    int all;       /* commands before the search */
-    int count;     /* those that match */
+    bool is_menu;     /* while nothing is searched for: only what leaves */
+    bool in_panel;    /* keys of the panel come first */
+    bool has_kept;    /* the menu has what to do with a kept session */
+    char changes[64]; /* what "save changes" writes, in the menu; "": nothing */
+    int all;          /* commands before the search */
+    int count;        /* those that match */
     struct keymap_command commands[COMMANDS_MAX];
     int points[COMMANDS_MAX]; /* how well each matches */
 };

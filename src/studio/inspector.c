@@ -353,15 +353,24 @@ void inspector_save_raw(struct inspector *inspector)
         inspector_save(inspector);
 }
 
-void inspector_save_hdr(struct inspector *inspector)
+static void save_linear(struct inspector *inspector, const char *ending)
 {
     if (view_mode_sample(inspector->view_mode.kind) == SAMPLE_LIGHT)
-        save_picture(inspector->control, "hdr");
+        save_picture(inspector->control, ending);
     else
         live_render_say(
-            inspector->control,
-            "only light is saved as HDR: %s goes back to it",
-            live_render_key(inspector->control, ACTION_VIEW_BACK).text);
+            inspector->control, "only light is saved as %s: %s goes back to it",
+            ending, live_render_key(inspector->control, ACTION_CANCEL).text);
+}
+
+void inspector_save_hdr(struct inspector *inspector)
+{
+    save_linear(inspector, "hdr");
+}
+
+void inspector_save_exr(struct inspector *inspector)
+{
+    save_linear(inspector, "exr");
 }
 
 /* ---- actions ---- */

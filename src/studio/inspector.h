@@ -73,10 +73,11 @@ void inspector_next_drawing(struct inspector *inspector);
 void inspector_change(struct inspector *inspector, int by);
 
 /* Save the picture as it is shown, filtered and with drawings, as PNG; with its
- * noise, as PNG or HDR (light alone); or as coloured text. */
+ * noise, as PNG, or HDR and EXR (light alone); or as coloured text. */
 void inspector_save(struct inspector *inspector);
 void inspector_save_raw(struct inspector *inspector);
 void inspector_save_hdr(struct inspector *inspector);
+void inspector_save_exr(struct inspector *inspector);
 void inspector_save_text(struct inspector *inspector);
 
 /* Removes the drawings and their table. */

@@ -278,6 +278,7 @@ static const struct command commands[ACTIONS] = {
     [ACTION_RESTART] = {.studio = restart},
     [ACTION_SAVE] = {.inspector = inspector_save},
     [ACTION_SAVE_RAW] = {.inspector = inspector_save_raw},
+    [ACTION_SAVE_EXR] = {.inspector = inspector_save_exr},
     [ACTION_SAVE_TEXT] = {.inspector = inspector_save_text},
     [ACTION_SAVE_LINEAR] = {.inspector = inspector_save_hdr},
     [ACTION_BACKEND] = {.control = live_render_switch_backend},

@@ -328,11 +328,17 @@ static void begin_list(struct workspace *workspace)
 
 static void open_list(struct workspace *workspace, bool is_menu)
 {
+    char *changes = session_unsaved(workspace->control->session);
+
     begin_list(workspace);
     workspace->commands =
         (struct command_list){.is_menu = is_menu,
                               .in_panel = workspace->panel.is_open,
                               .has_kept = workspace->has_kept};
+    if (changes != NULL)
+        snprintf(workspace->commands.changes,
+                 sizeof workspace->commands.changes, "save %s", changes);
+    free(changes);
     command_list_open(&workspace->commands, keys_of(workspace),
                       &workspace->screen);
 }

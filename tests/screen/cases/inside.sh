@@ -57,7 +57,7 @@ wait_for "saved walls.ans, text of 60x15 characters"
 grep -q "48;2;128;128;255m" walls.ans
 grep -q "48;2;128;128;0m" walls.ans
 keys P
-wait_for "only light is saved as HDR: N goes back"
+wait_for "only light is saved as hdr: Esc goes back"
 wait_for "FACES"
 keys n
 wait_for "UVS"
@@ -132,7 +132,7 @@ wait_for "normal mode"
 keys n
 wait_for "SAMPLES"
 keys n
-wait_for "ERROR  unknown until each pixel has two samples"
+wait_for "ERROR  black 0.1 %, red 3, white 100 %; noise 0"
 keys n
 wait_until_gone "ERROR"
 # tmux restores the shell's screen whole only at the size that it had

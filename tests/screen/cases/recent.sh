@@ -90,6 +90,10 @@ wait_for "│>    type"
 keys Down Down Right Right Right
 keys Escape Escape
 wait_until_gone "Materials"
+keys Escape # the menu says where they would be written
+wait_for "save 1 material to lamp.mtl"
+keys Escape
+wait_until_gone "save 1 material"
 leave_for() # chooses another scene
 {
     keys O

@@ -11,6 +11,13 @@ keys p
 wait_for "saved flat-2.png 50x25"
 keys P
 wait_for "saved flat.hdr 50x25, [1-9][0-9]* spp"
+keys Escape :
+wait_for "Esc back"
+raw_keys "exr"
+wait_for "save a linear EXR file"
+keys Enter
+wait_for "saved flat.exr 50x25, [1-9][0-9]* spp"
+printf 'v/1\001' | cmp -n 4 - flat.exr || die "flat.exr is no EXR picture"
 head -n 1 flat.hdr | grep -q '^#?RADIANCE' || die "flat.hdr is no HDR picture"
 keys Escape
 mv sub away

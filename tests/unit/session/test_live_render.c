@@ -488,7 +488,7 @@ static void new_drafts_keep_the_samples(void **state)
     w->session->draft_width = 20;
     w->session->draft_height = 12;
     live_render_set_live(w, true);
-    while (w->progress.spp_done < 4)
+    while (w->progress.spp_done < FILM_YOUNG_SPP)
         live_render_update(w);
     for (int i = 0; i < 6; i++) {
         samples = w->progress.samples;
@@ -496,6 +496,8 @@ static void new_drafts_keep_the_samples(void **state)
         w->session->draft_width = 10 + i;
         live_render_renew_draft(w);
         assert_true(w->progress.samples >= samples);
+        if (i % 2 == 0) /* numbers are shown, however old the film is */
+            assert_non_null(render_draft(w->session->engine.render));
         while (live_render_awaits_picture(w))
             live_render_update(w);
         assert_true(w->progress.samples >= samples);
