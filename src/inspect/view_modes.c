@@ -454,6 +454,37 @@ bool view_mode_picture(struct view_mode *s, struct film *film,
     return true;
 }
 
+bool view_mode_thumbnail(struct view_mode *s, const struct pose *pose,
+                         struct frame *frame, struct error *err)
+{
+    const struct session *of = s->session;
+    size_t pixels = (size_t)frame->width * (size_t)frame->height;
+    struct view view = of->edit.now.view;
+    struct host_world *host = &s->session->engine.world;
+    float *numbers = alloc_array(pixels, 3 * sizeof *numbers);
+    struct world w;
+    bool ok = numbers != NULL || fail_memory(frame, err);
+
+    view.pose = *pose;
+    ok = ok &&
+         world_lend(host, &of->engine.scene, &view, of->options->seed, &w,
+                    err) &&
+         world_ensure_tree(host, &w, view_mode_pool(s), err);
+    if (ok) {
+        w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
+        w.settings.sample = SAMPLE_PREVIEW;
+        w.settings.features |= FEATURE_AOV;
+        aov_of_pixels(s->pool, &w, frame->width, frame->height, numbers);
+        for (size_t i = 0; i < pixels; i++)
+            frame_dot(frame, (double)(i % (size_t)frame->width),
+                      (double)(i / (size_t)frame->width),
+                      false_color(SAMPLE_PREVIEW, numbers + 3 * i,
+                                  (struct number_range){0, 1}));
+    }
+    free(numbers);
+    return ok;
+}
+
 void view_mode_free(struct view_mode *s)
 {
     pool_destroy(s->pool);

@@ -79,6 +79,11 @@ bool view_mode_traced(struct view_mode *s, struct world *w, struct error *err);
 bool view_mode_scaled(struct view_mode *s, int width, int height,
                       struct world *w, struct error *err);
 
+/* Fills a frame with the preview from another place. Blocks for some
+ * milliseconds, and while the tree is built. */
+bool view_mode_thumbnail(struct view_mode *s, const struct pose *pose,
+                         struct frame *frame, struct error *err);
+
 /* Returns the threads for pictures of the view, which start on first use. */
 struct pool *view_mode_pool(struct view_mode *s);
 

@@ -49,6 +49,7 @@ KEY(VIEW_7, "view-7", NULL, "", '7')
 KEY(VIEW_8, "view-8", NULL, "", '8')
 KEY(VIEW_9, "view-9", NULL, "", '9')
 KEY(KEEP, "keep", "give this view a number", "bookmark camera", 'k')
+KEY(VIEWS, "views", "list of numbered views", "bookmark camera", '\'')
 KEY(SAVE_VIEW, "save-view", "write the view file", "save camera", 'c')
 GROUP("Look")
 KEY(VIEW_NEXT, "next-view", "preview, normals, costs, ..",

@@ -11,8 +11,10 @@
 #define ESCAPE    27
 #define BACKSPACE 127
 
-#define TEXT_COLS 52  /* of a row */
-#define ROW_COLS  200 /* with the pane, at most */
+#define TEXT_COLS 52 /* of a row */
+#define PANE_MIN  24 /* of the pane, with two before it */
+#define PANE_MAX  46
+#define PANE_ROWS 10 /* of a list with a pane, at least */
 #define KEY_COLS  9
 #define PAGE_ROWS 10
 #define WHEEL     3
@@ -66,21 +68,26 @@ static struct line line_at(const struct list_window *l,
     return (struct line){row, false};
 }
 
+/* Returns the columns of the pane with those before it. */
+static int pane_cols(int cols)
+{
+    int room = cols - TEXT_COLS - 2 * LEFT;
+
+    return room < PANE_MIN ? 0 : int_min(room, PANE_MAX);
+}
+
 void list_window_open(struct list_window *l, struct screen *screen,
                       const char *title, const struct list_row *rows, int count)
 {
     struct tty_size size = term_size();
     int cols = int_min(TEXT_COLS, size.cols - 2 * LEFT);
-    int pane = l->pane_cols > 0 ? l->pane_cols + 2 : 0;
+    int pane = l->has_pane ? pane_cols(size.cols) : 0;
     const char *lines[LINES_MAX];
-    char blank[ROW_COLS + 1];
-
-    if (cols + pane > int_min(size.cols - 2 * LEFT, ROW_COLS))
-        pane = 0;
+    char blank[TEXT_COLS + PANE_MAX + 1];
 
     l->is_open = true;
-    l->rows =
-        int_min(line_of(l, rows, count, count), size.rows - 3 - OTHER_ROWS);
+    l->rows = int_max(line_of(l, rows, count, count), pane > 0 ? PANE_ROWS : 0);
+    l->rows = int_min(l->rows, size.rows - 3 - OTHER_ROWS);
     l->rows = int_min(int_max(l->rows, 1), LINES_MAX - OTHER_ROWS);
     snprintf(blank, sizeof blank, "%*s", int_max(cols + pane, 1), "");
     for (int i = 0; i < l->rows + OTHER_ROWS; i++)
@@ -88,7 +95,7 @@ void list_window_open(struct list_window *l, struct screen *screen,
     l->at = screen_open_window(screen, WINDOW_MIDDLE, title, lines,
                                l->rows + OTHER_ROWS);
     l->pane = (struct window_rect){LEFT + cols + 2, TOP + 1,
-                                   pane > 0 ? l->pane_cols : 0, l->rows};
+                                   pane > 0 ? pane - 2 : 0, l->rows};
 }
 
 /* Returns the columns of the list. */
@@ -173,6 +180,46 @@ void list_window_draw(struct list_window *l, struct screen *screen,
     key_hints_draw(WINDOW_OVER, TOP + l->rows + OTHER_ROWS - 1, LEFT, cols,
                    hints);
     screen->must_update = true;
+}
+
+static void paint(const struct frame *picture, const struct screen *screen,
+                  const struct window_rect *pane)
+{
+    const struct term_caps *d = &screen->display;
+    struct tty_size size = term_size();
+    struct cells_rect fit =
+        cells_fit(picture->width, picture->height, pane->cols, pane->rows,
+                  term_caps_cell_aspect(d, &size));
+    struct glyph_grid grid = glyphs_grid(d->glyphs);
+    struct frame frame = {.rgb = NULL};
+    struct cells cells = {.cell = NULL};
+    struct error ignored;
+
+    if (frame_init(&frame, fit.cols * grid.across, fit.rows * grid.down,
+                   &ignored) &&
+        cells_init(&cells, fit.cols, fit.rows, &ignored)) {
+        frame_scale(picture, &frame);
+        cells_from_frame(&cells, &frame, d->palette, d->glyphs);
+        for (int row = 0; row < fit.rows; row++)
+            windows_paint(WINDOW_OVER, pane->row + row, pane->col + fit.col,
+                          cells.cell + (size_t)row * (size_t)fit.cols,
+                          fit.cols);
+    }
+    cells_free(&cells);
+    frame_free(&frame);
+}
+
+void list_window_picture(const struct list_window *l,
+                         const struct screen *screen,
+                         const struct frame *picture)
+{
+    const struct window_rect *pane = &l->pane;
+
+    for (int row = 0; row < pane->rows && pane->cols > 0; row++)
+        windows_text(WINDOW_OVER, pane->row + row, pane->col, pane->cols,
+                     ROLE_TEXT, "");
+    if (pane->cols > 0 && picture != NULL)
+        paint(picture, screen, pane);
 }
 
 static enum list_result leave(struct list_window *l, enum list_result result)

@@ -3,7 +3,7 @@
  * list_window.h - a window with a list that is searched by typing and chosen
  * from, by keys or the mouse
  *
- * Beside the list may be a pane, for a picture, where the terminal has room.
+ * Beside the list may be a pane for a picture, where the terminal has room.
  * The caller has the rows and finds those that match the search. Rows have a
  * key at the left; while nothing is searched for, each group has its title
  * above its first row.
@@ -33,8 +33,8 @@ struct list_window {
     int top;                  /* first line that is shown */
     int rows;                 /* lines that the window has for the list */
     struct window_rect at;
-    const char *does;        /* what Enter does */
-    int pane_cols;           /* that are wanted beside the list, and */
+    const char *does; /* what Enter does */
+    bool has_pane;    /* a pane for a picture is wanted beside the list, and */
     struct window_rect pane; /* what there is, in the window; 0 cols: none */
 };
 
@@ -47,6 +47,11 @@ void list_window_open(struct list_window *l, struct screen *screen,
 /* Draws the rows that match, and their number of `all`. */
 void list_window_draw(struct list_window *l, struct screen *screen,
                       const struct list_row *rows, int count, int all);
+
+/* Shows a picture in the pane; NULL: none. */
+void list_window_picture(const struct list_window *l,
+                         const struct screen *screen,
+                         const struct frame *picture);
 
 enum list_result {
     LIST_STAYS,    /* the selection or the search may have changed */

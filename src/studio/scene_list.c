@@ -6,15 +6,7 @@
 #include <strings.h>
 
 #include "base/file.h"
-#include "base/min_max.h"
-#include "base/print.h"
-#include "terminal/cells.h"
 #include "terminal/xmalloc.h"
-
-/* Columns of the pane of the picture, and of a list without it. */
-#define PANE_MIN  22
-#define PANE_MAX  44
-#define LIST_COLS 58
 
 /* ---- rows ---- */
 
@@ -81,52 +73,13 @@ static bool has_picture(struct scene_list *s)
     return s->picture.rgb != NULL;
 }
 
-/* Paints the picture into cells of the pane. */
-static void paint(const struct frame *picture, const struct screen *screen,
-                  const struct window_rect *pane)
-{
-    const struct term_caps *d = &screen->display;
-    struct tty_size size = term_size();
-    struct cells_rect fit =
-        cells_fit(picture->width, picture->height, pane->cols, pane->rows,
-                  term_caps_cell_aspect(d, &size));
-    struct glyph_grid grid = glyphs_grid(d->glyphs);
-    struct frame frame = {.rgb = NULL};
-    struct cells cells = {.cell = NULL};
-    struct error ignored;
-
-    if (frame_init(&frame, fit.cols * grid.across, fit.rows * grid.down,
-                   &ignored) &&
-        cells_init(&cells, fit.cols, fit.rows, &ignored)) {
-        frame_scale(picture, &frame);
-        cells_from_frame(&cells, &frame, d->palette, d->glyphs);
-        for (int row = 0; row < fit.rows; row++)
-            windows_paint(WINDOW_OVER, pane->row + row, pane->col + fit.col,
-                          cells.cell + (size_t)row * (size_t)fit.cols,
-                          fit.cols);
-    }
-    cells_free(&cells);
-    frame_free(&frame);
-}
-
-static void draw_pane(struct scene_list *s, const struct screen *screen)
-{
-    const struct window_rect *pane = &s->list.pane;
-
-    for (int row = 0; row < pane->rows && pane->cols > 0; row++)
-        windows_text(WINDOW_OVER, pane->row + row, pane->col, pane->cols,
-                     ROLE_TEXT, "");
-    if (pane->cols > 0 && has_picture(s))
-        paint(&s->picture, screen, pane);
-}
-
 /* ---- window ---- */
 
 static void draw(struct scene_list *s, struct screen *screen)
 {
     find(s);
     list_window_draw(&s->list, screen, s->rows, s->count, s->files.count);
-    draw_pane(s, screen);
+    list_window_picture(&s->list, screen, has_picture(s) ? &s->picture : NULL);
 }
 
 void scene_list_open(struct scene_list *s, struct screen *screen)
@@ -134,8 +87,7 @@ void scene_list_open(struct scene_list *s, struct screen *screen)
     if (s->files.files == NULL)
         use_folder(s, NULL);
     s->list.does = "opens";
-    s->list.pane_cols =
-        int_min(int_max(term_size().cols - LIST_COLS, PANE_MIN), PANE_MAX);
+    s->list.has_pane = true;
     find(s);
     list_window_open(&s->list, screen, " open a scene ", s->rows, s->count);
     draw(s, screen);

@@ -284,6 +284,7 @@ static const struct command commands[ACTIONS] = {
     [ACTION_BACKEND] = {.control = live_render_switch_backend},
     [ACTION_RESTORE] = {.studio = restore_kept},
     [ACTION_DROP] = {.studio = drop_kept},
+    [ACTION_VIEWS] = {.workspace = workspace_open_views},
     [ACTION_SCENE] = {.workspace = workspace_open_scenes},
     [ACTION_RELOAD] = {.control = live_render_reload},
     [ACTION_COLORS] = {.workspace = workspace_next_colors},

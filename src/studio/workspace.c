@@ -136,7 +136,8 @@ static const struct keymap *keys_of(const struct workspace *workspace)
 
 bool workspace_has_list(const struct workspace *workspace)
 {
-    return workspace->commands.list.is_open || workspace->scenes.list.is_open;
+    return workspace->commands.list.is_open || workspace->scenes.list.is_open ||
+           workspace->views.list.is_open;
 }
 
 /* Opens the list that a person reads, or else the inspector's table. */
@@ -148,6 +149,8 @@ static void open_window(struct workspace *workspace)
         return;
     else if (workspace->scenes.list.is_open)
         scene_list_open(&workspace->scenes, &workspace->screen);
+    else if (workspace->views.list.is_open)
+        view_list_open(&workspace->views, &workspace->screen);
     else
         command_list_open(&workspace->commands, keys_of(workspace),
                           &workspace->screen);
@@ -379,6 +382,19 @@ void workspace_open_scenes(struct workspace *workspace)
     scene_list_open(&workspace->scenes, &workspace->screen);
 }
 
+void workspace_open_views(struct workspace *workspace)
+{
+    view_list_free(&workspace->views);
+    workspace->views.view_mode = &workspace->inspector.view_mode;
+    begin_list(workspace);
+    if (view_list_open(&workspace->views, &workspace->screen))
+        return;
+    live_render_say(workspace->control,
+                    "no view has a number: %s gives this one a number",
+                    live_render_key(workspace->control, ACTION_KEEP).text);
+    open_window(workspace);
+}
+
 /* Closes the window of a list that is closed. */
 static enum action end_list(struct workspace *workspace, enum action chosen)
 {
@@ -397,6 +413,9 @@ enum action workspace_list_key(struct workspace *workspace, int key)
             scene_list_key(&workspace->scenes, &workspace->screen, key);
         return end_list(workspace, ACTION_NONE);
     }
+    if (workspace->views.list.is_open)
+        return end_list(workspace, view_list_key(&workspace->views,
+                                                 &workspace->screen, key));
     return end_list(workspace,
                     command_list_key(&workspace->commands, keys_of(workspace),
                                      &workspace->screen, key));
@@ -410,6 +429,9 @@ enum action workspace_list_mouse(struct workspace *workspace,
             scene_list_mouse(&workspace->scenes, &workspace->screen, event);
         return end_list(workspace, ACTION_NONE);
     }
+    if (workspace->views.list.is_open)
+        return end_list(workspace, view_list_mouse(&workspace->views,
+                                                   &workspace->screen, event));
     return end_list(workspace,
                     command_list_mouse(&workspace->commands, keys_of(workspace),
                                        &workspace->screen, event));
@@ -800,6 +822,7 @@ uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns)
 void workspace_free(struct workspace *workspace)
 {
     scene_list_free(&workspace->scenes);
+    view_list_free(&workspace->views);
     free(workspace->chosen_scene);
     inspector_free(&workspace->inspector);
     editor_panel_free(&workspace->panel);

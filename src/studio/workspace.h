@@ -30,6 +30,7 @@
 #include "studio/keys_bar.h"
 #include "studio/command_list.h"
 #include "studio/scene_list.h"
+#include "studio/view_list.h"
 #include "terminal/screen.h"
 
 struct workspace {
@@ -43,6 +44,7 @@ struct workspace {
     bool has_about; /* window about the render; hidden while the list is open */
     struct command_list commands;
     struct scene_list scenes;
+    struct view_list views;
     char *chosen_scene; /* path from that list, for the taker; NULL: none */
     struct keys_bar keys_bar;
     struct glyph_choice glyph_choice;
@@ -113,6 +115,7 @@ void workspace_switch_status(struct workspace *workspace);
 void workspace_open_commands(struct workspace *workspace);
 void workspace_open_menu(struct workspace *workspace);
 void workspace_open_scenes(struct workspace *workspace);
+void workspace_open_views(struct workspace *workspace);
 
 /* Returns true if a list is open. */
 bool workspace_has_list(const struct workspace *workspace);
