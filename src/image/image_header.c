@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "image/image_bytes.h"
 #include "image/image_exr_read.h"
@@ -462,13 +463,31 @@ static bool fail_unknown(const struct image_file *f, struct error *err)
                 f->path, known);
 }
 
+/* Returns the reader of the file, or NULL. */
+static const struct reader *reader_of(const struct image_file *f)
+{
+    for (int i = 0; i < READER_COUNT; i++)
+        if (readers[i].is(f))
+            return &readers[i];
+    return NULL;
+}
+
+enum image_kind image_header_kind(const struct image_file *f)
+{
+    const struct reader *r = reader_of(f);
+    const char *dot = strrchr(f->path, '.');
+
+    if (r == NULL ||
+        (r->kind == IMAGE_TGA && (dot == NULL || strcasecmp(dot, ".tga") != 0)))
+        return IMAGE_UNKNOWN;
+    return r->kind;
+}
+
 bool image_header(struct image_file *f, struct error *err)
 {
-    const struct reader *r = readers;
+    const struct reader *r = reader_of(f);
 
-    while (r < readers + READER_COUNT && !r->is(f))
-        r++;
-    if (r == readers + READER_COUNT)
+    if (r == NULL)
         return fail_unknown(f, err);
     if (r->is_8bit && f->size_bytes > INT_MAX)
         return fail(err, "%s: found %.1f GiB, expected 2 GiB at most", f->path,

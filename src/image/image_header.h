@@ -20,6 +20,10 @@
 /* Finds kind, sides and decoder_bytes of a file. */
 bool image_header(struct image_file *file, struct error *err);
 
+/* Returns the kind of a file whose first bytes are the data, IMAGE_UNKNOWN if
+ * it is no image that can be read. TGA is only what is named so. */
+enum image_kind image_header_kind(const struct image_file *file);
+
 /* Sets a side from a number of a header. Fails for one that is no count. */
 bool image_take_side(const struct image_file *file, double number, int *side,
                      struct error *err);

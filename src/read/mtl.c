@@ -500,6 +500,21 @@ uint32_t mtl_find(const struct scene *scene, const char *name)
     return NO_INDEX;
 }
 
+uint32_t mtl_add_map(struct scene *scene, enum mtl_map map, const char *path)
+{
+    struct texture_origin origin = {.file = NO_INDEX,
+                                    .is_opacity = map == MTL_MAP_OPACITY};
+    struct texture texture = texture_default();
+    struct texture_table table;
+    uint32_t number = NO_INDEX;
+
+    texture.is_data = mtl_maps[map].is_data;
+    if (texture_table_init(&table, scene))
+        number = texture_table_add(&table, path, &texture, &origin);
+    texture_table_free(&table);
+    return number;
+}
+
 /* Adds the material that was read last to the scene. */
 static bool finish_material(struct parser *p)
 {

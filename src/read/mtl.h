@@ -61,6 +61,10 @@ bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
  * out. */
 bool mtl_add_default(struct scene *scene, struct error *err);
 
+/* Returns the number of the texture of an image without options, as a map; adds
+ * it if it is new. NO_INDEX when memory is out. */
+uint32_t mtl_add_map(struct scene *scene, enum mtl_map map, const char *path);
+
 /* Returns the index of the material of this name, or NO_INDEX. */
 uint32_t mtl_find(const struct scene *scene, const char *name);
 

@@ -578,17 +578,20 @@ static bool write_map(struct writer *w, const struct mtl_change *c,
     char *value;
     bool ok;
 
-    if (was_on == is_on)
+    if (was_on == is_on &&
+        (!is_on || c->before->maps[map] == c->after->maps[map]))
         return true;
     map_keys(c->after, map, keys);
     if (!is_on)
         return mtl_document_comment(&w->text, c->name, keys);
     if (!mtl_document_find_block(&w->text, c->name, &b))
         return false;
-    if (find_commented_map(w, &b, keys, c->after->maps[map], &hash))
+    if (!was_on && find_commented_map(w, &b, keys, c->after->maps[map], &hash))
         return mtl_document_splice(&w->text, hash, 1, "");
     value = map_value(w, c->after, map);
-    ok = value != NULL && mtl_document_insert(&w->text, &b, keys[0], value);
+    ok = value != NULL &&
+         (was_on ? mtl_document_set(&w->text, c->name, keys, value)
+                 : mtl_document_insert(&w->text, &b, keys[0], value));
     free(value);
     return ok;
 }

@@ -56,20 +56,35 @@ static void copy_maps(struct material_values *to,
     to->dialect = from->dialect;
 }
 
-/* Returns a material with the maps of another one and no other statements. */
-static struct material_values maps_of(const struct material_values *s)
+/* Returns a material, or the one that it was copied from, as its file has it.
+ */
+static const struct material_values *saved_of(const struct edit *e,
+                                              uint32_t material)
+{
+    while (!e->saved.is_there[material])
+        material = e->copied_from[material];
+    return &e->saved.sources[material];
+}
+
+/* Returns the maps of a material without those that edits have added, and no
+ * other statements. */
+static struct material_values maps_of(const struct edit *e, uint32_t material)
 {
     struct material_values maps = material_values_empty();
+    const struct material_values *saved = saved_of(e, material);
 
-    copy_maps(&maps, s);
-    maps.maps_off = s->maps_off;
+    copy_maps(&maps, &e->now.sources[material]);
+    maps.maps_off = e->now.sources[material].maps_off;
+    for (int i = 0; i < MTL_MAPS; i++)
+        if (maps.maps[i] != saved->maps[i])
+            maps.maps[i] = NO_INDEX;
     return maps;
 }
 
-/* Writes all statements but the maps, which do not change, of all materials
- * that differ from their files. Statements that make no difference are kept,
- * too: another type may need them again. Those of all dialects are read as they
- * are in files of Blender. */
+/* Writes all statements, but of the maps only those that edits have added, of
+ * all materials that differ from their files. Statements that make no
+ * difference are kept, too: another type may need them again. Those of all
+ * dialects are read as they are in files of Blender. */
 static bool take_materials(struct autosave_file *k, const struct session *s,
                            const char *path, struct error *err)
 {
@@ -87,7 +102,7 @@ static bool take_materials(struct autosave_file *k, const struct session *s,
         if (edit_has_saved_statements(e, i))
             continue;
         snprintf(names[count], NAME_BYTES, "m%zu", count);
-        maps[count] = maps_of(&e->now.sources[i]);
+        maps[count] = maps_of(e, i);
         changes[count] = (struct mtl_change){names[count], names[count],
                                              &maps[count], &e->now.sources[i]};
         list = add_lines(list, e, i);
@@ -143,23 +158,32 @@ static uint32_t find_or_duplicate(struct edit *e, const char *name,
     return from != NO_INDEX ? edit_duplicate_as(e, from, name) : NO_INDEX;
 }
 
-static void restore_material(struct edit *e, uint32_t material,
-                             const struct material_values *statements,
+/* Takes the statements of material number i of `mtl`, and the maps that it has
+ * besides those of the file. */
+static void restore_material(struct session *s, uint32_t material,
+                             const struct scene *mtl, uint32_t i,
                              uint32_t maps_off)
 {
-    const struct material_values *before = &e->now.sources[material];
+    struct edit *e = &s->edit;
+    const struct material_values *statements = &mtl->material_origins[i].source;
     struct material_values source = *statements;
 
-    copy_maps(&source, before);
+    copy_maps(&source, saved_of(e, material));
+    for (int map = 0; map < MTL_MAPS; map++)
+        if (statements->maps[map] != NO_INDEX)
+            source.maps[map] =
+                mtl_add_map(&s->engine.scene, (enum mtl_map)map,
+                            mtl->texture_paths[statements->maps[map]]);
     source.maps_off = maps_off & ((1u << MTL_MAPS) - 1);
     edit_material(e, material, &source);
 }
 
 /* Restores the materials of the list, whose statements `mtl` has, and the saved
  * values of all others. */
-static void restore_list(struct edit *e, const char *list,
+static void restore_list(struct session *s, const char *list,
                          const struct scene *mtl, uint32_t *missing)
 {
+    struct edit *e = &s->edit;
     bool *is_listed =
         xcalloc(e->material_count + mtl->material_count, sizeof *is_listed);
     char *name, *original, *maps_off;
@@ -173,7 +197,7 @@ static void restore_list(struct edit *e, const char *list,
         if (maps_off != NULL)
             material = find_or_duplicate(e, name, original);
         if (material != NO_INDEX) {
-            restore_material(e, material, &mtl->material_origins[i].source,
+            restore_material(s, material, mtl, i,
                              (uint32_t)strtoul(maps_off, NULL, 10));
             is_listed[material] = true;
         }
@@ -198,7 +222,7 @@ static bool restore_materials(const struct autosave_file *k, struct session *s,
                         path, &ignored, err);
 
     if (ok)
-        restore_list(&s->edit, k->parts[AUTOSAVE_MATERIALS], &mtl, missing);
+        restore_list(s, k->parts[AUTOSAVE_MATERIALS], &mtl, missing);
     scene_free(&mtl);
     warnings_free(&ignored);
     return ok;

@@ -7,6 +7,8 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "image/image_read.h"
+#include "read/mtl.h"
 #include "terminal/xmalloc.h"
 #include "world/world_lamps.h"
 
@@ -187,6 +189,40 @@ bool session_restart(struct session *s, struct render_limits limits,
                      struct error *err)
 {
     return session_start(s, &(struct session_start){.limits = limits}, err);
+}
+
+/* Makes the statement 1 that a map multiplies, unless it is absent. */
+static void reset_factor(struct material_values *s, enum mtl_map map)
+{
+    size_t member = mtl_maps[map].factor;
+    struct mtl_number *number = (void *)((char *)s + member);
+
+    if (member != 0 && number->line != 0)
+        number->value = 1;
+    if (map == MTL_MAP_COLOR && s->base_color.line != 0)
+        s->base_color.rgb[0] = s->base_color.rgb[1] = s->base_color.rgb[2] = 1;
+}
+
+bool session_set_map(struct session *s, uint32_t material, enum mtl_map map,
+                     const char *path, struct error *err)
+{
+    struct material_values source = s->edit.now.sources[material];
+    struct image_file file;
+
+    if (!image_open(&file, path, IMAGE_8BIT, 0, err))
+        return false;
+    image_close(&file);
+    if (material_values_map(&source, map) == NO_INDEX)
+        reset_factor(&source, map);
+    source.maps[map] = mtl_add_map(&s->engine.scene, map, path);
+    if (source.maps[map] == NO_INDEX)
+        return fail(err, "%s: out of memory for the texture", path);
+    source.maps_off &= ~(1u << map);
+    s->files_version++;
+    edit_end_step(&s->edit);
+    edit_material(&s->edit, material, &source);
+    edit_end_step(&s->edit);
+    return true;
 }
 
 bool session_is_outdated(const struct session *s)

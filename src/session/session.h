@@ -89,6 +89,12 @@ bool session_start(struct session *s, const struct session_start *start,
 bool session_restart(struct session *s, struct render_limits limits,
                      struct error *err);
 
+/* Gives a material an image as a map, in place of the one that it has. A
+ * statement that a new map multiplies becomes 1. Fails for a file that is no
+ * image. */
+bool session_set_map(struct session *s, uint32_t material, enum mtl_map map,
+                     const char *path, struct error *err);
+
 /* Returns true if the edit has changed since the last restart in more than
  * exposure and tone. */
 bool session_is_outdated(const struct session *s);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/min_max.h"
 #include "studio/panel_draw.h"
 #include "terminal/gauge.h"
 
@@ -34,6 +35,7 @@ void editor_panel_init(struct editor_panel *p, struct live_render *control,
 
 void editor_panel_free(struct editor_panel *p)
 {
+    image_folder_free(&p->images);
     outline_free(&p->outline);
     material_ball_free(&p->ball);
     frame_free(&p->ball_frame);
@@ -58,24 +60,26 @@ static bool open_ball(struct editor_panel *p, struct error *err)
 bool editor_panel_step(struct editor_panel *p)
 {
     const struct session *s = p->control->session;
+    uint64_t textures = s->engine.world.versions[WORLD_TEXTURES];
     uint32_t material = selection_material(&p->selection);
+    bool is_new = p->is_open && p->textures != textures;
+    bool has_samples = false;
     struct world w;
     struct error err;
-    bool is_new = false;
 
+    p->textures = textures;
     if (!p->is_open || !p->shows_ball ||
         material >= s->engine.world.material_count)
-        return false;
+        return is_new;
     w = world_arrays(&s->engine.world, &s->engine.scene);
     if (!open_ball(p, &err) ||
-        !material_ball_add(&p->ball, &w,
-                           s->engine.world.versions[WORLD_TEXTURES],
-                           &s->engine.world.materials[material], &is_new,
+        !material_ball_add(&p->ball, &w, textures,
+                           &s->engine.world.materials[material], &has_samples,
                            &err)) {
         live_render_say_error(p->control, err.text);
         p->shows_ball = false;
     }
-    return is_new;
+    return is_new || has_samples;
 }
 
 void editor_panel_renew(struct editor_panel *p,
@@ -86,6 +90,7 @@ void editor_panel_renew(struct editor_panel *p,
     p->is_typing = false;
     p->is_in_parameters = false;
     p->parameter = p->parameter_top = 0;
+    image_folder_free(&p->images);
 }
 
 void editor_panel_select(struct editor_panel *p, const struct pick *pick)
@@ -138,7 +143,10 @@ static struct parameter selected(struct editor_panel *p)
 
     if (panel_parameters(p, list) > 0)
         return list[p->parameter];
-    return (struct parameter){.id = -1, .fraction = -1, .lamp = NO_INDEX};
+    return (struct parameter){.id = -1,
+                              .fraction = -1,
+                              .map = MTL_MAPS,
+                              .lamp = NO_INDEX};
 }
 
 /* Returns the id of the selected parameter, or -1 if there is none or it may
@@ -173,6 +181,39 @@ static void drag_to(struct editor_panel *p, int col)
     parameter_set_fraction(&p->selection, id,
                            gauge_fraction(col - PANEL_SLIDER_COL,
                                           PANEL_SLIDER_COLS));
+    take_change(p);
+}
+
+/* Lists the images beside the scene, for a map. */
+static void choose_image(struct editor_panel *p, enum mtl_map map)
+{
+    const char *scene = p->control->session->engine.scene.path;
+
+    if (!may_change(p))
+        return;
+    image_folder_list(&p->images, scene);
+    p->image = p->image_top = 0;
+    p->image_map = map;
+    if (p->images.count == 0)
+        live_render_say(p->control, "found no image beside %.100s", scene);
+}
+
+static void take_image(struct editor_panel *p)
+{
+    struct session *s = p->control->session;
+    struct error err;
+
+    if (!may_change(p))
+        return;
+    if (!session_set_map(s, selection_material(&p->selection), p->image_map,
+                         p->images.paths[p->image], &err)) {
+        live_render_say_error(p->control, err.text);
+        return;
+    }
+    if (s->engine.scene.uv_count == 0)
+        live_render_say(p->control, "the scene has no texture coordinates: "
+                                    "one texel is shown everywhere");
+    image_folder_free(&p->images);
     take_change(p);
 }
 
@@ -291,6 +332,7 @@ void editor_panel_open(struct editor_panel *p)
 
 void editor_panel_close(struct editor_panel *p)
 {
+    image_folder_free(&p->images);
     p->is_open = false;
     p->is_typing = false;
 }
@@ -305,7 +347,9 @@ void editor_panel_show(struct editor_panel *p, enum selection_page page)
 
 static void move(struct editor_panel *p, int step)
 {
-    if (p->is_in_parameters)
+    if (p->images.count > 0)
+        p->image = int_max(int_min(p->image + step, p->images.count - 1), 0);
+    else if (p->is_in_parameters)
         p->parameter += step; /* panel_parameters() keeps it in bounds */
     else
         selection_move(&p->selection, step);
@@ -320,7 +364,9 @@ static void begin_typing(struct editor_panel *p, int key)
     if (parameter.id < 0)
         return;
     if (!parameter.takes_text) {
-        if (key == ENTER)
+        if (key == ENTER && parameter.map != MTL_MAPS)
+            choose_image(p, parameter.map);
+        else if (key == ENTER)
             change_by(p, 1);
         else
             live_render_say(p->control,
@@ -351,7 +397,9 @@ static void type(struct editor_panel *p, int key)
 
 static void enter(struct editor_panel *p)
 {
-    if (p->is_in_parameters)
+    if (p->images.count > 0)
+        take_image(p);
+    else if (p->is_in_parameters)
         begin_typing(p, ENTER);
     else
         p->is_in_parameters = selection_has_one(&p->selection);
@@ -361,6 +409,8 @@ static void enter(struct editor_panel *p)
  * moves to the parameters. */
 static void step(struct editor_panel *p, int by)
 {
+    if (p->images.count > 0)
+        return;
     if (p->is_in_parameters)
         change_by(p, by);
     else if (by > 0)
@@ -369,7 +419,9 @@ static void step(struct editor_panel *p, int by)
 
 static void leave(struct editor_panel *p)
 {
-    if (p->is_in_parameters && p->selection.page != PAGE_LIGHT)
+    if (p->images.count > 0)
+        image_folder_free(&p->images);
+    else if (p->is_in_parameters && p->selection.page != PAGE_LIGHT)
         p->is_in_parameters = false;
     else
         editor_panel_close(p);
@@ -384,7 +436,12 @@ static void click(struct editor_panel *p, int col, int row)
     int parameter_row = row - 2 - p->list_rows;
 
     p->is_typing = false;
-    if (row == 0) {
+    if (p->images.count > 0) {
+        if (row > 0 && p->image_top + row - 1 < p->images.count) {
+            p->image = p->image_top + row - 1;
+            take_image(p);
+        }
+    } else if (row == 0) {
         editor_panel_show(p, col < PAGE_2   ? PAGE_MATERIALS
                              : col < PAGE_3 ? PAGE_OBJECTS
                                             : PAGE_LIGHT);
@@ -402,10 +459,10 @@ static void click(struct editor_panel *p, int col, int row)
 
 static void wheel(struct editor_panel *p, int up)
 {
-    if (p->is_in_parameters)
+    if (p->is_in_parameters && p->images.count == 0)
         change_by(p, up);
     else
-        selection_move(&p->selection, -up);
+        move(p, -up);
 }
 
 bool editor_panel_mouse(struct editor_panel *p, const struct event *event)
@@ -431,13 +488,25 @@ bool editor_panel_mouse(struct editor_panel *p, const struct event *event)
 
 /* ---- keys ---- */
 
+/* Returns the action of a key: none of the values' while an image is chosen. */
+static enum panel_action chosen_action(const struct editor_panel *p, int key)
+{
+    enum panel_action action = keymap_panel_action(key);
+
+    return p->images.count > 0 && action != PANEL_UP && action != PANEL_DOWN &&
+                   action != PANEL_PAGE_UP && action != PANEL_PAGE_DOWN &&
+                   action != PANEL_ENTER && action != PANEL_LEAVE
+               ? PANEL_NONE
+               : action;
+}
+
 bool editor_panel_key(struct editor_panel *p, int key)
 {
     if (p->is_typing) {
         type(p, key);
         return true;
     }
-    switch (keymap_panel_action(key)) {
+    switch (chosen_action(p, key)) {
     case PANEL_NONE: return false;
     case PANEL_UP: move(p, -1); break;
     case PANEL_DOWN: move(p, 1); break;

@@ -19,6 +19,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "image/image_folder.h"
 #include "inspect/material_ball.h"
 #include "inspect/outline.h"
 #include "session/live_render.h"
@@ -41,7 +42,11 @@ struct editor_panel {
     bool is_dragging; /* the mouse moves the slider of the selected parameter */
     bool is_typing;
     char typed[EDITOR_PANEL_TEXT];
-    bool shows_ball; /* the last drawing had room for it */
+    struct image_folder images; /* one of which is chosen; empty: none is */
+    int image, image_top;
+    enum mtl_map image_map; /* that it is chosen for */
+    uint64_t textures;      /* version of those that are shown */
+    bool shows_ball;        /* the last drawing had room for it */
     struct material_ball ball;
     struct frame ball_frame;
     struct cells ball_cells;
@@ -73,7 +78,7 @@ bool editor_panel_key(struct editor_panel *p, int key);
 bool editor_panel_mouse(struct editor_panel *p, const struct event *event);
 
 /* Adds samples to the ball of the selected material. Returns true if the panel
- * has to be drawn again. */
+ * has to be drawn again, also for new textures. */
 bool editor_panel_step(struct editor_panel *p);
 
 /* Draws the outline of the selected material or object into a frame that the

@@ -368,6 +368,18 @@ static bool get_map(const struct owner *o, struct value *v)
     return true;
 }
 
+static const char *map_name(const struct owner *o, uint32_t i)
+{
+    (void)o;
+    return i < MTL_MAPS ? mtl_maps[i].keys[0] : NULL;
+}
+
+static bool get_new_map(const struct owner *o, struct value *v)
+{
+    v->number = o->map;
+    return true;
+}
+
 static void set_map(struct owner *o, const struct value *v)
 {
     o->source.maps_off &= ~(1u << o->map);
@@ -462,13 +474,19 @@ static void set_emission_color(struct owner *o, const struct value *v)
 
 static const char *const map_states[] = {"on", "off"};
 
-const struct parameter_row map_parameter = {NULL,
-                                            ALL,
-                                            VALUE_CHOICE,
-                                            NULL,
-                                            .get = get_map,
-                                            .set = set_map,
-                                            CHOICES(map_states)};
+const struct parameter_row map_parameter = {
+    NULL,           ALL,
+    VALUE_CHOICE,   NULL,
+    .is_map = true, .get = get_map,
+    .set = set_map, CHOICES(map_states)};
+
+const struct parameter_row new_map_parameter = {"add image",
+                                                ALL,
+                                                VALUE_CHOICE,
+                                                NULL,
+                                                .is_map = true,
+                                                .get = get_new_map,
+                                                .name = map_name};
 
 const struct parameter_row material_parameters[] = {
     {"type", ALL, VALUE_CHOICE, NULL, .get = get_kind, .set = set_kind,

@@ -18,8 +18,8 @@
 /* The rows of all kinds of material; the last one has no label. */
 extern const struct parameter_row material_parameters[];
 
-/* The row of each map. */
-extern const struct parameter_row map_parameter;
+/* The row of each map, and that which adds an image as a map. */
+extern const struct parameter_row map_parameter, new_map_parameter;
 
 /* Fills the owner with the material of these statements, as the world renders
  * it. Without a world (NULL), all images are there. */

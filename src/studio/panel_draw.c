@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/min_max.h"
 #include "base/print.h"
 #include "studio/keys_bar.h"
@@ -248,10 +249,12 @@ static void add_texture(const struct editor_panel *p, const struct sheet *s,
 {
     const struct host_world *w = &p->control->session->engine.world;
     const struct term_caps *d = &s->screen->display;
-    const struct texture *t = &w->textures[texture];
+    const struct texture *t = texture < w->texture_count
+                                  ? &w->textures[texture]
+                                  : NULL; /* not rendered yet */
     struct cell cells[SWATCH_COLS];
 
-    if (t->width == 0 || t->height == 0)
+    if (t == NULL || t->width == 0 || t->height == 0)
         return;
     for (int i = 0; i < SWATCH_COLS; i++) {
         struct cell upper = cells_of_color(quarter_of(w, t, i, 0), d->palette);
@@ -351,7 +354,34 @@ static void add_ball(struct editor_panel *p, struct sheet *s)
     s->row += BALL_ROWS;
 }
 
+/* Lists the images that can be chosen, by their paths from the scene's. */
+static void add_images(struct editor_panel *p, struct sheet *s, int rows)
+{
+    const char *scene = p->control->session->engine.scene.path;
+    char text[LINE_BYTES];
+
+    snprintf(text, sizeof text, " %s of %.60s", mtl_maps[p->image_map].keys[0],
+             selection_name(&p->selection, PAGE_MATERIALS,
+                            selection_material(&p->selection)));
+    add_line(s, ROLE_TITLE, text);
+    scroll(&p->image_top, p->image, rows, p->images.count);
+    for (int i = p->image_top; i < p->images.count && i < p->image_top + rows;
+         i++) {
+        const char *name = p->images.paths[i] + (path_name(scene) - scene);
+
+        snprintf(text, sizeof text, "%s %.200s", i == p->image ? ">" : " ",
+                 name);
+        add_line(s, i == p->image ? ROLE_SELECTED : ROLE_TEXT, text);
+    }
+}
+
 /* Keys of the panel's states, the most useful first. */
+static const struct key_hint hints_images[] = {{"Enter", "takes it"},
+                                               {"Esc", "back"},
+                                               {NULL, NULL}};
+static const struct key_hint hints_map[] = {
+    {"Enter", "images"}, {"Left Right", "change"}, {"Esc", "back"},
+    {"u", "undo"},       {"^S", "save"},           {NULL, NULL}};
 static const struct key_hint hints_typing[] = {{"Enter", "takes it"},
                                                {"Esc", "leaves it"},
                                                {"", "#rrggbb, r g b, 3000K"},
@@ -372,16 +402,24 @@ static const struct key_hint hints_list[] = {
     {"Enter", "values"}, {"Ins", "copy"}, {"\\", "compare"}, {"Esc", "close"},
     {"u", "undo"},       {"^S", "save"},  {"Tab", "page"},   {NULL, NULL}};
 
-static const struct key_hint *hints_of(const struct editor_panel *p)
+static const struct key_hint *hints_of(struct editor_panel *p)
 {
+    struct parameter list[PARAMETERS_MAX];
+
+    if (p->images.count > 0)
+        return hints_images;
     if (p->is_typing)
         return hints_typing;
     if (!p->is_in_parameters)
         return hints_list;
-    return p->selection.page == PAGE_LIGHT ? hints_light : hints_parameters;
+    if (p->selection.page == PAGE_LIGHT)
+        return hints_light;
+    return panel_parameters(p, list) > 0 && list[p->parameter].map != MTL_MAPS
+               ? hints_map
+               : hints_parameters;
 }
 
-static void add_hints(const struct editor_panel *p, struct sheet *s)
+static void add_hints(struct editor_panel *p, struct sheet *s)
 {
     struct keymap_name mode = live_render_key(p->control, ACTION_MODE);
     const struct key_hint to_live[] = {{mode.text, "live mode, to edit"},
@@ -430,10 +468,15 @@ void panel_draw(struct editor_panel *p)
     selection_settle(&p->selection);
     share_rows(p, rows - OTHER_ROWS);
     screen_begin_panel(p->screen);
-    add_pages(&s, p->selection.page);
-    add_list(p, &s);
-    add_title(p, &s);
-    add_parameters(p, &s);
+    if (p->images.count > 0) {
+        p->shows_ball = false;
+        add_images(p, &s, rows - HINT_ROWS - 1);
+    } else {
+        add_pages(&s, p->selection.page);
+        add_list(p, &s);
+        add_title(p, &s);
+        add_parameters(p, &s);
+    }
     if (p->shows_ball)
         add_ball(p, &s);
     s.row = rows - HINT_ROWS;

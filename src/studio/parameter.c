@@ -10,6 +10,7 @@
 #include "base/decimal.h"
 #include "image/color.h"
 #include "read/mtl.h"
+#include "studio/material_parameters.h"
 #include "studio/parameter_table.h"
 #include "terminal/xmalloc.h"
 
@@ -318,6 +319,7 @@ static struct parameter describe(const struct owner *o, const struct value *v,
     struct parameter p = {.label = label_of(o, part),
                           .fraction = -1,
                           .takes_text = true,
+                          .map = MTL_MAPS,
                           .texture = NO_INDEX,
                           .lamp = o->lamp_number};
 
@@ -331,6 +333,7 @@ static struct parameter describe(const struct owner *o, const struct value *v,
         p.takes_text = row->expected != NULL;
         snprintf(p.text, sizeof p.text, "%.60s",
                  choice_name(o, (uint32_t)v->number));
+        p.map = row->is_map ? o->map : MTL_MAPS;
         if (v->note == NULL)
             return p;
         p.texture = o->source.maps[o->map];
@@ -412,7 +415,7 @@ static void take_change(struct owner *o, const struct value *v)
     }
 }
 
-void parameter_step(const struct selection *t, int id, int steps)
+void parameter_step(struct selection *t, int id, int steps)
 {
     struct value v;
     struct owner o = open_parameter(t, id, &v);
@@ -428,7 +431,10 @@ void parameter_step(const struct selection *t, int id, int steps)
                                 : KELVIN_WHITE;
     else
         return; /* a colour has no steps, only its channels have */
-    take_change(&o, &v);
+    if (o.row == &new_map_parameter)
+        t->new_map = (enum mtl_map)v.number;
+    else
+        take_change(&o, &v);
 }
 
 void parameter_set_fraction(const struct selection *t, int id, double fraction)

@@ -39,7 +39,8 @@ struct selection {
     uint32_t *listed; /* list of the page: materials with a name, objects with a
                          face, no duplicate that was undone */
     int listed_count;
-    int row; /* row of the selected entry in the list */
+    int row;              /* row of the selected entry in the list */
+    enum mtl_map new_map; /* as which an image is added */
 };
 
 /* Names of the selected material and object, for free(). */
@@ -92,6 +93,7 @@ struct parameter {
     bool takes_text;
     bool has_color;
     double color[3];  /* linear */
+    enum mtl_map map; /* that an image is for; MTL_MAPS: none */
     uint32_t texture; /* the texture that it switches; NO_INDEX: none */
     uint32_t lamp;    /* the light that has it; NO_INDEX: none */
 };
@@ -111,7 +113,7 @@ struct lamp parameter_new_lamp(const struct selection *selection,
 
 /* Changes a number by steps of its scale, and a choice to the next or previous
  * one. */
-void parameter_step(const struct selection *selection, int id, int steps);
+void parameter_step(struct selection *selection, int id, int steps);
 
 /* Sets a number to a position on its scale, 0 to 1. */
 void parameter_set_fraction(const struct selection *selection, int id,

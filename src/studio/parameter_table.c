@@ -378,6 +378,11 @@ bool parameter_choose_row(struct owner *o, int i)
         o->map = (enum mtl_map)after;
         return true;
     }
+    if (page == PAGE_MATERIALS && after == MTL_MAPS) {
+        o->row = &new_map_parameter;
+        o->map = o->selection->new_map;
+        return true;
+    }
     if (o->lamps == NULL || after / COUNT(lamp_rows) >= (int)o->lamps->count ||
         after / COUNT(lamp_rows) >= PARAMETER_LAMPS)
         return false;

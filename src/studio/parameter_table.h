@@ -107,6 +107,7 @@ struct parameter_row {
      * name. */
     uint32_t (*find)(const struct owner *owner, const char *text);
     const char *expected; /* text of errors; NULL if not typed */
+    bool is_map;          /* an image is chosen for owner.map */
 };
 
 /* Sets the members of a row whose choices have these names. */

@@ -112,7 +112,7 @@ static bool shares_texels(struct host_world *host, const struct scene *scene,
 {
     struct texture *t = &host->textures[index];
 
-    for (uint32_t i = 0; i < scene->texture_count; i++) {
+    for (uint32_t i = 0; i < host->texture_count; i++) {
         const struct texture *other = &host->textures[i];
 
         if (other->width == 0 || !is_same_image(scene, i, index))
@@ -313,7 +313,7 @@ static bool load_all(struct host_world *host, const struct scene *scene,
 
 static bool is_lost(const struct host_world *host, uint32_t texture)
 {
-    return texture != NO_INDEX && host->texture_is_tried[texture] &&
+    return texture < host->texture_count && host->texture_is_tried[texture] &&
            host->textures[texture].width == 0;
 }
 
@@ -391,7 +391,8 @@ bool textures_are_tried(const struct host_world *host, const struct material *m)
 
     material_maps(m, maps);
     for (int i = 0; i < MATERIAL_MAPS; i++)
-        if (maps[i] != NO_INDEX && !host->texture_is_tried[maps[i]])
+        if (maps[i] != NO_INDEX && (maps[i] >= host->texture_count ||
+                                    !host->texture_is_tried[maps[i]]))
             return false;
     return true;
 }
@@ -448,24 +449,38 @@ static uint32_t list_textures(struct host_world *host, uint32_t *textures)
     return count;
 }
 
-static bool copy_textures(struct host_world *host, const struct scene *scene)
+bool textures_add(struct host_world *host, const struct scene *scene)
 {
     uint32_t count = scene->texture_count;
+    struct texture *textures = alloc_array(count, sizeof *textures);
+    bool *is_tried = alloc_array(count, sizeof *is_tried);
+    bool ok = textures != NULL && is_tried != NULL;
 
-    host->textures = alloc_array(count, sizeof *host->textures);
-    host->texture_is_tried = alloc_array(count, sizeof *host->texture_is_tried);
-    if (host->textures == NULL || host->texture_is_tried == NULL)
-        return false;
-    for (uint32_t i = 0; i < count; i++)
-        host->textures[i] = scene->textures[i];
-    return true;
+    for (uint32_t i = 0; ok && i < count; i++) {
+        bool is_old = i < host->texture_count;
+
+        textures[i] = is_old ? host->textures[i] : scene->textures[i];
+        is_tried[i] = is_old && host->texture_is_tried[i];
+    }
+    if (ok) {
+        free(host->textures);
+        host->textures = textures;
+        free(host->texture_is_tried);
+        host->texture_is_tried = is_tried;
+        host->texture_count = count;
+        world_renew(host, WORLD_TEXTURES);
+    } else {
+        free(textures);
+        free(is_tried);
+    }
+    return ok;
 }
 
 bool textures_load(struct host_world *host, const struct scene *scene,
                    struct warnings *report, struct error *err)
 {
     uint32_t *textures = alloc_array(scene->texture_count, sizeof *textures);
-    bool ok = (textures != NULL && copy_textures(host, scene)) ||
+    bool ok = (textures != NULL && textures_add(host, scene)) ||
               fail(err, "%s: out of memory for the textures", scene->path);
 
     ok = ok && load_all(host, scene, textures, list_textures(host, textures),

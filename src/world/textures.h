@@ -13,7 +13,11 @@
 
 #include "world/world.h"
 
-/* Copies the scene's textures and reads the images of those that used materials
+/* Takes those textures of the scene that the world does not have, without
+ * texels. Returns false when memory is out. */
+bool textures_add(struct host_world *host, const struct scene *scene);
+
+/* Takes the scene's textures and reads the images of those that used materials
  * name. A material whose image cannot be read has its own colour instead, or
  * grey if it has none or black. */
 bool textures_load(struct host_world *host, const struct scene *scene,

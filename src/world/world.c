@@ -292,7 +292,7 @@ struct world world_arrays(const struct host_world *host,
                 .tangent_count =
                     scene->tangents != NULL ? scene->normal_count : 0,
                 .material_count = host->material_count,
-                .texture_count = scene->texture_count,
+                .texture_count = host->texture_count,
                 .texel_count = (uint32_t)host->texel_count,
                 .point_light_count = host->point_light_count,
                 .profile_value_count = host->profile_value_count,

@@ -77,6 +77,7 @@ struct host_world {
     uint32_t material_count; /* materials of the scene and of edits */
 
     struct texture *textures; /* textures of the scene, with texels */
+    uint32_t texture_count;   /* edits add some to the scene */
     bool *texture_is_tried;   /* loading was tried */
     uint32_t *texels;
     size_t texel_count;

@@ -127,8 +127,7 @@ static bool load_textures(struct material_change *c, uint32_t i,
     bool ok;
 
     if (c->next.textures == NULL && !textures_are_tried(host, m)) {
-        c->next.textures =
-            copy_array(lent, c->scene->texture_count, sizeof *lent);
+        c->next.textures = copy_array(lent, host->texture_count, sizeof *lent);
         if (c->next.textures == NULL)
             return out_of_memory(c, err);
     }
@@ -316,7 +315,10 @@ bool world_set_materials(struct host_world *host, const struct scene *scene,
 
     if (has_materials(host, scene, count, sources, assigned))
         return true;
-    ok = make_tris(&c) || out_of_memory(&c, err);
+    ok = (scene->texture_count == host->texture_count ||
+          textures_add(host, scene)) &&
+         make_tris(&c);
+    ok = ok || out_of_memory(&c, err);
     ok = ok && make_materials(&c, err) && make_lights(&c, err);
     if (!ok) {
         free_arrays(&c.next);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/file.h"
 #include "session/autosave_state.h"
 #include "session/session_save.h"
 
@@ -226,6 +227,36 @@ static void histories_are_restored(void **state)
     assert_true(steps > 1000);
 }
 
+/* Images that were added are there again, and can be undone. */
+static void added_images_are_restored(void **state)
+{
+    struct autosave_file kept;
+    struct session s, again;
+    struct error err;
+    const struct edit *e = &again.edit;
+    uint32_t red;
+
+    (void)state;
+    put_scene(true);
+    put_bytes("a.ppm", "P6 1 1 255\nabc", 14);
+    open_session(&s);
+    red = edit_find_material(&s.edit, "red");
+    assert_true(session_set_map(&s, red, MTL_MAP_COLOR, "a.ppm", &err));
+    keep(&kept, &s);
+    restore(&kept, &again);
+    assert_int_not_equal(e->now.sources[red].maps[MTL_MAP_COLOR], NO_INDEX);
+    assert_string_equal(
+        path_name(again.engine.scene
+                      .texture_paths[e->now.sources[red].maps[MTL_MAP_COLOR]]),
+        "a.ppm");
+    assert_string_equal(edit_undo(&again.edit), "material red");
+    assert_int_equal(e->now.sources[red].maps[MTL_MAP_COLOR], NO_INDEX);
+    autosave_file_free(&kept);
+    session_close(&s);
+    session_close(&again);
+    remove("a.ppm");
+}
+
 /* Taking the history changes nothing, and a gesture goes on. */
 static void sessions_go_on_after_they_were_kept(void **state)
 {
@@ -397,6 +428,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(histories_are_restored),
+        cmocka_unit_test(added_images_are_restored),
         cmocka_unit_test(sessions_go_on_after_they_were_kept),
         cmocka_unit_test(keeping_changes_nothing),
         cmocka_unit_test(long_histories_are_cut),

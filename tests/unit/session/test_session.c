@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
  * test_session.c - which view counts and what options change in it; messages
- * about scenes without camera, light or faces; the JSON about a render
+ * about scenes without camera, light or faces; the JSON about a render; images
+ * that are given to materials
  */
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +23,8 @@
 #define ODD "odd\"\\\n\xff\xc3\xa9.obj"
 
 static const char *const names[] = {"s.obj", "s.view",   "camera.txt", "o.view",
-                                    "s.mtl", "out.json", "s.view~",    ODD};
+                                    "s.mtl", "out.json", "s.view~",    ODD,
+                                    "a.ppm", "b.ppm",    "s.obj.mtl"};
 
 static int leave(void **state)
 {
@@ -353,6 +355,78 @@ static void statistics_are_json(void **state)
     free(text);
 }
 
+#define SQUARE                                                             \
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n" \
+    "f 1/1 2/2 3/3 4/4\n"
+
+static void render_both(struct session *s, struct session *other)
+{
+    struct frame frames[2];
+    struct session *both[] = {s, other};
+    struct error err;
+
+    for (int i = 0; i < 2; i++) {
+        struct render *r = both[i]->engine.render;
+
+        assert_true(
+            session_restart(both[i], (struct render_limits){.spp = 4}, &err));
+        assert_true(render_wait(r, 60000));
+        assert_true(frame_init(&frames[i], 16, 16, &err));
+        film_preview(render_film(r), NULL, session_develop(both[i]),
+                     &frames[i]);
+    }
+    assert_memory_equal(frames[0].rgb, frames[1].rgb, 3 * 16 * 16);
+    frame_free(&frames[0]);
+    frame_free(&frames[1]);
+}
+
+/* Saves the changes, and renders the same picture as the files that are written
+ * then: `mtl` beside a scene without an MTL file. */
+static void check_saved(struct session *s, const char *mtl)
+{
+    struct file_watch watch;
+    struct session again;
+    struct error err;
+    char *what;
+
+    file_watch_init(&watch);
+    check_or_say(session_save_edit(s, &watch, &what, &err), err.text);
+    assert_string_equal(what, "wrote 1 material to s.obj.mtl");
+    free(what);
+    file_watch_free(&watch);
+    has("s.obj.mtl", mtl);
+    open_session(&again, s->options);
+    render_both(s, &again);
+    session_close(&again);
+}
+
+static void images_are_given_to_materials(void **state)
+{
+    struct options o = options_for("s.obj");
+    struct session s;
+    struct error err;
+
+    (void)state;
+    o.width_px = o.height_px = 16;
+    put("s.obj", SQUARE);
+    put("s.view", CAMERA "background 1 1 1\n");
+    put_bytes("a.ppm", "P6 2 1 255\n\xff\0\0\0\xff\0", 17);
+    put_bytes("b.ppm", "P6 1 2 255\n\0\0\xff\x80\x80\x80", 17);
+    open_session(&s, &o);
+    assert_false(session_set_map(&s, 1, MTL_MAP_COLOR, "s.obj", &err));
+    assert_non_null(strstr(err.text, "s.obj: found no image that can be read"));
+    assert_true(session_set_map(&s, 1, MTL_MAP_COLOR, "a.ppm", &err));
+    check_saved(&s, "\nnewmtl material\nmap_Kd a.ppm\n");
+    /* another one takes its place; undo puts it back */
+    assert_true(session_set_map(&s, 1, MTL_MAP_COLOR, "b.ppm", &err));
+    check_saved(&s, "\nnewmtl material\nmap_Kd b.ppm\n");
+    assert_string_equal(edit_undo(&s.edit), "material material");
+    check_saved(&s, "\nnewmtl material\nmap_Kd a.ppm\n");
+    assert_true(session_set_map(&s, 1, MTL_MAP_ROUGHNESS, "b.ppm", &err));
+    check_saved(&s, "\nnewmtl material\nmap_Kd a.ppm\nmap_Pr b.ppm\n");
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -366,6 +440,7 @@ int main(void)
                                   remove_files),
         cmocka_unit_test_teardown(errors_have_their_message, remove_files),
         cmocka_unit_test_teardown(statistics_are_json, remove_files),
+        cmocka_unit_test_teardown(images_are_given_to_materials, remove_files),
     };
 
     return cmocka_run_group_tests_name("session", tests, enter_folder, leave);
