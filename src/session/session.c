@@ -25,12 +25,34 @@ static const char *face_warning(const struct warnings *report)
     return "only the background is rendered";
 }
 
-/* Puts the additions of scene_open() into the notice. */
+/* Returns the warning about what could not be read of the scene's files, or
+ * NULL. A kind may be followed by a name. */
+static const char *unread_warning(const struct warnings *report)
+{
+    static const char *const kinds[] = {"malformed faces",
+                                        "faces with a bad index",
+                                        "missing material files",
+                                        "material files in UTF-16",
+                                        "unusable textures"};
+
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
+        for (int i = 0; i < report->entry_count; i++)
+            if (strncmp(report->entries[i].kind, kinds[k], strlen(kinds[k])) ==
+                0)
+                return report->entries[i].text;
+    return NULL;
+}
+
+/* Puts what was not read, or the additions of scene_open(), into the notice. */
 static void note_additions(struct session *s)
 {
+    const char *unread = unread_warning(&s->engine.report);
+
     if (s->engine.scene.tri_count == 0)
         snprintf(s->notice, sizeof s->notice, "no faces: %s",
                  face_warning(&s->engine.report));
+    else if (unread != NULL)
+        snprintf(s->notice, sizeof s->notice, "%s", unread);
     else if (view_has_soft_sky(&s->edit.now.view))
         snprintf(s->notice, sizeof s->notice,
                  "no light in the scene: lit by a soft sky");
