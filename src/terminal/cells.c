@@ -293,6 +293,16 @@ static struct cell block_cell(struct cells *cells, const struct dots *dots,
     return cell;
 }
 
+static struct cell shade_cell(struct cells *cells, struct rgb c)
+{
+    struct shade s = dither_shade(&cells->dither, c);
+
+    return s.quarters == 0
+               ? solid_cell(s.bg)
+               : (struct cell){s.fg, s.bg,
+                               CELL_SHADE - 1 + (uint32_t)s.quarters};
+}
+
 static struct cell cell_of(struct cells *cells, const struct dots *dots,
                            const struct partitions *partitions, int col,
                            int row)
@@ -304,6 +314,8 @@ static struct cell cell_of(struct cells *cells, const struct dots *dots,
         return ascii_cell(cells, mean_of(dots, 0, 0));
     if (is_mono)
         return mono_cell(cells, dots, col, row);
+    if (cells->glyphs == GLYPHS_SHADE && cells->palette == PALETTE_16)
+        return shade_cell(cells, dots->color[0]);
     return block_cell(cells, dots,
                       dots->count > 2 ? best_mask(partitions, dots)
                                       : (unsigned)dots->count - 1,

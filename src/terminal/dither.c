@@ -21,7 +21,6 @@ static const uint8_t levels[6] = {0, 95, 135, 175, 215, 255};
 #define CUBE_FIRST 16
 #define GREY_FIRST 232
 #define COLORS     256
-#define COLORS_MAX (COLORS - CUBE_FIRST)
 
 /* Resolution of the cache of mixes: 6 bits a channel, finer than the steps of
  * the greys. */
@@ -48,6 +47,10 @@ static const uint8_t levels[6] = {0, 95, 135, 175, 215, 255};
  * mixed of greys and of colours whose hue differs by at most 60 degrees. */
 #define GREY       0.015f
 #define HUE_COSINE 0.5f
+
+/* Weight of the variance of a shade's colours beside the error of its mean. */
+#define SHADE_WEIGHT 0.02f
+#define SHADES       (3 * CUBE_FIRST * (CUBE_FIRST - 1) / 2)
 
 /* Bayer matrix: thresholds that distribute a level over 4x4 pixels. */
 #define THRESHOLDS 16
@@ -112,13 +115,13 @@ static struct palette_color palette_color_of(struct rgb c)
 {
     struct vec3 light = v3(light_of(c.r), light_of(c.g), light_of(c.b));
 
-    return (struct palette_color){light, oklab(light)};
+    return (struct palette_color){light, oklab(light), {0}, 0.0f};
 }
 
 bool dither_init(struct dither *d, struct error *err)
 {
     *d = (struct dither){.palette = PALETTE_MONO};
-    d->colors = alloc_array(COLORS_MAX, sizeof d->colors[0]);
+    d->colors = alloc_array(CUBE_FIRST + SHADES, sizeof d->colors[0]);
     d->mixes = alloc_array(MIXES, sizeof d->mixes[0]);
     if (d->colors && d->mixes)
         return true;
@@ -131,19 +134,6 @@ void dither_free(struct dither *d)
     free(d->colors);
     free(d->mixes);
     *d = (struct dither){0};
-}
-
-/* Selects the palette whose mixes are kept. */
-static void use_palette(struct dither *d, enum palette palette)
-{
-    if (d->palette == palette)
-        return;
-    d->palette = palette;
-    d->first = palette == PALETTE_256 ? CUBE_FIRST : 0;
-    d->count = palette == PALETTE_256 ? COLORS_MAX : CUBE_FIRST;
-    for (uint32_t i = 0; i < d->count; i++)
-        d->colors[i] = palette_color_of(dither_value(d->first + i, palette));
-    memset(d->mixes, 0, MIXES * sizeof d->mixes[0]);
 }
 
 /* ---- nearest colours ---- */
@@ -208,6 +198,49 @@ struct candidate {
     float distance; /* squared, to the requested colour */
 };
 
+/* Adds the shades of two colours. */
+static void add_shades(struct dither *d, uint32_t bg, uint32_t fg)
+{
+    struct vec3 from = d->colors[bg].light, to = d->colors[fg].light;
+    float distance = distance_of(d->colors[bg].lab, d->colors[fg].lab);
+
+    for (int quarters = 1; quarters < 4; quarters++) {
+        float part = 0.25f * (float)quarters;
+        struct vec3 light =
+            v3_add(v3_scale(from, 1.0f - part), v3_scale(to, part));
+
+        d->colors[d->count++] =
+            (struct palette_color){light,
+                                   oklab(light),
+                                   {fg, bg, quarters},
+                                   SHADE_WEIGHT * part * (1.0f - part) *
+                                       distance};
+    }
+}
+
+/* Selects the palette whose mixes are kept. */
+static void use_palette(struct dither *d, enum palette palette, bool has_shades)
+{
+    uint32_t first = palette == PALETTE_256 ? CUBE_FIRST : 0;
+    uint32_t end = palette == PALETTE_256 ? COLORS : CUBE_FIRST;
+
+    if (d->palette == palette && d->has_shades == has_shades)
+        return;
+    d->palette = palette;
+    d->has_shades = has_shades;
+    d->count = 0;
+    for (uint32_t i = first; i < end; i++) {
+        struct palette_color *color = &d->colors[d->count++];
+
+        *color = palette_color_of(dither_value(i, palette));
+        color->shade = (struct shade){i, i, 0};
+    }
+    for (uint32_t i = 0; i < CUBE_FIRST && has_shades; i++)
+        for (uint32_t k = 0; k < i; k++)
+            add_shades(d, k, i);
+    memset(d->mixes, 0, MIXES * sizeof d->mixes[0]);
+}
+
 static float chroma_of(struct vec3 lab)
 {
     return sqrtf(lab.y * lab.y + lab.z * lab.z);
@@ -230,7 +263,7 @@ static void find_candidates(const struct dither *d, struct vec3 lab,
 {
     for (int i = 0; i < CANDIDATES; i++)
         found[i] = (struct candidate){0, FLOAT_MAX};
-    for (int i = 0; i < (int)d->count; i++) {
+    for (int i = 0; i < d->count; i++) {
         float distance = distance_of(d->colors[i].lab, lab);
         int at = CANDIDATES - 1;
 
@@ -312,19 +345,43 @@ static int of_key(int v)
     return (v * 255 + KEY_MAX / 2) / KEY_MAX;
 }
 
+/* Returns the place of a colour in the cache, and rounds the colour to it. */
+static uint64_t *cached(struct dither *d, struct rgb *c, bool is_up)
+{
+    struct rgb key = {to_key(c->r, is_up), to_key(c->g, is_up),
+                      to_key(c->b, is_up)};
+
+    *c = (struct rgb){of_key(key.r), of_key(key.g), of_key(key.b)};
+    return &d->mixes[key.r << 2 * KEY_BITS | key.g << KEY_BITS | key.b];
+}
+
 static uint32_t mixed(struct dither *d, struct rgb c, int threshold)
 {
     int place = threshold / (THRESHOLDS / MIX_LENGTH);
-    bool is_up = threshold & 1;
-    struct rgb key = {to_key(c.r, is_up), to_key(c.g, is_up),
-                      to_key(c.b, is_up)};
-    uint64_t *mix =
-        &d->mixes[key.r << 2 * KEY_BITS | key.g << KEY_BITS | key.b];
+    uint64_t *mix = cached(d, &c, threshold & 1);
 
     if (*mix == 0)
-        *mix = find_mix(d, (struct rgb){of_key(key.r), of_key(key.g),
-                                        of_key(key.b)});
-    return d->first + (uint32_t)(*mix >> 8 * place & 255) - 1;
+        *mix = find_mix(d, c);
+    return d->colors[(*mix >> 8 * place & 255) - 1].shade.bg;
+}
+
+static int nearest_shade(const struct dither *d, struct rgb c)
+{
+    struct vec3 lab = palette_color_of(c).lab;
+    float least = FLOAT_MAX;
+    int nearest = 0;
+
+    for (int i = 0; i < d->count; i++) {
+        const struct palette_color *p = &d->colors[i];
+        float miss = distance_of(p->lab, lab) + p->variance;
+
+        if (miss < least && may_mix(d->colors[p->shade.fg].lab, lab) &&
+            may_mix(d->colors[p->shade.bg].lab, lab)) {
+            least = miss;
+            nearest = i;
+        }
+    }
+    return nearest;
 }
 
 uint32_t dither_color(struct dither *d, struct rgb c, int x, int y,
@@ -333,6 +390,17 @@ uint32_t dither_color(struct dither *d, struct rgb c, int x, int y,
     if (palette == PALETTE_24BIT)
         return (uint32_t)c.r << 16 | (uint32_t)c.g << 8 | (uint32_t)c.b;
     assert(palette != PALETTE_MONO);
-    use_palette(d, palette);
+    use_palette(d, palette, false);
     return mixed(d, c, dither_threshold(x, y));
+}
+
+struct shade dither_shade(struct dither *d, struct rgb c)
+{
+    uint64_t *number;
+
+    use_palette(d, PALETTE_16, true);
+    number = cached(d, &c, true);
+    if (*number == 0)
+        *number = 1 + (uint64_t)nearest_shade(d, c);
+    return d->colors[*number - 1].shade;
 }

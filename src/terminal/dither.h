@@ -36,15 +36,25 @@ static inline int rgb_brightness(struct rgb c)
     return (2 * c.r + 5 * c.g + c.b) / 8;
 }
 
+/* Two colours that a glyph mixes in a cell: so many quarters of it have the
+ * foreground. */
+struct shade {
+    uint32_t fg, bg;
+    int quarters;
+};
+
 /* Colour of a palette. */
 struct palette_color {
     struct vec3 light; /* linear RGB */
     struct vec3 lab;   /* OKLab */
+    struct shade shade;
+    float variance; /* of the shade's colours, weighted */
 };
 
 struct dither {
-    enum palette palette;  /* of the mixes; PALETTE_MONO: none yet */
-    uint32_t first, count; /* numbers of its colours */
+    enum palette palette; /* of the mixes; PALETTE_MONO: none yet */
+    bool has_shades;      /* shades are kept, not mixes */
+    int count;            /* of colours */
     struct palette_color *colors;
     uint64_t *mixes; /* cache: each mix is computed when it is first needed */
 };
@@ -56,6 +66,10 @@ void dither_free(struct dither *d);
  * palette must not be PALETTE_MONO. */
 uint32_t dither_color(struct dither *d, struct rgb c, int x, int y,
                       enum palette palette);
+
+/* Returns the shade that is nearest to a colour in PALETTE_16, with 0 to 3
+ * quarters. It is not dithered: its grain is finer than a cell's. */
+struct shade dither_shade(struct dither *d, struct rgb c);
 
 /* Returns the number of a colour of PALETTE_256 or PALETTE_16 that looks like
  * this one: of 256 the nearest grey, or the nearest of the cube. */

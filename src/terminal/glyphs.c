@@ -36,6 +36,7 @@ static const struct {
     [GLYPHS_LOWER] = {{1, 2}, "lower half blocks"},
     [GLYPHS_BLOCK] = {{2, 4}, "blocks"},
     [GLYPHS_BRAILLE] = {{2, 4}, "braille"},
+    [GLYPHS_SHADE] = {{1, 1}, "shades"},
     [GLYPHS_SPACE] = {{1, 1}, "blanks"},
     [GLYPHS_ASCII] = {{1, 1}, "letters"},
 };
@@ -72,6 +73,7 @@ uint32_t glyphs_of_mask(enum glyphs glyphs, unsigned mask)
     switch (glyphs) {
     case GLYPHS_BLOCK: return block(mask);
     case GLYPHS_BRAILLE: return braille(mask);
+    case GLYPHS_SHADE:
     case GLYPHS_SPACE:
     case GLYPHS_ASCII: return ' ';
     default: return halves[mask];
@@ -110,6 +112,7 @@ bool glyphs_mask(enum glyphs glyphs, uint32_t glyph, unsigned *mask)
     switch (glyphs) {
     case GLYPHS_BLOCK: return block_mask(glyph, mask);
     case GLYPHS_BRAILLE: return braille_mask(glyph, mask);
+    case GLYPHS_SHADE:
     case GLYPHS_SPACE:
     case GLYPHS_ASCII: *mask = 0; return glyph == ' ';
     default: return half_mask(glyph, mask);

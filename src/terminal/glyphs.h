@@ -19,6 +19,7 @@ enum glyphs {
     GLYPHS_LOWER,
     GLYPHS_BLOCK, /* half blocks, quadrants and quarters */
     GLYPHS_BRAILLE,
+    GLYPHS_SHADE, /* 16 colours: blanks, and glyphs that mix two colours */
     GLYPHS_SPACE, /* blanks, one colour a cell */
     GLYPHS_ASCII, /* ASCII characters by brightness */
     GLYPHS_COUNT
@@ -27,6 +28,7 @@ enum glyphs {
 #define CELL_UPPER 0x2580u
 #define CELL_LOWER 0x2584u
 #define CELL_FULL  0x2588u
+#define CELL_SHADE 0x2591u /* a quarter; two and three quarters follow */
 
 /* Most dots of a glyph. */
 #define GLYPH_DOTS_MAX 8

@@ -10,8 +10,8 @@
 
 const char *const term_caps_glyph_names[] = {"auto",  "half",  "upper",
                                              "lower", "block", "braille",
-                                             "space", "ascii", "sixel",
-                                             "kitty", NULL};
+                                             "shade", "space", "ascii",
+                                             "sixel", "kitty", NULL};
 
 /* Plausible sizes and aspect ratios of cells; answers beyond them are
  * ignored. */
@@ -39,7 +39,7 @@ static enum glyphs common_glyphs(enum palette palette, bool has_unicode)
         return has_unicode ? GLYPHS_BRAILLE : GLYPHS_ASCII;
     if (!has_unicode)
         return GLYPHS_SPACE;
-    return palette == PALETTE_16 ? GLYPHS_HALF : GLYPHS_BLOCK;
+    return palette == PALETTE_16 ? GLYPHS_SHADE : GLYPHS_BLOCK;
 }
 
 enum glyphs term_caps_glyphs(enum glyph_mode mode, enum palette palette,
@@ -51,6 +51,7 @@ enum glyphs term_caps_glyphs(enum glyph_mode mode, enum palette palette,
     case GLYPH_LOWER: return GLYPHS_LOWER;
     case GLYPH_BLOCK: return GLYPHS_BLOCK;
     case GLYPH_BRAILLE: return GLYPHS_BRAILLE;
+    case GLYPH_SHADE: return GLYPHS_SHADE;
     case GLYPH_SPACE: return GLYPHS_SPACE;
     case GLYPH_ASCII: return GLYPHS_ASCII;
     case GLYPH_AUTO:
@@ -266,6 +267,7 @@ static bool has_mode(const struct term_caps *d, enum glyph_mode mode)
     case GLYPH_SIXEL: return d->has_sixel;
     case GLYPH_KITTY: return d->has_kitty;
     case GLYPH_ASCII: return true;
+    case GLYPH_SHADE: return d->has_unicode && d->palette == PALETTE_16;
     case GLYPH_SPACE: return !d->has_unicode;
     default: return d->has_unicode;
     }
@@ -279,9 +281,9 @@ static bool is_pixels(enum glyph_mode mode)
 void term_caps_next_glyphs(struct term_caps *d)
 {
     static const enum glyph_mode modes[] = {GLYPH_BLOCK,   GLYPH_HALF,
-                                            GLYPH_BRAILLE, GLYPH_SPACE,
-                                            GLYPH_ASCII,   GLYPH_SIXEL,
-                                            GLYPH_KITTY};
+                                            GLYPH_BRAILLE, GLYPH_SHADE,
+                                            GLYPH_SPACE,   GLYPH_ASCII,
+                                            GLYPH_SIXEL,   GLYPH_KITTY};
     size_t count = sizeof modes / sizeof modes[0];
     size_t i = 0;
 

@@ -29,6 +29,7 @@ enum glyph_mode {
     GLYPH_LOWER,
     GLYPH_BLOCK,
     GLYPH_BRAILLE,
+    GLYPH_SHADE,
     GLYPH_SPACE,
     GLYPH_ASCII,
     GLYPH_SIXEL,

@@ -133,6 +133,7 @@ static void words_select_values(void **state)
     assert_int_equal(good("a --glyph half").display.glyph, GLYPH_HALF);
     assert_int_equal(good("a --glyph block").display.glyph, GLYPH_BLOCK);
     assert_int_equal(good("a --glyph braille").display.glyph, GLYPH_BRAILLE);
+    assert_int_equal(good("a --glyph shade").display.glyph, GLYPH_SHADE);
     assert_int_equal(good("a --glyph sixel").display.glyph, GLYPH_SIXEL);
     assert_int_equal(good("a --glyph kitty").display.glyph, GLYPH_KITTY);
     assert_int_equal(good("a --up y").up, SCENE_UP_Y);

@@ -56,6 +56,27 @@ static void two_pixels_make_a_half_block(void **state)
     frame_free(&f);
 }
 
+/* Grey of 128 lies between the greys of 85 and 170: of the shades a half has
+ * the mean that is nearest, 135. The other palettes have blanks. */
+static void sixteen_colors_have_shades(void **state)
+{
+    struct frame f;
+    struct cells c = make_cells_of(&f, 2, 1, GLYPHS_SHADE);
+
+    (void)state;
+    set(&f, 0, 0, 128, 128, 128);
+    set(&f, 1, 0, 170, 0, 0); /* dark red is one of them */
+    cells_from_frame(&c, &f, PALETTE_16, GLYPHS_SHADE);
+    assert_int_equal(c.cell[0].glyph, 0x2592); /* MEDIUM SHADE */
+    assert_int_equal(c.cell[0].fg + c.cell[0].bg, 7 + 8);
+    assert_int_equal(c.cell[1].glyph, ' ');
+    cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_SHADE);
+    assert_int_equal(c.cell[0].glyph, ' ');
+    assert_int_equal(c.cell[0].bg, 0x808080);
+    cells_free(&c);
+    frame_free(&f);
+}
+
 static void one_pixel_is_a_blank(void **state)
 {
     struct frame f;
@@ -391,6 +412,7 @@ int main(void)
         cmocka_unit_test(marks_are_visible_in_every_palette),
         cmocka_unit_test(two_pixels_make_a_half_block),
         cmocka_unit_test(one_pixel_is_a_blank),
+        cmocka_unit_test(sixteen_colors_have_shades),
         cmocka_unit_test(dots_are_divided_into_the_best_groups),
         cmocka_unit_test(blocks_are_the_best_of_the_chart),
         cmocka_unit_test(light_dots_are_the_foreground),

@@ -282,6 +282,41 @@ static void tints_stay(void **state)
     dither_free(&d);
 }
 
+/* A cell of 16 colours can mix two of them in quarters: the mean is much nearer
+ * than the nearest colour. Greys are mixed of greys alone. */
+static void shades_come_closer(void **state)
+{
+    struct dither d = make_dither();
+    uint64_t seed = 5;
+    double nearest = 0, shaded = 0;
+
+    (void)state;
+    for (int i = 0; i < 1000; i++) {
+        bool is_grey = i % 2;
+        int grey = (int)(256 * check_random(&seed));
+        struct rgb c = {is_grey ? grey : (int)(256 * check_random(&seed)), grey,
+                        is_grey ? grey : (int)(256 * check_random(&seed))};
+        double wanted[3] = {light_of_srgb(c.r), light_of_srgb(c.g),
+                            light_of_srgb(c.b)};
+        double seen[3], fg[3], bg[3];
+        struct shade s;
+
+        nearest += mean_light(&d, c, PALETTE_16, seen);
+        s = dither_shade(&d, c);
+        assert_true(s.fg < 16 && s.bg < 16);
+        assert_in_range(s.quarters, 0, 3);
+        light_of_16((int)s.fg, fg);
+        light_of_16((int)s.bg, bg);
+        for (int k = 0; k < 3; k++)
+            seen[k] = bg[k] + (fg[k] - bg[k]) * s.quarters / 4;
+        shaded += oklab_distance(seen, wanted);
+        if (is_grey)
+            check_close(seen[0], seen[2], 1e-9);
+    }
+    check_at_most(shaded, 0.5 * nearest);
+    dither_free(&d);
+}
+
 /* The corners of the colour cube are exact, so black has no speckles. */
 static void corners_stay_pure(void **state)
 {
@@ -353,6 +388,7 @@ int main(void)
         cmocka_unit_test(hues_stay),
         cmocka_unit_test(flat_areas_come_closer),
         cmocka_unit_test(tints_stay),
+        cmocka_unit_test(shades_come_closer),
         cmocka_unit_test(corners_stay_pure),
         cmocka_unit_test(small_changes_change_little),
         cmocka_unit_test(thresholds_are_spread),
