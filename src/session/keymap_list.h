@@ -91,7 +91,7 @@ KEY(RELOAD, "reload", "load changed files", "refresh revert", 'l', 'L')
 GROUP("Screen")
 KEY(COLORS, "colors", "colours: 24 bit, 256, 16", "palette", 'C')
 KEY(THEME, "theme", "text dark, light or plain", "theme colours", 0)
-KEY(GLYPHS, "glyphs", "half blocks, .., pixels", "sixel kitty", 'G')
+KEY(GLYPHS, "glyphs", "blocks, .., pixels", "sixel kitty", 'G')
 KEY(ABOUT, "about", "about this render",
     "progress statistics times speed threads size", 'g')
 KEY(HIDE, "hide", "only the picture, or status", "full screen", 'i', 'I')

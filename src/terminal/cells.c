@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/min_max.h"
 
 /* Characters in order of their ink, from none to most. */
 static const char ramp[] = " .:;+xo%#@";
@@ -14,6 +15,11 @@ static const char ramp[] = " .:;+xo%#@";
 /* Number of masks whose last dot is not set. The other masks are their
  * inverses. */
 #define MASKS_MAX (1 << (GLYPH_DOTS_MAX - 1))
+
+/* Part of a frame's pixels that are black, and white, when its contrast is
+ * stretched, and the most that it is. */
+#define TONES_LOST   0.02
+#define CONTRAST_MAX 4
 
 /* Square roots of the channel weights 2, 4, 3, a rough measure of the eye's
  * sensitivity. */
@@ -102,18 +108,16 @@ static int largest(struct rgb c)
     return m > c.b ? m : c.b;
 }
 
-/* Returns a character for the brightness, in a colour with only the hue. */
-static struct cell ascii_cell(struct cells *cells, struct rgb c)
+/* Returns a character for a brightness, in a colour with only the hue. */
+static struct cell ascii_cell(struct cells *cells, struct rgb c, int light)
 {
     struct cell cell = {CELL_DEFAULT, CELL_DEFAULT, ' '};
-    bool is_mono = cells->palette == PALETTE_MONO;
-    int light = is_mono ? rgb_brightness(c) : largest(c);
     int index = light * RAMP_LENGTH / 256;
 
     if (index == 0)
         return cell;
     cell.glyph = (uint32_t)ramp[index];
-    if (!is_mono) {
+    if (cells->palette != PALETTE_MONO) {
         struct rgb hue = {c.r * 255 / light, c.g * 255 / light,
                           c.b * 255 / light};
 
@@ -132,7 +136,7 @@ static struct cell mono_cell(const struct cells *cells, const struct dots *dots,
     unsigned mask = 0;
 
     for (int i = 0; i < dots->count; i++) {
-        int light = rgb_brightness(dots->color[i]);
+        int light = cells->tones[rgb_brightness(dots->color[i])];
         int threshold = dither_threshold(col * grid.across + i % grid.across,
                                          row * grid.down + i / grid.across);
 
@@ -308,18 +312,54 @@ static struct cell cell_of(struct cells *cells, const struct dots *dots,
                            int row)
 {
     bool is_mono = cells->palette == PALETTE_MONO;
+    struct rgb mean = mean_of(dots, 0, 0);
 
-    if (cells->glyphs == GLYPHS_ASCII ||
-        (is_mono && cells->glyphs != GLYPHS_BRAILLE))
-        return ascii_cell(cells, mean_of(dots, 0, 0));
-    if (is_mono)
+    if (is_mono && cells->glyphs == GLYPHS_BRAILLE)
         return mono_cell(cells, dots, col, row);
+    if (is_mono)
+        return ascii_cell(cells, mean, cells->tones[rgb_brightness(mean)]);
+    if (cells->glyphs == GLYPHS_ASCII)
+        return ascii_cell(cells, mean, largest(mean));
     if (cells->glyphs == GLYPHS_SHADE && cells->palette == PALETTE_16)
         return shade_cell(cells, dots->color[0]);
     return block_cell(cells, dots,
                       dots->count > 2 ? best_mask(partitions, dots)
                                       : (unsigned)dots->count - 1,
                       col, row);
+}
+
+/* Returns the brightness below which a part of the frame's pixels are. */
+static int percentile(const int counts[256], double part, int pixels)
+{
+    int at = 0;
+
+    for (double left = part * pixels - counts[0]; left > 0 && at < 255;)
+        left -= counts[++at];
+    return at;
+}
+
+/* Stretches the contrast of a frame to all tones that characters and dots have,
+ * by at most CONTRAST_MAX. */
+static void find_tones(struct cells *cells, const struct frame *frame)
+{
+    int pixels = frame->width * frame->height;
+    int counts[256] = {0};
+    int dark, range, full;
+
+    for (int y = 0; y < frame->height; y++)
+        for (int x = 0; x < frame->width; x++)
+            counts[rgb_brightness(pixel(frame, x, y))]++;
+    dark = percentile(counts, TONES_LOST, pixels);
+    range = percentile(counts, 1 - TONES_LOST, pixels) - dark;
+    full = int_min(CONTRAST_MAX * range, 255);
+    for (int i = 0; i < 256; i++) {
+        int tone = i;
+
+        if (range > 0 && range < 255)
+            tone =
+                dark * (255 - full) / (255 - range) + (i - dark) * full / range;
+        cells->tones[i] = (uint8_t)(tone < 0 ? 0 : tone > 255 ? 255 : tone);
+    }
 }
 
 void cells_begin(struct cells *cells, const struct frame *frame,
@@ -334,6 +374,8 @@ void cells_begin(struct cells *cells, const struct frame *frame,
            frame->height == glyphs_grid(cells->drawn).down * cells->rows);
     cells->frame = frame;
     cells->has_mark = false;
+    if (palette == PALETTE_MONO)
+        find_tones(cells, frame);
 }
 
 static struct cell *row_of(struct cells *cells, int row)
@@ -375,7 +417,7 @@ struct cell cells_of_color(struct rgb color, enum palette palette)
     case PALETTE_256: return solid_cell(dither_nearest(color, palette));
     case PALETTE_MONO: break;
     }
-    return ascii_cell(&mono, color);
+    return ascii_cell(&mono, color, rgb_brightness(color));
 }
 
 static int within(double cells, int most)

@@ -33,6 +33,7 @@ struct cells {
     struct cell *cell; /* cols * rows, row 0 at the top */
     struct dither dither;
     const struct frame *frame; /* of cells_row(); NULL: all rows are made */
+    uint8_t tones[256]; /* without colours: brightness with more contrast */
     bool has_mark;
     int mark_col, mark_row;
 };

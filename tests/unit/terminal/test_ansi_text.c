@@ -57,9 +57,10 @@ static void text_shows_the_film(void **state)
     /* Green is the lighter colour. */
     check_text(&(struct ansi_text_style){1, 1, PALETTE_24BIT, GLYPHS_BLOCK},
                "\033[38;2;0;188;0;48;2;255;0;0m\xe2\x96\x84\033[m\n");
-    /* (180, 133, 0) is as bright as 128, the sixth of ten characters. */
+    /* (180, 133, 0) is brighter than both halves, the brightest of the frame.
+     */
     check_text(&(struct ansi_text_style){2, 1, PALETTE_MONO, GLYPHS_HALF},
-               "xx\n");
+               "@@\n");
 }
 
 int main(void)

@@ -295,6 +295,33 @@ static void mono_dots_keep_the_average(void **state)
     }
 }
 
+/* A frame of little contrast has all tones from no dot to all dots, but one of
+ * hardly any does not become black and white. */
+static void mono_contrast_is_stretched(void **state)
+{
+    struct frame f;
+    struct cells c = make_cells_of(&f, 100, 1, GLYPHS_BRAILLE);
+
+    (void)state;
+    for (int step = 4; step >= 1; step -= 3) {
+        unsigned first = 0, last = 0;
+
+        for (int i = 0; i < f.width * f.height; i++) {
+            int v = 100 + step * (i % f.width) / 8;
+
+            set(&f, i % f.width, i / f.width, v, v, v);
+        }
+        cells_from_frame(&c, &f, PALETTE_MONO, GLYPHS_BRAILLE);
+        assert_true(glyphs_mask(GLYPHS_BRAILLE, c.cell[0].glyph, &first));
+        assert_true(glyphs_mask(GLYPHS_BRAILLE, c.cell[99].glyph, &last));
+        assert_int_equal(__builtin_popcount(first), step == 4 ? 0 : 1);
+        assert_in_range(__builtin_popcount(last), step == 4 ? 8 : 2,
+                        step == 4 ? 8 : 4);
+    }
+    cells_free(&c);
+    frame_free(&f);
+}
+
 static void mono_characters_grow_with_brightness(void **state)
 {
     struct frame f;
@@ -417,6 +444,7 @@ int main(void)
         cmocka_unit_test(blocks_are_the_best_of_the_chart),
         cmocka_unit_test(light_dots_are_the_foreground),
         cmocka_unit_test(mono_dots_keep_the_average),
+        cmocka_unit_test(mono_contrast_is_stretched),
         cmocka_unit_test(mono_characters_grow_with_brightness),
         cmocka_unit_test(ascii_keeps_the_hue),
         cmocka_unit_test(pictures_keep_their_shape),
