@@ -12,10 +12,6 @@
 static const char ramp[] = " .:;+xo%#@";
 #define RAMP_LENGTH ((int)sizeof ramp - 1)
 
-/* Number of masks whose last dot is not set. The other masks are their
- * inverses. */
-#define MASKS_MAX (1 << (GLYPH_DOTS_MAX - 1))
-
 /* Part of a frame's pixels that are black, and white, when its contrast is
  * stretched, and the most that it is. */
 #define TONES_LOST   0.02
@@ -108,16 +104,21 @@ static int largest(struct rgb c)
     return m > c.b ? m : c.b;
 }
 
-/* Returns a character for a brightness, in a colour with only the hue. */
-static struct cell ascii_cell(struct cells *cells, struct rgb c, int light)
+/* Returns the brightness that a glyph shows, from 0 to 255: in colour, that of
+ * its hue multiplies it. */
+static int ink_of(const struct cells *cells, struct rgb c)
 {
-    struct cell cell = {CELL_DEFAULT, CELL_DEFAULT, ' '};
-    int index = light * RAMP_LENGTH / 256;
+    return cells->palette == PALETTE_MONO ? cells->tones[rgb_brightness(c)]
+                                          : largest(c);
+}
 
-    if (index == 0)
-        return cell;
-    cell.glyph = (uint32_t)ramp[index];
-    if (cells->palette != PALETTE_MONO) {
+/* Returns a glyph in a colour with only the hue. */
+static struct cell ink_cell(struct cells *cells, struct rgb c, uint32_t glyph)
+{
+    struct cell cell = {CELL_DEFAULT, CELL_DEFAULT, glyph};
+    int light = largest(c);
+
+    if (cells->palette != PALETTE_MONO && glyph != ' ' && light > 0) {
         struct rgb hue = {c.r * 255 / light, c.g * 255 / light,
                           c.b * 255 / light};
 
@@ -127,73 +128,39 @@ static struct cell ascii_cell(struct cells *cells, struct rgb c, int light)
     return cell;
 }
 
+static struct cell ascii_cell(struct cells *cells, struct rgb c, int ink)
+{
+    return ink_cell(cells, c, (uint32_t)ramp[ink * RAMP_LENGTH / 256]);
+}
+
 /* Returns a cell with the dots set that are brighter than their threshold. The
  * comparison is of squared values, roughly the light. */
-static struct cell mono_cell(const struct cells *cells, const struct dots *dots,
-                             int col, int row)
+static struct cell braille_cell(struct cells *cells, const struct dots *dots,
+                                int col, int row)
 {
-    struct glyph_grid grid = glyphs_grid(cells->glyphs);
     unsigned mask = 0;
 
     for (int i = 0; i < dots->count; i++) {
-        int light = cells->tones[rgb_brightness(dots->color[i])];
-        int threshold = dither_threshold(col * grid.across + i % grid.across,
-                                         row * grid.down + i / grid.across);
+        int ink = ink_of(cells, dots->color[i]);
+        int threshold = dither_threshold(2 * col + i % 2, 4 * row + i / 2);
 
-        if (32 * light * light > (2 * threshold + 1) * 255 * 255)
+        if (32 * ink * ink > (2 * threshold + 1) * 255 * 255)
             mask |= 1u << i;
     }
-    return (struct cell){CELL_DEFAULT, CELL_DEFAULT,
-                         glyphs_of_mask(cells->glyphs, mask)};
+    return ink_cell(cells, mean_of(dots, 0, 0),
+                    glyphs_of_mask(GLYPHS_BRAILLE, mask));
 }
 
-/* Share of the gain of a glyph whose foreground is the darker colour. In many
- * fonts glyphs do not reach the edge of their cell: a line of the background is
- * visible there, which disturbs where it is the lighter colour. */
+/* Partitions of 2x4 dots into two groups, one of which is a block: halves and
+ * quadrants, whose inverse is a block, too, then quarters. */
+static const uint8_t partitions[] = {0x0f, 0x55, 0x05, 0x0a, 0x50,
+                                     0xa0, 0xa5, 0xc0, 0xfc};
+#define QUARTERS 7
+
+/* Share of the gain of a quarter in the darker colour. In many fonts a glyph
+ * does not reach the edge of its cell: a line of the background is visible
+ * there, which disturbs where it is the lighter colour. */
 #define DARK_SHARE 0.5f
-
-/* Masks with a glyph, and the gain of each. Take the dots relative to their
- * mean, and let S be the sum over the k of n dots in one group. The other group
- * has the sum -S, and two colours instead of one reduce the squared error by
- * |S|^2 n / (k (n - k)). The table holds the factor of |S|^2 where the group is
- * the lighter one, and where it is the darker one. */
-struct partitions {
-    int count;
-    struct {
-        unsigned mask;
-        float lighter, darker;
-    } item[MASKS_MAX];
-};
-
-static void partitions_init(struct partitions *p, enum glyphs glyphs, int dots)
-{
-    unsigned all = (1u << dots) - 1;
-
-    p->count = 0;
-    for (unsigned mask = 1; mask <= all / 2; mask++) {
-        int k = __builtin_popcount(mask);
-        float share = (float)dots / (float)(k * (dots - k));
-        bool has_glyph = glyphs_of_mask(glyphs, mask) != 0;
-        bool has_inverse = glyphs_of_mask(glyphs, all & ~mask) != 0;
-
-        if (!has_glyph && !has_inverse)
-            continue;
-        p->item[p->count].mask = mask;
-        p->item[p->count].lighter = has_glyph ? share : DARK_SHARE * share;
-        p->item[p->count].darker = has_inverse ? share : DARK_SHARE * share;
-        p->count++;
-    }
-}
-
-/* Sums the values over the dots of each mask. */
-static void sum_masks(const float *values, int count, float sums[MASKS_MAX])
-{
-    sums[0] = 0.0f;
-    for (int i = 0; i < count - 1; i++) {
-        for (int mask = 0; mask < 1 << i; mask++)
-            sums[(1 << i) + mask] = sums[mask] + values[i];
-    }
-}
 
 /* Subtracts the mean from the dots and weighs the channels by the eye's
  * sensitivity. */
@@ -214,27 +181,31 @@ static void centre(const struct dots *dots, float values[3][GLYPH_DOTS_MAX])
     }
 }
 
-/* Returns the mask with the most gain. All masks with a glyph are tried. */
-static unsigned best_mask(const struct partitions *p, const struct dots *dots)
+/* Returns the mask of the partition with the most gain. Take the dots relative
+ * to their mean, and let S be the sum over the k of n dots in one group. The
+ * other group has the sum -S, and two colours instead of one reduce the squared
+ * error by |S|^2 n / (k (n - k)). */
+static unsigned best_mask(const struct dots *dots)
 {
     float values[3][GLYPH_DOTS_MAX];
-    float r[MASKS_MAX], g[MASKS_MAX], b[MASKS_MAX];
     unsigned best = 0;
     float most = 0.0f;
 
     centre(dots, values);
-    sum_masks(values[0], dots->count, r);
-    sum_masks(values[1], dots->count, g);
-    sum_masks(values[2], dots->count, b);
-    for (int i = 0; i < p->count; i++) {
-        unsigned m = p->item[i].mask;
-        float share =
-            r[m] + g[m] + b[m] > 0.0f ? p->item[i].lighter : p->item[i].darker;
-        float gain = share * (r[m] * r[m] + g[m] * g[m] + b[m] * b[m]);
+    for (size_t i = 0; i < sizeof partitions; i++) {
+        float sum[3] = {0.0f, 0.0f, 0.0f}, gain;
+        int k = __builtin_popcount(partitions[i]);
 
+        for (int dot = 0; dot < 8; dot++)
+            for (int c = 0; c < 3 && partitions[i] >> dot & 1; c++)
+                sum[c] += values[c][dot];
+        gain = (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) /
+               (float)(k * (8 - k));
+        if (i >= QUARTERS && sum[0] + sum[1] + sum[2] < 0.0f)
+            gain *= DARK_SHARE;
         if (gain > most) {
             most = gain;
-            best = m;
+            best = partitions[i];
         }
     }
     return best;
@@ -254,24 +225,15 @@ static int brightness_of(uint32_t color, enum palette palette)
                               : dither_value(color, palette));
 }
 
-/* Returns true if the other dots are to be the foreground. In many fonts a
- * glyph does not reach the edge of its cell, and a line of the background is
- * visible there: a dark line beside light dots disturbs less than a light line
- * beside dark dots. Where dots leave gaps, most of a cell is background. */
+/* Returns true if the other dots are to be the foreground: it is the lighter
+ * colour where the glyph has an inverse, see DARK_SHARE. */
 static bool is_inverse(const struct cells *cells, const struct cell *cell,
-                       unsigned mask, unsigned all)
+                       uint32_t inverse)
 {
-    switch (cells->drawn) {
-    case GLYPHS_UPPER: return false;
-    case GLYPHS_LOWER: return true;
-    case GLYPHS_BRAILLE:
-        return __builtin_popcount(mask) > __builtin_popcount(all & ~mask);
-    default: break;
-    }
-    if (cell->glyph == 0 || glyphs_of_mask(cells->drawn, all & ~mask) == 0)
-        return cell->glyph == 0;
-    return brightness_of(cell->fg, cells->palette) <
-           brightness_of(cell->bg, cells->palette);
+    if (cells->drawn == GLYPHS_UPPER || cells->drawn == GLYPHS_LOWER)
+        return cells->drawn == GLYPHS_LOWER;
+    return inverse != 0 && brightness_of(cell->fg, cells->palette) <
+                               brightness_of(cell->bg, cells->palette);
 }
 
 /* Returns a cell with the mean colours of the two groups of the mask. */
@@ -279,8 +241,9 @@ static struct cell block_cell(struct cells *cells, const struct dots *dots,
                               unsigned mask, int col, int row)
 {
     struct dither *d = &cells->dither;
-    unsigned all = (1u << dots->count) - 1;
-    struct cell cell;
+    uint32_t inverse =
+        glyphs_of_mask(cells->drawn, ((1u << dots->count) - 1) ^ mask);
+    struct cell cell = {.glyph = glyphs_of_mask(cells->drawn, mask)};
 
     cell.bg = dither_color(d, mean_of(dots, mask, 0), col, 2 * row + (mask > 0),
                            cells->palette);
@@ -290,11 +253,9 @@ static struct cell block_cell(struct cells *cells, const struct dots *dots,
         dither_color(d, mean_of(dots, mask, 1), col, 2 * row, cells->palette);
     if (cell.fg == cell.bg)
         return solid_cell(cell.fg);
-    cell.glyph = glyphs_of_mask(cells->drawn, mask);
-    if (is_inverse(cells, &cell, mask, all))
-        return (struct cell){cell.bg, cell.fg,
-                             glyphs_of_mask(cells->drawn, all & ~mask)};
-    return cell;
+    return is_inverse(cells, &cell, inverse)
+               ? (struct cell){cell.bg, cell.fg, inverse}
+               : cell;
 }
 
 static struct cell shade_cell(struct cells *cells, struct rgb c)
@@ -308,22 +269,19 @@ static struct cell shade_cell(struct cells *cells, struct rgb c)
 }
 
 static struct cell cell_of(struct cells *cells, const struct dots *dots,
-                           const struct partitions *partitions, int col,
-                           int row)
+                           int col, int row)
 {
-    bool is_mono = cells->palette == PALETTE_MONO;
-    struct rgb mean = mean_of(dots, 0, 0);
+    if (cells->drawn == GLYPHS_BRAILLE)
+        return braille_cell(cells, dots, col, row);
+    if (cells->drawn == GLYPHS_ASCII || cells->palette == PALETTE_MONO) {
+        struct rgb mean = mean_of(dots, 0, 0);
 
-    if (is_mono && cells->glyphs == GLYPHS_BRAILLE)
-        return mono_cell(cells, dots, col, row);
-    if (is_mono)
-        return ascii_cell(cells, mean, cells->tones[rgb_brightness(mean)]);
-    if (cells->glyphs == GLYPHS_ASCII)
-        return ascii_cell(cells, mean, largest(mean));
-    if (cells->glyphs == GLYPHS_SHADE && cells->palette == PALETTE_16)
+        return ascii_cell(cells, mean, ink_of(cells, mean));
+    }
+    if (cells->drawn == GLYPHS_SHADE && cells->palette == PALETTE_16)
         return shade_cell(cells, dots->color[0]);
     return block_cell(cells, dots,
-                      dots->count > 2 ? best_mask(partitions, dots)
+                      dots->count > 2 ? best_mask(dots)
                                       : (unsigned)dots->count - 1,
                       col, row);
 }
@@ -387,13 +345,11 @@ static void convert_row(struct cells *cells, int row)
 {
     struct glyph_grid grid = glyphs_grid(cells->drawn);
     struct cell *out = row_of(cells, row);
-    struct partitions partitions;
 
-    partitions_init(&partitions, cells->drawn, grid.across * grid.down);
     for (int col = 0; col < cells->cols; col++) {
         struct dots dots = dots_of(cells->frame, grid, col, row);
 
-        out[col] = cell_of(cells, &dots, &partitions, col, row);
+        out[col] = cell_of(cells, &dots, col, row);
     }
 }
 

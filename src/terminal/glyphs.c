@@ -97,25 +97,14 @@ static bool block_mask(uint32_t glyph, unsigned *mask)
     return i < BLOCKS;
 }
 
-static bool braille_mask(uint32_t glyph, unsigned *mask)
-{
-    *mask = 0;
-    if (glyph == ' ')
-        return true;
-    for (unsigned i = 0; i < 8; i++)
-        *mask |= glyph & braille_dots[i] ? 1u << i : 0;
-    return glyph >= BRAILLE_FIRST && glyph <= BRAILLE_LAST;
-}
-
 bool glyphs_mask(enum glyphs glyphs, uint32_t glyph, unsigned *mask)
 {
     switch (glyphs) {
     case GLYPHS_BLOCK: return block_mask(glyph, mask);
-    case GLYPHS_BRAILLE: return braille_mask(glyph, mask);
-    case GLYPHS_SHADE:
-    case GLYPHS_SPACE:
-    case GLYPHS_ASCII: *mask = 0; return glyph == ' ';
-    default: return half_mask(glyph, mask);
+    case GLYPHS_HALF:
+    case GLYPHS_UPPER:
+    case GLYPHS_LOWER: return half_mask(glyph, mask);
+    default: *mask = 0; return glyph == ' ';
     }
 }
 

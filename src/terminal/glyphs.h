@@ -45,7 +45,7 @@ struct glyph_grid glyphs_grid(enum glyphs glyphs);
  */
 uint32_t glyphs_of_mask(enum glyphs glyphs, unsigned mask);
 
-/* Returns the mask of a glyph. False if the glyph is none of this kind. */
+/* Returns the mask of a block, half block or blank. False for other glyphs. */
 bool glyphs_mask(enum glyphs glyphs, uint32_t glyph, unsigned *mask);
 
 /* Returns the name as a person sees it. */
