@@ -257,8 +257,7 @@ static void write_row(FILE *to, const struct canvas *c, int row)
         } else if (mask_at(c, col, row) == 0) {
             bytes[0] = ' ';
         } else {
-            glyph_utf8(glyphs_of_mask(GLYPHS_BRAILLE, mask_at(c, col, row)),
-                       bytes);
+            glyph_utf8(glyph_of_braille(mask_at(c, col, row)), bytes);
         }
         print_text(to, "%s", bytes);
     }

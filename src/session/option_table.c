@@ -773,11 +773,10 @@ static const struct option_rule rules[] = {
      "24, 256, 16, mono or auto (default: auto)", MAIN, OWN(set_color),
      GIVEN(has_color), CONFIGURABLE},
     {"glyph", "KIND",
-     "auto, half, upper, lower, block, braille, shade, space, ascii, "
-     "sixel or kitty",
-     "characters: half, upper, lower, block, braille, shade, space or "
-     "ascii; pixels: sixel or kitty; or auto: block or space, in 16 colours "
-     "shade, without colours braille or ascii (default: auto)",
+     "auto, half, block, braille, shade, space, ascii, sixel or kitty",
+     "characters: half, block, braille, shade, space or ascii; pixels: sixel "
+     "or kitty; or auto: block or space, in 16 colours shade, without colours "
+     "braille or ascii (default: auto)",
      MAIN, WORDS(display.glyph, term_caps_glyph_names, GLYPH_KITTY + 1),
      GIVEN(display.has_glyph), CONFIGURABLE},
     {"theme", "NAME", "auto, dark, light or plain",

@@ -182,17 +182,15 @@ static bool channels_close(uint32_t a, uint32_t b, int step)
 }
 
 /* Returns true if the channels of all dots differ by at most `step`. */
-static bool dots_close(const struct cell *a, const struct cell *b,
-                       enum glyphs glyphs, int step)
+static bool dots_close(const struct cell *a, const struct cell *b, int step)
 {
     unsigned masks[2];
 
     if (a->bg == CELL_DEFAULT || b->bg == CELL_DEFAULT ||
-        !glyphs_mask(glyphs, a->glyph, &masks[0]) ||
-        !glyphs_mask(glyphs, b->glyph, &masks[1]))
+        !glyph_block_mask(a->glyph, &masks[0]) ||
+        !glyph_block_mask(b->glyph, &masks[1]))
         return false;
-    struct glyph_grid grid = glyphs_grid(glyphs);
-    for (int i = 0; i < grid.across * grid.down; i++) {
+    for (int i = 0; i < GLYPH_DOTS; i++) {
         if (!channels_close(masks[0] >> i & 1 ? a->fg : a->bg,
                             masks[1] >> i & 1 ? b->fg : b->bg, step))
             return false;
@@ -201,12 +199,12 @@ static bool dots_close(const struct cell *a, const struct cell *b,
 }
 
 static bool may_stay(const struct cell *shown, const struct cell *cell,
-                     enum glyphs glyphs, int step)
+                     int step)
 {
     if (shown->glyph == cell->glyph && shown->bg == cell->bg &&
         (shown->fg == cell->fg || cell->glyph == ' '))
         return true;
-    return step > 0 && dots_close(shown, cell, glyphs, step);
+    return step > 0 && dots_close(shown, cell, step);
 }
 
 int ansi_diff_uncovered(const struct ansi_diff_draw *how, int col, int row)
@@ -237,7 +235,7 @@ static int put_row(struct ansi_diff *a, const struct cells *cells, int row,
         const struct cell *cell = &made[col];
         struct cell *shown = ansi_diff_shown(a, how->col + col, how->row + row);
 
-        if (may_stay(shown, cell, cells->glyphs, step))
+        if (may_stay(shown, cell, step))
             continue;
         if (a->length - a->begun >= how->budget_bytes)
             return col;
@@ -267,11 +265,9 @@ bool ansi_diff_picture(struct ansi_diff *a, struct cells *cells,
     assert(how->col >= 0 && how->col + cells->cols <= a->cols);
     assert(how->row >= 0 && how->row + cells->rows <= a->rows);
     a->begun = a->length;
-    /* colour numbers and glyphs have another meaning now */
-    if (cells->palette != a->palette || cells->glyphs != a->glyphs)
+    if (cells->palette != a->palette) /* colours have another meaning now */
         ansi_diff_invalidate_all(a);
     a->palette = cells->palette;
-    a->glyphs = cells->glyphs;
     /* The first row comes twice: its right part first, its left part last. */
     for (int i = 0; i <= cells->rows; i++) {
         int row = (start_row + i) % cells->rows;

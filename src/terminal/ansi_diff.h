@@ -30,7 +30,6 @@ struct ansi_diff {
     int cols, rows; /* of the terminal */
     struct cell *shown;
     enum palette palette;   /* of `shown` */
-    enum glyphs glyphs;     /* of `shown` */
     int next_row, next_col; /* start of the next frame */
     char *bytes;            /* output to be written */
     size_t length, capacity;

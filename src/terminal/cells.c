@@ -51,22 +51,21 @@ static struct rgb pixel(const struct frame *frame, int x, int y)
     return (struct rgb){p[0], p[1], p[2]};
 }
 
-/* Pixels of a cell, dot by dot. */
+/* Colours of a cell's dots. A pixel of a frame with fewer has several of them.
+ */
 struct dots {
-    int count;
-    struct rgb color[GLYPH_DOTS_MAX];
+    struct rgb color[GLYPH_DOTS];
 };
 
-static struct dots dots_of(const struct frame *frame, struct glyph_grid grid,
-                           int col, int row)
+static struct dots dots_of(const struct cells *cells, int col, int row)
 {
-    struct dots dots = {.count = 0};
+    int across = cells->frame->width / cells->cols;
+    int down = cells->frame->height / cells->rows;
+    struct dots dots;
 
-    for (int y = 0; y < grid.down; y++) {
-        for (int x = 0; x < grid.across; x++)
-            dots.color[dots.count++] =
-                pixel(frame, col * grid.across + x, row * grid.down + y);
-    }
+    for (int i = 0; i < GLYPH_DOTS; i++)
+        dots.color[i] = pixel(cells->frame, col * across + i % 2 * across / 2,
+                              row * down + i / 2 * down / 4);
     return dots;
 }
 
@@ -83,7 +82,7 @@ static struct rgb mean_of(const struct dots *dots, unsigned mask, unsigned bit)
     struct rgb sum = {0, 0, 0};
     int count = 0;
 
-    for (int i = 0; i < dots->count; i++) {
+    for (int i = 0; i < GLYPH_DOTS; i++) {
         const struct rgb *c = &dots->color[i];
 
         if ((mask >> i & 1) != bit)
@@ -140,15 +139,14 @@ static struct cell braille_cell(struct cells *cells, const struct dots *dots,
 {
     unsigned mask = 0;
 
-    for (int i = 0; i < dots->count; i++) {
+    for (int i = 0; i < GLYPH_DOTS; i++) {
         int ink = ink_of(cells, dots->color[i]);
         int threshold = dither_threshold(2 * col + i % 2, 4 * row + i / 2);
 
         if (32 * ink * ink > (2 * threshold + 1) * 255 * 255)
             mask |= 1u << i;
     }
-    return ink_cell(cells, mean_of(dots, 0, 0),
-                    glyphs_of_mask(GLYPHS_BRAILLE, mask));
+    return ink_cell(cells, mean_of(dots, 0, 0), glyph_of_braille(mask));
 }
 
 /* Partitions of 2x4 dots into two groups, one of which is a block: halves and
@@ -164,19 +162,19 @@ static const uint8_t partitions[] = {0x0f, 0x55, 0x05, 0x0a, 0x50,
 
 /* Subtracts the mean from the dots and weighs the channels by the eye's
  * sensitivity. */
-static void centre(const struct dots *dots, float values[3][GLYPH_DOTS_MAX])
+static void centre(const struct dots *dots, float values[3][GLYPH_DOTS])
 {
     float mean[3] = {0.0f, 0.0f, 0.0f};
 
-    for (int i = 0; i < dots->count; i++) {
+    for (int i = 0; i < GLYPH_DOTS; i++) {
         values[0][i] = eye[0] * (float)dots->color[i].r;
         values[1][i] = eye[1] * (float)dots->color[i].g;
         values[2][i] = eye[2] * (float)dots->color[i].b;
         for (int c = 0; c < 3; c++)
-            mean[c] += values[c][i] / (float)dots->count;
+            mean[c] += values[c][i] / GLYPH_DOTS;
     }
     for (int c = 0; c < 3; c++) {
-        for (int i = 0; i < dots->count; i++)
+        for (int i = 0; i < GLYPH_DOTS; i++)
             values[c][i] -= mean[c];
     }
 }
@@ -184,23 +182,24 @@ static void centre(const struct dots *dots, float values[3][GLYPH_DOTS_MAX])
 /* Returns the mask of the partition with the most gain. Take the dots relative
  * to their mean, and let S be the sum over the k of n dots in one group. The
  * other group has the sum -S, and two colours instead of one reduce the squared
- * error by |S|^2 n / (k (n - k)). */
+ * error by |S|^2 n / (k (n - k)). A flat cell has halves, which are dithered
+ * apart. */
 static unsigned best_mask(const struct dots *dots)
 {
-    float values[3][GLYPH_DOTS_MAX];
-    unsigned best = 0;
-    float most = 0.0f;
+    float values[3][GLYPH_DOTS];
+    unsigned best = partitions[0];
+    float most = 0.01f; /* more than what rounding leaves of a flat cell */
 
     centre(dots, values);
     for (size_t i = 0; i < sizeof partitions; i++) {
         float sum[3] = {0.0f, 0.0f, 0.0f}, gain;
         int k = __builtin_popcount(partitions[i]);
 
-        for (int dot = 0; dot < 8; dot++)
+        for (int dot = 0; dot < GLYPH_DOTS; dot++)
             for (int c = 0; c < 3 && partitions[i] >> dot & 1; c++)
                 sum[c] += values[c][dot];
         gain = (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) /
-               (float)(k * (8 - k));
+               (float)(k * (GLYPH_DOTS - k));
         if (i >= QUARTERS && sum[0] + sum[1] + sum[2] < 0.0f)
             gain *= DARK_SHARE;
         if (gain > most) {
@@ -225,35 +224,24 @@ static int brightness_of(uint32_t color, enum palette palette)
                               : dither_value(color, palette));
 }
 
-/* Returns true if the other dots are to be the foreground: it is the lighter
- * colour where the glyph has an inverse, see DARK_SHARE. */
-static bool is_inverse(const struct cells *cells, const struct cell *cell,
-                       uint32_t inverse)
-{
-    if (cells->drawn == GLYPHS_UPPER || cells->drawn == GLYPHS_LOWER)
-        return cells->drawn == GLYPHS_LOWER;
-    return inverse != 0 && brightness_of(cell->fg, cells->palette) <
-                               brightness_of(cell->bg, cells->palette);
-}
-
-/* Returns a cell with the mean colours of the two groups of the mask. */
+/* Returns a cell with the mean colours of the two groups of the mask. The
+ * foreground is the lighter one where the glyph has an inverse, see
+ * DARK_SHARE. */
 static struct cell block_cell(struct cells *cells, const struct dots *dots,
-                              unsigned mask, int col, int row)
+                              int col, int row)
 {
-    struct dither *d = &cells->dither;
-    uint32_t inverse =
-        glyphs_of_mask(cells->drawn, ((1u << dots->count) - 1) ^ mask);
-    struct cell cell = {.glyph = glyphs_of_mask(cells->drawn, mask)};
+    unsigned mask = best_mask(dots);
+    uint32_t inverse = glyph_of_block(0xff ^ mask);
+    struct cell cell = {.glyph = glyph_of_block(mask)};
 
-    cell.bg = dither_color(d, mean_of(dots, mask, 0), col, 2 * row + (mask > 0),
+    cell.bg = dither_color(&cells->dither, mean_of(dots, mask, 0), col,
+                           2 * row + 1, cells->palette);
+    cell.fg = dither_color(&cells->dither, mean_of(dots, mask, 1), col, 2 * row,
                            cells->palette);
-    if (mask == 0)
-        return solid_cell(cell.bg);
-    cell.fg =
-        dither_color(d, mean_of(dots, mask, 1), col, 2 * row, cells->palette);
     if (cell.fg == cell.bg)
         return solid_cell(cell.fg);
-    return is_inverse(cells, &cell, inverse)
+    return inverse != 0 && brightness_of(cell.fg, cells->palette) <
+                               brightness_of(cell.bg, cells->palette)
                ? (struct cell){cell.bg, cell.fg, inverse}
                : cell;
 }
@@ -271,19 +259,19 @@ static struct cell shade_cell(struct cells *cells, struct rgb c)
 static struct cell cell_of(struct cells *cells, const struct dots *dots,
                            int col, int row)
 {
-    if (cells->drawn == GLYPHS_BRAILLE)
+    if (cells->glyphs == GLYPHS_BRAILLE)
         return braille_cell(cells, dots, col, row);
-    if (cells->drawn == GLYPHS_ASCII || cells->palette == PALETTE_MONO) {
+    if (cells->glyphs == GLYPHS_ASCII || cells->palette == PALETTE_MONO) {
         struct rgb mean = mean_of(dots, 0, 0);
 
         return ascii_cell(cells, mean, ink_of(cells, mean));
     }
-    if (cells->drawn == GLYPHS_SHADE && cells->palette == PALETTE_16)
+    if (cells->glyphs == GLYPHS_SHADE && cells->palette == PALETTE_16)
         return shade_cell(cells, dots->color[0]);
-    return block_cell(cells, dots,
-                      dots->count > 2 ? best_mask(dots)
-                                      : (unsigned)dots->count - 1,
-                      col, row);
+    if (cells->glyphs == GLYPHS_SHADE || cells->glyphs == GLYPHS_SPACE)
+        return solid_cell(dither_color(&cells->dither, dots->color[0], col,
+                                       2 * row, cells->palette));
+    return block_cell(cells, dots, col, row);
 }
 
 /* Returns the brightness below which a part of the frame's pixels are. */
@@ -325,11 +313,7 @@ void cells_begin(struct cells *cells, const struct frame *frame,
 {
     cells->palette = palette;
     cells->glyphs = glyphs;
-    cells->drawn = frame->width == cells->cols && glyphs == GLYPHS_BLOCK
-                       ? GLYPHS_HALF
-                       : glyphs;
-    assert(frame->width == glyphs_grid(cells->drawn).across * cells->cols &&
-           frame->height == glyphs_grid(cells->drawn).down * cells->rows);
+    assert(frame->width % cells->cols == 0 && frame->height % cells->rows == 0);
     cells->frame = frame;
     cells->has_mark = false;
     if (palette == PALETTE_MONO)
@@ -343,11 +327,10 @@ static struct cell *row_of(struct cells *cells, int row)
 
 static void convert_row(struct cells *cells, int row)
 {
-    struct glyph_grid grid = glyphs_grid(cells->drawn);
     struct cell *out = row_of(cells, row);
 
     for (int col = 0; col < cells->cols; col++) {
-        struct dots dots = dots_of(cells->frame, grid, col, row);
+        struct dots dots = dots_of(cells, col, row);
 
         out[col] = cell_of(cells, &dots, col, row);
     }

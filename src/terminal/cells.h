@@ -29,7 +29,6 @@ struct cells {
     int cols, rows;
     enum palette palette;
     enum glyphs glyphs;
-    enum glyphs drawn; /* GLYPHS_HALF for a small frame of GLYPHS_BLOCK */
     struct cell *cell; /* cols * rows, row 0 at the top */
     struct dither dither;
     const struct frame *frame; /* of cells_row(); NULL: all rows are made */

@@ -22,15 +22,14 @@ struct color_bin {
 struct box {
     int begin, end;
     int axis;     /* of the largest error */
-    double mean;  /* along that axis */
     double error; /* sum of squared differences along that axis */
+    double mean[3];
 };
 
 bool color_cut_init(struct color_cut *c, struct error *err)
 {
-    *c = (struct color_cut){.count = 0};
-    c->bins = alloc_array(BINS, sizeof c->bins[0]);
-    c->used = alloc_array(BINS, sizeof c->used[0]);
+    *c = (struct color_cut){.bins = alloc_array(BINS, sizeof c->bins[0]),
+                            .used = alloc_array(BINS, sizeof c->used[0])};
     if (c->bins && c->used)
         return true;
     color_cut_free(c);
@@ -41,17 +40,19 @@ void color_cut_free(struct color_cut *c)
 {
     free(c->bins);
     free(c->used);
-    *c = (struct color_cut){.count = 0};
+    *c = (struct color_cut){.bins = NULL};
 }
 
-/* Returns the cell of a colour that the dither has moved. */
-static int bin_of(const uint8_t *rgb, int threshold)
+/* Returns the cell of pixel i after the dither. */
+static int bin_of(const struct color_cut_image *image, int i)
 {
-    int move = (2 * threshold + 1 - 16) * (1 << SHIFT) / 32;
+    int threshold = dither_threshold(image->x + i % image->width,
+                                     image->y + i / image->width);
+    int move = (2 * threshold - 15) * (1 << SHIFT) / 32;
     int bin = 0;
 
-    for (int i = 0; i < 3; i++) {
-        int v = rgb[i] + move;
+    for (int k = 0; k < 3; k++) {
+        int v = image->rgb[3 * i + k] + move;
 
         bin = bin << (8 - SHIFT) | (v < 0 ? 0 : v > 255 ? 255 : v) >> SHIFT;
     }
@@ -63,8 +64,8 @@ static double mean_of(const struct color_bin *b, int axis)
     return (double)b->sum[axis] / b->count;
 }
 
-/* Finds the axis of the largest error of a box, with green and blue weighted as
- * the eye does. Cells count with their mean. */
+/* Finds the means of a box, and the axis of the largest error, with channels
+ * weighted as the eye does. Cells count with their mean. */
 static void measure(const struct color_cut *c, struct box *box)
 {
     static const double weight[3] = {2, 4, 3};
@@ -80,108 +81,81 @@ static void measure(const struct color_cut *c, struct box *box)
             sum += b->sum[axis];
             squares += mean_of(b, axis) * b->sum[axis];
         }
+        box->mean[axis] = sum / count;
         error = weight[axis] * (squares - sum * sum / count);
         if (error > box->error) {
             box->axis = axis;
-            box->mean = sum / count;
             box->error = error;
         }
     }
 }
 
-/* Moves the cells above the mean to the end of the box. Returns the first of
- * them. */
-static int divide(struct color_cut *c, const struct box *box)
+/* Moves the cells above the mean to a box of their own. Returns false if the
+ * error is not visible. */
+static bool divide(struct color_cut *c, struct box *box, struct box *above)
 {
     int at = box->begin;
 
-    for (int i = box->begin; i < box->end; i++) {
+    for (int i = box->begin; i < box->end && box->error > 1; i++) {
         uint16_t bin = c->used[i];
 
-        if (mean_of(&c->bins[bin], box->axis) > box->mean)
+        if (mean_of(&c->bins[bin], box->axis) > box->mean[box->axis])
             continue;
         c->used[i] = c->used[at];
         c->used[at++] = bin;
     }
-    return at;
+    if (at == box->begin || at == box->end)
+        return false;
+    *above = (struct box){.begin = at, .end = box->end};
+    box->end = at;
+    measure(c, box);
+    measure(c, above);
+    return true;
 }
 
-/* Divides the box of the largest error until there are enough, or until none
- * has an error that is visible. */
-static int cut(struct color_cut *c, int used_count, int most,
-               struct box boxes[COLOR_CUT_MAX])
+/* Divides the cells that are used into boxes, always that of the largest error,
+ * and numbers them. */
+static void cut(struct color_cut *c, int used_count, int most)
 {
-    int count = 1;
+    struct box boxes[COLOR_CUT_MAX] = {{.end = used_count}};
+    struct box *worst = boxes;
 
-    boxes[0] = (struct box){.begin = 0, .end = used_count};
-    measure(c, &boxes[0]);
-    while (count < most) {
-        struct box *worst = &boxes[0];
-        int middle;
-
-        for (int i = 1; i < count; i++)
+    c->count = 1;
+    measure(c, worst);
+    while (c->count < most && divide(c, worst, &boxes[c->count])) {
+        c->count++;
+        for (int i = 0; i < c->count; i++)
             if (boxes[i].error > worst->error)
                 worst = &boxes[i];
-        middle = worst->error > 1 ? divide(c, worst) : worst->end;
-        if (middle == worst->end)
-            break;
-        boxes[count] = (struct box){.begin = middle, .end = worst->end};
-        worst->end = middle;
-        measure(c, worst);
-        measure(c, &boxes[count++]);
     }
-    return count;
-}
+    for (int n = 0; n < c->count; n++) {
+        const double *mean = boxes[n].mean;
 
-/* Gives the cells of a box their number, and the palette their mean. */
-static void number_box(struct color_cut *c, const struct box *box, int number)
-{
-    uint32_t count = 0, sum[3] = {0, 0, 0};
-
-    for (int i = box->begin; i < box->end; i++) {
-        struct color_bin *b = &c->bins[c->used[i]];
-
-        b->number = (uint8_t)number;
-        count += b->count;
-        for (int k = 0; k < 3; k++)
-            sum[k] += b->sum[k];
+        c->colors[n] = (struct rgb){(int)(mean[0] + 0.5), (int)(mean[1] + 0.5),
+                                    (int)(mean[2] + 0.5)};
+        for (int i = boxes[n].begin; i < boxes[n].end; i++)
+            c->bins[c->used[i]].number = (uint8_t)n;
     }
-    c->colors[number] = (struct rgb){(int)((sum[0] + count / 2) / count),
-                                     (int)((sum[1] + count / 2) / count),
-                                     (int)((sum[2] + count / 2) / count)};
 }
 
 void color_cut(struct color_cut *c, const struct color_cut_image *image,
                int most, uint8_t *numbers)
 {
-    size_t pixels = (size_t)image->width * (size_t)image->height;
-    struct box boxes[COLOR_CUT_MAX];
+    int pixels = image->width * image->height;
     int used_count = 0;
 
     assert(most > 0 && most <= COLOR_CUT_MAX && pixels > 0);
     memset(c->bins, 0, BINS * sizeof c->bins[0]);
-    for (int pass = 0; pass < 2; pass++) {
-        const uint8_t *p = image->rgb;
+    for (int i = 0; i < pixels; i++) {
+        int bin = bin_of(image, i);
+        struct color_bin *b = &c->bins[bin];
 
-        for (size_t i = 0; i < pixels; i++, p += 3) {
-            int x = image->x + (int)(i % (size_t)image->width);
-            int y = image->y + (int)(i / (size_t)image->width);
-            int at = bin_of(p, dither_threshold(x, y));
-            struct color_bin *b = &c->bins[at];
-
-            if (pass == 1) {
-                numbers[i] = b->number;
-                continue;
-            }
-            if (b->count++ == 0)
-                c->used[used_count++] = (uint16_t)at;
-            for (int k = 0; k < 3; k++)
-                b->sum[k] += p[k];
-        }
-        if (pass == 1)
-            break;
-        c->count = cut(c, used_count, most, boxes);
-        for (int i = 0; i < c->count; i++)
-            number_box(c, &boxes[i], i);
+        if (b->count++ == 0)
+            c->used[used_count++] = (uint16_t)bin;
+        for (int k = 0; k < 3; k++)
+            b->sum[k] += image->rgb[3 * i + k];
     }
+    cut(c, used_count, most);
+    for (int i = 0; i < pixels; i++)
+        numbers[i] = c->bins[bin_of(image, i)].number;
 }

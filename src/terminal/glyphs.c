@@ -4,9 +4,6 @@
 #include <assert.h>
 #include <stddef.h>
 
-/* Half blocks by mask; bit 1 means the lower half. */
-static const uint32_t halves[4] = {' ', CELL_UPPER, CELL_LOWER, CELL_FULL};
-
 /* Block elements of 2x4 dots: quadrants and lower quarters. The upper quarters
  * are their inverses. */
 static const struct {
@@ -24,7 +21,6 @@ static const struct {
 /* Braille code points: U+2800 plus these bits for each dot. The standard
  * numbers the first three rows by columns, then the fourth. */
 #define BRAILLE_FIRST 0x2800u
-#define BRAILLE_LAST  0x28ffu
 static const uint8_t braille_dots[8] = {1, 8, 2, 16, 4, 32, 64, 128};
 
 static const struct {
@@ -32,8 +28,6 @@ static const struct {
     const char *name;
 } kinds[GLYPHS_COUNT] = {
     [GLYPHS_HALF] = {{1, 2}, "half blocks"},
-    [GLYPHS_UPPER] = {{1, 2}, "upper half blocks"},
-    [GLYPHS_LOWER] = {{1, 2}, "lower half blocks"},
     [GLYPHS_BLOCK] = {{2, 4}, "blocks"},
     [GLYPHS_BRAILLE] = {{2, 4}, "braille"},
     [GLYPHS_SHADE] = {{1, 1}, "shades"},
@@ -51,7 +45,7 @@ const char *glyphs_name(enum glyphs glyphs)
     return kinds[glyphs].name;
 }
 
-static uint32_t block(unsigned mask)
+uint32_t glyph_of_block(unsigned mask)
 {
     for (size_t i = 0; i < BLOCKS; i++)
         if (blocks[i].mask == mask)
@@ -59,35 +53,7 @@ static uint32_t block(unsigned mask)
     return 0;
 }
 
-static uint32_t braille(unsigned mask)
-{
-    uint32_t glyph = BRAILLE_FIRST;
-
-    for (int i = 0; i < 8; i++)
-        glyph += mask >> i & 1 ? braille_dots[i] : 0;
-    return mask ? glyph : ' ';
-}
-
-uint32_t glyphs_of_mask(enum glyphs glyphs, unsigned mask)
-{
-    switch (glyphs) {
-    case GLYPHS_BLOCK: return block(mask);
-    case GLYPHS_BRAILLE: return braille(mask);
-    case GLYPHS_SHADE:
-    case GLYPHS_SPACE:
-    case GLYPHS_ASCII: return ' ';
-    default: return halves[mask];
-    }
-}
-
-static bool half_mask(uint32_t glyph, unsigned *mask)
-{
-    for (*mask = 0; *mask < 4 && halves[*mask] != glyph;)
-        ++*mask;
-    return *mask < 4;
-}
-
-static bool block_mask(uint32_t glyph, unsigned *mask)
+bool glyph_block_mask(uint32_t glyph, unsigned *mask)
 {
     size_t i = 0;
 
@@ -97,15 +63,13 @@ static bool block_mask(uint32_t glyph, unsigned *mask)
     return i < BLOCKS;
 }
 
-bool glyphs_mask(enum glyphs glyphs, uint32_t glyph, unsigned *mask)
+uint32_t glyph_of_braille(unsigned mask)
 {
-    switch (glyphs) {
-    case GLYPHS_BLOCK: return block_mask(glyph, mask);
-    case GLYPHS_HALF:
-    case GLYPHS_UPPER:
-    case GLYPHS_LOWER: return half_mask(glyph, mask);
-    default: *mask = 0; return glyph == ' ';
-    }
+    uint32_t glyph = BRAILLE_FIRST;
+
+    for (int i = 0; i < GLYPH_DOTS; i++)
+        glyph += mask >> i & 1 ? braille_dots[i] : 0;
+    return mask ? glyph : ' ';
 }
 
 int glyph_utf8(uint32_t glyph, char bytes[4])

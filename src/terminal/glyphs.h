@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * glyphs.h - characters that divide a cell into dots of two colours
+ * glyphs.h - characters that show a picture
  *
  * Units:     Unicode code points; masks of dots, bit 0 at the upper left, then
  *            row by row
@@ -15,8 +15,6 @@
 /* Characters that make up the picture. */
 enum glyphs {
     GLYPHS_HALF,  /* half blocks, upper or lower */
-    GLYPHS_UPPER, /* half blocks, upper only */
-    GLYPHS_LOWER,
     GLYPHS_BLOCK, /* half blocks, quadrants and quarters */
     GLYPHS_BRAILLE,
     GLYPHS_SHADE, /* 16 colours: blanks, and glyphs that mix two colours */
@@ -30,23 +28,24 @@ enum glyphs {
 #define CELL_FULL  0x2588u
 #define CELL_SHADE 0x2591u /* a quarter; two and three quarters follow */
 
-/* Most dots of a glyph. */
-#define GLYPH_DOTS_MAX 8
+/* Dots of a block or of braille: 2x4. */
+#define GLYPH_DOTS 8
 
 struct glyph_grid {
     int across, down;
 };
 
-/* Returns the number of dots across and down a cell. */
+/* Returns the number of pixels of a frame across and down a cell. */
 struct glyph_grid glyphs_grid(enum glyphs glyphs);
 
-/* Returns the glyph whose dots in the mask have the foreground colour; 0 if
- * there is none. Blocks have a glyph for some masks only, or for the inverse.
- */
-uint32_t glyphs_of_mask(enum glyphs glyphs, unsigned mask);
+/* Returns the block whose dots in the mask have the foreground colour; 0 if
+ * there is none. */
+uint32_t glyph_of_block(unsigned mask);
 
-/* Returns the mask of a block, half block or blank. False for other glyphs. */
-bool glyphs_mask(enum glyphs glyphs, uint32_t glyph, unsigned *mask);
+/* Finds the mask of a block. Returns false for other glyphs. */
+bool glyph_block_mask(uint32_t glyph, unsigned *mask);
+
+uint32_t glyph_of_braille(unsigned mask);
 
 /* Returns the name as a person sees it. */
 const char *glyphs_name(enum glyphs glyphs);

@@ -8,10 +8,10 @@
 
 #include "terminal/tty.h"
 
-const char *const term_caps_glyph_names[] = {"auto",  "half",  "upper",
-                                             "lower", "block", "braille",
-                                             "shade", "space", "ascii",
-                                             "sixel", "kitty", NULL};
+const char *const term_caps_glyph_names[] = {"auto",    "half",  "block",
+                                             "braille", "shade", "space",
+                                             "ascii",   "sixel", "kitty",
+                                             NULL};
 
 /* Plausible sizes and aspect ratios of cells; answers beyond them are
  * ignored. */
@@ -47,8 +47,6 @@ enum glyphs term_caps_glyphs(enum glyph_mode mode, enum palette palette,
 {
     switch (mode) {
     case GLYPH_HALF: return GLYPHS_HALF;
-    case GLYPH_UPPER: return GLYPHS_UPPER;
-    case GLYPH_LOWER: return GLYPHS_LOWER;
     case GLYPH_BLOCK: return GLYPHS_BLOCK;
     case GLYPH_BRAILLE: return GLYPHS_BRAILLE;
     case GLYPH_SHADE: return GLYPHS_SHADE;
@@ -289,11 +287,9 @@ void term_caps_next_glyphs(struct term_caps *d)
 
     while (i < count && modes[i] != d->glyph_mode)
         i++;
-    if (i == count && d->glyph_mode == GLYPH_AUTO)
+    if (i == count) /* the automatic choice */
         for (i = 0; i < count && glyphs_of(d, modes[i]) != d->glyphs;)
             i++;
-    if (i == count) /* upper and lower count as half blocks */
-        i = 1;
     do
         i = (i + 1) % count;
     while (!has_mode(d, modes[i]));

@@ -25,8 +25,6 @@ enum color_mode { COLOR_AUTO, COLOR_MONO, COLOR_16, COLOR_256, COLOR_24BIT };
 enum glyph_mode {
     GLYPH_AUTO,
     GLYPH_HALF,
-    GLYPH_UPPER,
-    GLYPH_LOWER,
     GLYPH_BLOCK,
     GLYPH_BRAILLE,
     GLYPH_SHADE,

@@ -44,7 +44,7 @@ static bool draw(struct session *s, struct frame *frame, struct cells *cells,
     render_wait(s->engine.render, -1);
     film_preview(render_film(s->engine.render), render_draft(s->engine.render),
                  develop_linear(0), frame);
-    cells_from_frame(cells, frame, PALETTE_24BIT, GLYPHS_UPPER);
+    cells_from_frame(cells, frame, PALETTE_24BIT, GLYPHS_HALF);
     return true;
 }
 

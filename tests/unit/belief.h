@@ -31,7 +31,6 @@ struct belief_cell {
     enum belief kind;
     struct vt_cell text;
     struct cell picture;
-    enum glyphs glyphs;
 };
 
 static struct shared {
@@ -104,7 +103,6 @@ static void tell_cells(const struct ansi_diff *a, const struct cells_rect *fit)
 
             cell->kind = shown->glyph == 0 ? BELIEF_UNKNOWN : BELIEF_PICTURE;
             cell->picture = *shown;
-            cell->glyphs = a->glyphs;
         }
     }
 }

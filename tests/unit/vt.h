@@ -522,36 +522,32 @@ static inline void vt_write(struct vt *t, const char *bytes, size_t length)
         vt_take(t, (unsigned char)bytes[i]);
 }
 
-/* Returns the colours of the cell's dots, of both colours whichever is the
- * foreground. Returns false if the glyph is not of this kind. */
-static inline bool vt_dots(const struct cell *cell, enum glyphs glyphs,
-                           uint32_t dots[GLYPH_DOTS_MAX])
+/* Returns the colours of the dots of a block, of both colours whichever is the
+ * foreground. Returns false for other glyphs. */
+static inline bool vt_dots(const struct cell *cell, uint32_t dots[GLYPH_DOTS])
 {
-    struct glyph_grid grid = glyphs_grid(glyphs);
     unsigned mask;
 
-    memset(dots, 0, GLYPH_DOTS_MAX * sizeof dots[0]);
-    if (!glyphs_mask(glyphs, cell->glyph, &mask))
+    if (!glyph_block_mask(cell->glyph, &mask))
         return false;
-    for (int i = 0; i < grid.across * grid.down; i++)
+    for (int i = 0; i < GLYPH_DOTS; i++)
         dots[i] = mask >> i & 1 ? cell->fg : cell->bg;
     return true;
 }
 
 /* Returns whether the terminal's cell looks like the cell of the picture. */
-static inline bool vt_shows(const struct vt_cell *got, const struct cell *want,
-                            enum glyphs glyphs)
+static inline bool vt_shows(const struct vt_cell *got, const struct cell *want)
 {
     struct cell is = {got->fg, got->bg, got->glyph};
-    uint32_t dots[2][GLYPH_DOTS_MAX];
+    uint32_t dots[2][GLYPH_DOTS];
 
     if (got->attributes != 0 || got->combined[0] != 0)
         return false;
     /* The terminal's default colours, or a mark. */
-    if (want->bg == CELL_DEFAULT || !vt_dots(want, glyphs, dots[1]))
+    if (want->bg == CELL_DEFAULT || !vt_dots(want, dots[1]))
         return is.glyph == want->glyph && is.bg == want->bg &&
                (is.fg == want->fg || want->glyph == ' ');
-    return vt_dots(&is, glyphs, dots[0]) &&
+    return vt_dots(&is, dots[0]) &&
            memcmp(dots[0], dots[1], sizeof dots[0]) == 0;
 }
 

@@ -10,7 +10,7 @@ text()
 }
 # 2:1 in 8x8 cells of 1:2 is 8x2
 text --ansi 8x8 | cat -v
-text --ansi 8x8 --cell-aspect 1 --color 16 --glyph upper | cat -v
+text --ansi 8x8 --cell-aspect 1 --color 16 --glyph half | cat -v
 NO_COLOR=1 text --ansi=4x4 -o - | cat -v
 NO_COLOR=1 text --ansi 4x4 --color 24bit | cat -v
 # ASCII works in every locale, braille only in UTF-8

@@ -20,7 +20,7 @@ wait_for "[▖▗▘▙▛▜▝▞▟▌▐▂▆]"
 reject "@@@"
 keys C-q
 expect_end 0
-for case in "upper:▀" "lower:▄" "block:[▖▗▘▙▛▜▝▞▟▌▐▂▆]" "ascii:@@@" \
+for case in "half:[▀▄]" "block:[▖▗▘▙▛▜▝▞▟▌▐▂▆]" "ascii:@@@" \
     "braille --color mono:⣿⣿" "block --color mono:@@@" \
     "block --color 16:[▖▗▘▙▛▜▝▞▟▌▐▂▆]" "half --color mono:@@@"; do
     fresh

@@ -126,8 +126,6 @@ static void words_select_values(void **state)
     assert_int_equal(good("a --theme light").display.theme, THEME_MODE_LIGHT);
     assert_int_equal(good("a --theme plain").display.theme, THEME_MODE_PLAIN);
     assert_int_equal(good("a --glyph auto").display.glyph, GLYPH_AUTO);
-    assert_int_equal(good("a --glyph upper").display.glyph, GLYPH_UPPER);
-    assert_int_equal(good("a --glyph lower").display.glyph, GLYPH_LOWER);
     assert_int_equal(good("a --glyph space").display.glyph, GLYPH_SPACE);
     assert_int_equal(good("a --glyph ascii").display.glyph, GLYPH_ASCII);
     assert_int_equal(good("a --glyph half").display.glyph, GLYPH_HALF);
@@ -142,8 +140,8 @@ static void words_select_values(void **state)
     bad("a --color red",
         "--color: found 'red', expected 24, 256, 16, mono or auto");
     bad("a --glyph=",
-        "--glyph: found '', expected auto, half, upper, lower, quadrant, "
-        "sextant, braille, space, ascii, sixel or kitty");
+        "--glyph: found '', expected auto, half, block, braille, shade, space, "
+        "ascii, sixel or kitty");
     bad("a --up x", "--up: found 'x', expected y, z or a direction X,Y,Z: 3 "
                     "numbers from -1e30 to 1e30");
 }

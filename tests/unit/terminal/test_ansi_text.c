@@ -51,8 +51,8 @@ static void text_shows_the_film(void **state)
     (void)state;
     check_text(&(struct ansi_text_style){2, 2, PALETTE_24BIT, GLYPHS_HALF},
                "\033[48;2;255;0;0m  \033[m\n\033[48;2;0;188;0m  \033[m\n");
-    check_text(&(struct ansi_text_style){2, 1, PALETTE_24BIT, GLYPHS_UPPER},
-               "\033[38;2;255;0;0;48;2;0;188;0m\xe2\x96\x80\xe2\x96\x80"
+    check_text(&(struct ansi_text_style){2, 1, PALETTE_24BIT, GLYPHS_HALF},
+               "\033[38;2;0;188;0;48;2;255;0;0m\xe2\x96\x84\xe2\x96\x84"
                "\033[m\n");
     /* Green is the lighter colour. */
     check_text(&(struct ansi_text_style){1, 1, PALETTE_24BIT, GLYPHS_BLOCK},

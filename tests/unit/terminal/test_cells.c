@@ -35,23 +35,23 @@ static void set(struct frame *f, int x, int y, int r, int g, int b)
 static void two_pixels_make_a_half_block(void **state)
 {
     struct frame f;
-    struct cells c = make_cells(&f, 2, 1);
+    struct cells c = make_cells(&f, 3, 1);
 
     (void)state;
-    set(&f, 0, 0, 1, 2, 3);
-    set(&f, 0, 1, 4, 5, 6);
-    set(&f, 1, 0, 7, 8, 9);
-    set(&f, 1, 1, 7, 8, 9);
-    cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_UPPER);
-    assert_int_equal(c.cell[0].glyph, CELL_UPPER);
-    assert_int_equal(c.cell[0].fg, 0x010203);
-    assert_int_equal(c.cell[0].bg, 0x040506);
-    assert_int_equal(c.cell[1].glyph, ' ');
-    assert_int_equal(c.cell[1].bg, 0x070809);
-    cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_LOWER);
-    assert_int_equal(c.cell[0].glyph, CELL_LOWER);
-    assert_int_equal(c.cell[0].fg, 0x040506);
-    assert_int_equal(c.cell[0].bg, 0x010203);
+    set(&f, 0, 0, 4, 5, 6);
+    set(&f, 0, 1, 1, 2, 3);
+    set(&f, 1, 0, 1, 2, 3);
+    set(&f, 1, 1, 4, 5, 6);
+    set(&f, 2, 0, 7, 8, 9);
+    set(&f, 2, 1, 7, 8, 9);
+    cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_HALF);
+    for (int i = 0; i < 2; i++) { /* the lighter colour is the foreground */
+        assert_int_equal(c.cell[i].glyph, i == 0 ? CELL_UPPER : CELL_LOWER);
+        assert_int_equal(c.cell[i].fg, 0x040506);
+        assert_int_equal(c.cell[i].bg, 0x010203);
+    }
+    assert_int_equal(c.cell[2].glyph, ' ');
+    assert_int_equal(c.cell[2].bg, 0x070809);
     cells_free(&c);
     frame_free(&f);
 }
@@ -184,7 +184,7 @@ static void blocks_are_the_best_of_the_chart(void **state)
             f.rgb[i] = (uint8_t)(round % 2 * 120 * (i >= 18) +
                                  136 * check_random(&seed));
         cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_BLOCK);
-        assert_true(glyphs_mask(GLYPHS_BLOCK, c.cell[0].glyph, &mask));
+        assert_true(glyph_block_mask(c.cell[0].glyph, &mask));
         whole = squared_error(&f, 0);
         for (int i = 0; i < 9; i++) {
             bool is_dark = i >= 7 && lightness(&f, masks[i], 1) <
@@ -308,7 +308,7 @@ static void mono_characters_grow_with_brightness(void **state)
         set(&f, x, 0, x, x, x);
         set(&f, x, 1, x, x, x);
     }
-    cells_from_frame(&c, &f, PALETTE_MONO, GLYPHS_UPPER);
+    cells_from_frame(&c, &f, PALETTE_MONO, GLYPHS_HALF);
     assert_int_equal(c.cell[0].glyph, ' ');
     assert_int_equal(c.cell[255].glyph, '@');
     for (int x = 0; x < 256; x++) {

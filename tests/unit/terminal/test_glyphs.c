@@ -19,72 +19,59 @@ enum {
 static void glyphs_are_those_of_the_charts(void **state)
 {
     static const struct {
-        enum glyphs glyphs;
         unsigned mask;
         uint32_t glyph;
     } cases[] = {
-        {GLYPHS_HALF, 0, ' '},
-        {GLYPHS_HALF, 1, 0x2580},
-        {GLYPHS_UPPER, 1, 0x2580},
-        {GLYPHS_LOWER, 2, 0x2584},
-        {GLYPHS_HALF, 3, 0x2588},
-        {GLYPHS_BLOCK, UPPER_LEFT, 0x2598},
-        {GLYPHS_BLOCK, UPPER_RIGHT, 0x259d},
-        {GLYPHS_BLOCK, LOWER_LEFT, 0x2596},
-        {GLYPHS_BLOCK, LOWER_RIGHT, 0x2597},
-        {GLYPHS_BLOCK, UPPER_LEFT + LOWER_RIGHT, 0x259a},
-        {GLYPHS_BLOCK, UPPER_RIGHT + LOWER_LEFT, 0x259e},
-        {GLYPHS_BLOCK, ALL - UPPER_RIGHT, 0x2599},
-        {GLYPHS_BLOCK, ALL - LOWER_RIGHT, 0x259b},
-        {GLYPHS_BLOCK, ALL - LOWER_LEFT, 0x259c},
-        {GLYPHS_BLOCK, ALL - UPPER_LEFT, 0x259f},
-        {GLYPHS_BLOCK, UPPER_LEFT + LOWER_LEFT, 0x258c}, /* left half */
-        {GLYPHS_BLOCK, UPPER_RIGHT + LOWER_RIGHT, 0x2590},
-        {GLYPHS_BLOCK, UPPER_LEFT + UPPER_RIGHT, 0x2580},
-        {GLYPHS_BLOCK, LOWER_LEFT + LOWER_RIGHT, 0x2584},
-        {GLYPHS_BLOCK, 64 + 128, 0x2582},    /* lower quarter */
-        {GLYPHS_BLOCK, ALL - 1 - 2, 0x2586}, /* lower three quarters */
-        {GLYPHS_BLOCK, 1 + 2, 0},            /* upper quarter */
-        {GLYPHS_BLOCK, 1, 0},
-        {GLYPHS_BLOCK, ALL, 0x2588},
-        {GLYPHS_BRAILLE, 1, 0x2801},        /* 1 */
-        {GLYPHS_BRAILLE, 2, 0x2808},        /* 4 */
-        {GLYPHS_BRAILLE, 64 + 128, 0x28c0}, /* 78 */
-        {GLYPHS_BRAILLE, 255, 0x28ff},
+        {0, ' '},
+        {UPPER_LEFT, 0x2598},
+        {UPPER_RIGHT, 0x259d},
+        {LOWER_LEFT, 0x2596},
+        {LOWER_RIGHT, 0x2597},
+        {UPPER_LEFT + LOWER_RIGHT, 0x259a},
+        {UPPER_RIGHT + LOWER_LEFT, 0x259e},
+        {ALL - UPPER_RIGHT, 0x2599},
+        {ALL - LOWER_RIGHT, 0x259b},
+        {ALL - LOWER_LEFT, 0x259c},
+        {ALL - UPPER_LEFT, 0x259f},
+        {UPPER_LEFT + LOWER_LEFT, 0x258c}, /* left half */
+        {UPPER_RIGHT + LOWER_RIGHT, 0x2590},
+        {UPPER_LEFT + UPPER_RIGHT, 0x2580},
+        {LOWER_LEFT + LOWER_RIGHT, 0x2584},
+        {64 + 128, 0x2582},    /* lower quarter */
+        {ALL - 1 - 2, 0x2586}, /* lower three quarters */
+        {1 + 2, 0},            /* upper quarter */
+        {1, 0},
+        {ALL, 0x2588},
     };
 
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
-        assert_int_equal(glyphs_of_mask(cases[i].glyphs, cases[i].mask),
-                         cases[i].glyph);
+        assert_int_equal(glyph_of_block(cases[i].mask), cases[i].glyph);
+    assert_int_equal(glyph_of_braille(1), 0x2801);        /* 1 */
+    assert_int_equal(glyph_of_braille(2), 0x2808);        /* 4 */
+    assert_int_equal(glyph_of_braille(64 + 128), 0x28c0); /* 78 */
+    assert_int_equal(glyph_of_braille(255), 0x28ff);
 }
 
-/* Each mask with a glyph has its own, from which the mask is found again. */
-static void masks_are_found_from_glyphs(void **state)
+/* Each mask with a block has its own, from which the mask is found again. */
+static void masks_are_found_from_blocks(void **state)
 {
-    static const enum glyphs kinds[] = {GLYPHS_HALF, GLYPHS_BLOCK};
-    static const int counts[] = {4, 18};
+    unsigned back;
+    int count = 0;
 
     (void)state;
-    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
-        struct glyph_grid grid = glyphs_grid(kinds[i]);
-        int count = 0;
+    for (unsigned mask = 0; mask < 256; mask++) {
+        uint32_t glyph = glyph_of_block(mask);
 
-        for (unsigned mask = 0; mask < 1u << grid.across * grid.down; mask++) {
-            uint32_t glyph = glyphs_of_mask(kinds[i], mask);
-            unsigned back;
-
-            if (glyph == 0)
-                continue;
-            count++;
-            assert_true(glyphs_mask(kinds[i], glyph, &back));
-            assert_int_equal(back, mask);
-        }
-        assert_int_equal(count, counts[i]);
-        unsigned ignored;
-        assert_false(glyphs_mask(kinds[i], '@', &ignored));
-        assert_false(glyphs_mask(kinds[i], 0, &ignored));
+        if (glyph == 0)
+            continue;
+        count++;
+        assert_true(glyph_block_mask(glyph, &back));
+        assert_int_equal(back, mask);
     }
+    assert_int_equal(count, 18);
+    assert_false(glyph_block_mask('@', &back));
+    assert_false(glyph_block_mask(0, &back));
 }
 
 static void glyphs_are_written_in_utf8(void **state)
@@ -112,7 +99,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(glyphs_are_those_of_the_charts),
-        cmocka_unit_test(masks_are_found_from_glyphs),
+        cmocka_unit_test(masks_are_found_from_blocks),
         cmocka_unit_test(glyphs_are_written_in_utf8),
     };
 

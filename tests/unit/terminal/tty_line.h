@@ -220,7 +220,7 @@ static inline bool shows(const struct vt_cell *got,
     if (want->kind == BELIEF_UNKNOWN)
         return true;
     if (want->kind == BELIEF_PICTURE)
-        return vt_shows(got, &want->picture, want->glyphs);
+        return vt_shows(got, &want->picture);
     if (is_blank(got) && is_blank(&want->text))
         return true;
     if (want->text.glyph == VT_TAIL) /* the left half has the attributes */
