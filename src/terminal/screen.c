@@ -157,8 +157,7 @@ bool screen_layout(struct screen *screen, int width_px, int height_px,
     const struct term_caps *d = &screen->display;
     bool must_clear = before.shape.kind != PIXEL_GRAPHICS_NONE ||
                       term_caps_pixels(d) != PIXEL_GRAPHICS_NONE ||
-                      screen->ansi.palette != d->palette ||
-                      screen->ansi.glyphs != d->glyphs;
+                      screen->ansi.palette != d->palette;
     struct tty_size size;
     bool ok;
 
