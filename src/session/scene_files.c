@@ -91,7 +91,7 @@ static int compare(const void *a, const void *b)
 
     if (x->is_folder != y->is_folder)
         return x->is_folder ? -1 : 1;
-    return strcoll(x->text, y->text);
+    return strverscmp(x->text, y->text);
 }
 
 static void add_entry(struct scene_files *s, const char *folder,
