@@ -343,6 +343,7 @@ void editor_panel_show(struct editor_panel *p, enum selection_page page)
     selection_settle(&p->selection);
     p->is_in_parameters = page == PAGE_LIGHT;
     p->parameter = p->parameter_top = p->list_top = 0;
+    image_folder_free(&p->images);
 }
 
 static void move(struct editor_panel *p, int step)
@@ -409,8 +410,6 @@ static void enter(struct editor_panel *p)
  * moves to the parameters. */
 static void step(struct editor_panel *p, int by)
 {
-    if (p->images.count > 0)
-        return;
     if (p->is_in_parameters)
         change_by(p, by);
     else if (by > 0)
