@@ -150,15 +150,13 @@ static struct cell braille_cell(struct cells *cells, const struct dots *dots,
 }
 
 /* Partitions of 2x4 dots into two groups, one of which is a block: halves and
- * quadrants, whose inverse is a block, too, then quarters. */
+ * quadrants, whose inverse is a block, too, then quarters. The foreground is
+ * the lighter colour: in many fonts a glyph does not reach the edge of its
+ * cell, and a line of the background is visible there, which disturbs if it is
+ * light. So quarters are never dark. */
 static const uint8_t partitions[] = {0x0f, 0x55, 0x05, 0x0a, 0x50,
                                      0xa0, 0xa5, 0xc0, 0xfc};
 #define QUARTERS 7
-
-/* Share of the gain of a quarter in the darker colour. In many fonts a glyph
- * does not reach the edge of its cell: a line of the background is visible
- * there, which disturbs where it is the lighter colour. */
-#define DARK_SHARE 0.5f
 
 /* Subtracts the mean from the dots and weighs the channels by the eye's
  * sensitivity. */
@@ -198,10 +196,10 @@ static unsigned best_mask(const struct dots *dots)
         for (int dot = 0; dot < GLYPH_DOTS; dot++)
             for (int c = 0; c < 3 && partitions[i] >> dot & 1; c++)
                 sum[c] += values[c][dot];
+        if (i >= QUARTERS && sum[0] + sum[1] + sum[2] < 0.0f)
+            continue;
         gain = (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) /
                (float)(k * (GLYPH_DOTS - k));
-        if (i >= QUARTERS && sum[0] + sum[1] + sum[2] < 0.0f)
-            gain *= DARK_SHARE;
         if (gain > most) {
             most = gain;
             best = partitions[i];
@@ -225,8 +223,7 @@ static int brightness_of(uint32_t color, enum palette palette)
 }
 
 /* Returns a cell with the mean colours of the two groups of the mask. The
- * foreground is the lighter one where the glyph has an inverse, see
- * DARK_SHARE. */
+ * foreground is the lighter one. */
 static struct cell block_cell(struct cells *cells, const struct dots *dots,
                               int col, int row)
 {

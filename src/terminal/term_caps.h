@@ -77,8 +77,8 @@ void term_caps_init(struct term_caps *d, const struct term_caps_choice *choice);
 enum palette term_caps_palette(enum color_mode mode);
 
 /* Returns the glyphs for a mode. Modes for pixels fall back to the common
- * glyphs: half blocks, or braille without colours; without Unicode blanks, or
- * characters without colours. */
+ * glyphs: blocks, shades with 16 colours, or braille without colours; without
+ * Unicode blanks, or characters without colours. */
 enum glyphs term_caps_glyphs(enum glyph_mode mode, enum palette palette,
                              bool has_unicode);
 
