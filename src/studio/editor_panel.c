@@ -19,6 +19,9 @@
 /* Number of steps of the keys for a large change. */
 #define MANY_STEPS 10
 
+/* More rows than a list has. */
+#define ALL_ROWS (1 << 29)
+
 static struct edit *edit_of(const struct editor_panel *p)
 {
     return &p->control->session->edit;
@@ -110,11 +113,12 @@ void editor_panel_outline(struct editor_panel *p, const struct camera *camera,
                           struct frame *frame)
 {
     const struct session *s = p->control->session;
-    struct outline_choice choice = {p->selection.page == PAGE_OBJECTS,
-                                    p->selection.index[p->selection.page]};
+    enum selection_page page = p->is_open ? p->selection.page : PAGE_OBJECTS;
+    struct outline_choice choice = {page == PAGE_OBJECTS,
+                                    p->selection.index[page]};
     struct world w = world_arrays(&s->engine.world, &s->engine.scene);
 
-    if (!p->is_open || p->is_in_parameters || w.nodes == NULL ||
+    if ((p->is_open && p->is_in_parameters) || w.nodes == NULL ||
         p->control->progress.spp_done == 0 || !selection_has_one(&p->selection))
         return;
     w.settings.camera = *camera;
@@ -334,7 +338,7 @@ void editor_panel_close(struct editor_panel *p)
 {
     image_folder_free(&p->images);
     p->is_open = false;
-    p->is_typing = false;
+    p->is_typing = p->is_finding = false;
 }
 
 void editor_panel_show(struct editor_panel *p, enum selection_page page)
@@ -379,20 +383,66 @@ static void begin_typing(struct editor_panel *p, int key)
     p->typed[1] = '\0';
 }
 
-static void type(struct editor_panel *p, int key)
+static void type_letter(struct editor_panel *p, int key)
 {
     size_t length = strlen(p->typed);
 
-    if (key == ENTER) {
-        take_typed(p);
-    } else if (key == ESCAPE) {
-        p->is_typing = false;
-    } else if ((key == BACKSPACE || key == '\b') && length > 0) {
+    if ((key == BACKSPACE || key == '\b') && length > 0) {
         p->typed[length - 1] = '\0';
     } else if (key >= ' ' && key < 256 && key != BACKSPACE &&
                length + 1 < sizeof p->typed) {
         p->typed[length] = (char)key;
         p->typed[length + 1] = '\0';
+    }
+}
+
+static void type(struct editor_panel *p, int key)
+{
+    if (key == ENTER)
+        take_typed(p);
+    else if (key == ESCAPE)
+        p->is_typing = false;
+    else
+        type_letter(p, key);
+}
+
+/* Selects the next entry whose name has the text that is typed, from the
+ * selected one or the one after it on, around the end of the list. */
+static void find(struct editor_panel *p, bool is_next)
+{
+    struct selection *s = &p->selection;
+
+    for (int i = 0; i < s->listed_count; i++) {
+        int row = (s->row + is_next + i) % s->listed_count;
+        const char *name = selection_name(s, s->page, s->listed[row]);
+
+        if (strcasestr(name, p->typed) != NULL) {
+            selection_move(s, row - s->row);
+            return;
+        }
+    }
+    live_render_say(p->control, "no name has '%.40s'", p->typed);
+}
+
+static void begin_finding(struct editor_panel *p)
+{
+    p->is_finding =
+        p->selection.page != PAGE_LIGHT && p->selection.listed_count > 0;
+    p->is_in_parameters = p->is_in_parameters && !p->is_finding;
+    p->typed[0] = '\0';
+}
+
+static void type_name(struct editor_panel *p, int key)
+{
+    if (key == ESCAPE) {
+        p->is_finding = false;
+    } else if (key == TTY_KEY_UP || key == TTY_KEY_DOWN) {
+        move(p, key == TTY_KEY_UP ? -1 : 1);
+    } else {
+        bool is_next = key == ENTER;
+
+        type_letter(p, key);
+        find(p, is_next);
     }
 }
 
@@ -434,7 +484,7 @@ static void click(struct editor_panel *p, int col, int row)
     int list_row = p->list_top + row - 1;
     int parameter_row = row - 2 - p->list_rows;
 
-    p->is_typing = false;
+    p->is_typing = p->is_finding = false;
     if (p->images.count > 0) {
         if (row > 0 && p->image_top + row - 1 < p->images.count) {
             p->image = p->image_top + row - 1;
@@ -494,6 +544,7 @@ static enum panel_action chosen_action(const struct editor_panel *p, int key)
 
     return p->images.count > 0 && action != PANEL_UP && action != PANEL_DOWN &&
                    action != PANEL_PAGE_UP && action != PANEL_PAGE_DOWN &&
+                   action != PANEL_FIRST && action != PANEL_LAST &&
                    action != PANEL_ENTER && action != PANEL_LEAVE
                ? PANEL_NONE
                : action;
@@ -501,8 +552,11 @@ static enum panel_action chosen_action(const struct editor_panel *p, int key)
 
 bool editor_panel_key(struct editor_panel *p, int key)
 {
-    if (p->is_typing) {
-        type(p, key);
+    if (p->is_typing || p->is_finding) {
+        if (p->is_typing)
+            type(p, key);
+        else
+            type_name(p, key);
         return true;
     }
     switch (chosen_action(p, key)) {
@@ -513,6 +567,9 @@ bool editor_panel_key(struct editor_panel *p, int key)
     case PANEL_MORE: step(p, 1); break;
     case PANEL_PAGE_UP: move(p, -10); break;
     case PANEL_PAGE_DOWN: move(p, 10); break;
+    case PANEL_FIRST: move(p, -ALL_ROWS); break;
+    case PANEL_LAST: move(p, ALL_ROWS); break;
+    case PANEL_FIND: begin_finding(p); break;
     case PANEL_ENTER: enter(p); break;
     case PANEL_MUCH_LESS: change_by(p, -MANY_STEPS); break;
     case PANEL_MUCH_MORE: change_by(p, MANY_STEPS); break;

@@ -41,6 +41,7 @@ struct editor_panel {
     int list_rows, parameter_rows; /* numbers of rows in the last drawing */
     bool is_dragging; /* the mouse moves the slider of the selected parameter */
     bool is_typing;
+    bool is_finding; /* a name in the list, instead of a value */
     char typed[EDITOR_PANEL_TEXT];
     struct image_folder images; /* one of which is chosen; empty: none is */
     int image, image_top;
@@ -81,8 +82,9 @@ bool editor_panel_mouse(struct editor_panel *p, const struct event *event);
  * has to be drawn again, also for new textures. */
 bool editor_panel_step(struct editor_panel *p);
 
-/* Draws the outline of the selected material or object into a frame that the
- * camera sees, while the keys act in the list and the camera rests. */
+/* Draws the outline of the selected material or object, or of the picked object
+ * while the panel is closed, into a frame that the camera sees: not while
+ * values are changed, or the camera moves. */
 void editor_panel_outline(struct editor_panel *p, const struct camera *camera,
                           struct frame *frame);
 

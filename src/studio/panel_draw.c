@@ -168,6 +168,15 @@ static void add_list(struct editor_panel *p, struct sheet *s)
     scroll(&p->list_top, sel->row, p->list_rows, sel->listed_count);
     for (int row = 0; row < p->list_rows; row++)
         add_item(p, s, sel->listed[p->list_top + row]);
+    for (int row = 0; row < p->list_rows && p->list_rows < sel->listed_count;
+         row++) {
+        int at = row * sel->listed_count / p->list_rows;
+        bool is_marked = at >= p->list_top && at < p->list_top + p->list_rows;
+
+        windows_text(WINDOW_PANEL, s->row - p->list_rows + row,
+                     s->screen->panel_cols - 1, 1,
+                     is_marked ? ROLE_SELECTED : ROLE_TEXT, "");
+    }
 }
 
 /* Formats what the title says after the name: what differs from the files. */
@@ -218,8 +227,17 @@ static void add_title(const struct editor_panel *p, struct sheet *s)
     format_title(text, &p->selection);
     cols = text_width_of(text);
     windows_rule(WINDOW_PANEL, s->row, TEXT_COL, room);
-    windows_text(WINDOW_PANEL, s->row++, TEXT_COL + 1,
+    windows_text(WINDOW_PANEL, s->row, TEXT_COL + 1,
                  cols < room - 1 ? cols : room - 1, ROLE_TITLE, text);
+    if (p->selection.page != PAGE_LIGHT && p->selection.listed_count > 0) {
+        snprintf(text, sizeof text, " %d of %d ", p->selection.row + 1,
+                 p->selection.listed_count);
+        if (cols + text_width_of(text) + 2 < room)
+            windows_text(WINDOW_PANEL, s->row,
+                         TEXT_COL + room - text_width_of(text),
+                         text_width_of(text), ROLE_FAINT, text);
+    }
+    s->row++;
 }
 
 /* Returns the mean colour of a quarter of a texture: (0, 0) is the upper left
@@ -382,10 +400,6 @@ static const struct key_hint hints_images[] = {{"Enter", "takes it"},
 static const struct key_hint hints_map[] = {
     {"Enter", "images"}, {"Left Right", "change"}, {"Esc", "back"},
     {"u", "undo"},       {"^S", "save"},           {NULL, NULL}};
-static const struct key_hint hints_typing[] = {{"Enter", "takes it"},
-                                               {"Esc", "leaves it"},
-                                               {"", "#rrggbb, r g b, 3000K"},
-                                               {NULL, NULL}};
 static const struct key_hint hints_parameters[] = {
     {"Left Right", "change"}, {"( )", "tenfold"}, {"Esc", "back"},
     {"0-9 #", "type"},        {"h", "HSV"},       {"u", "undo"},
@@ -399,8 +413,9 @@ static const struct key_hint hints_light[] = {{"Left Right", "change"},
                                               {"^S", "save"},
                                               {NULL, NULL}};
 static const struct key_hint hints_list[] = {
-    {"Enter", "values"}, {"Ins", "copy"}, {"\\", "compare"}, {"Esc", "close"},
-    {"u", "undo"},       {"^S", "save"},  {"Tab", "page"},   {NULL, NULL}};
+    {"Enter", "values"}, {"/", "find"},   {"\\", "compare"},
+    {"Esc", "close"},    {"u", "undo"},   {"^S", "save"},
+    {"Ins", "copy"},     {"Tab", "page"}, {NULL, NULL}};
 
 static const struct key_hint *hints_of(struct editor_panel *p)
 {
@@ -408,8 +423,6 @@ static const struct key_hint *hints_of(struct editor_panel *p)
 
     if (p->images.count > 0)
         return hints_images;
-    if (p->is_typing)
-        return hints_typing;
     if (!p->is_in_parameters)
         return hints_list;
     if (p->selection.page == PAGE_LIGHT)
@@ -417,6 +430,30 @@ static const struct key_hint *hints_of(struct editor_panel *p)
     return panel_parameters(p, list) > 0 && list[p->parameter].map != MTL_MAPS
                ? hints_map
                : hints_parameters;
+}
+
+/* Adds keys while a text is typed, and which text is taken. */
+static void add_typing_hints(struct editor_panel *p, struct sheet *s)
+{
+    static const struct key_hint value[] = {{"Enter", "takes it"},
+                                            {"Esc", "leaves it"},
+                                            {NULL, NULL}};
+    static const struct key_hint found[] = {{"Enter", "next"},
+                                            {"Esc", "ends"},
+                                            {NULL, NULL}};
+    struct parameter list[PARAMETERS_MAX];
+    int room = s->screen->panel_cols - TEXT_COL - 1;
+    char text[LINE_BYTES];
+
+    if (p->is_finding)
+        snprintf(text, sizeof text, "find: %.24s_", p->typed);
+    else
+        snprintf(text, sizeof text, "%s",
+                 panel_parameters(p, list) > 0 ? list[p->parameter].takes : "");
+    windows_text(WINDOW_PANEL, s->row++, TEXT_COL + 1, room,
+                 p->is_finding ? ROLE_TITLE : ROLE_FAINT, text);
+    key_hints_draw(WINDOW_PANEL, s->row++, TEXT_COL + 1, room,
+                   p->is_finding ? found : value);
 }
 
 static void add_hints(struct editor_panel *p, struct sheet *s)
@@ -427,6 +464,10 @@ static void add_hints(struct editor_panel *p, struct sheet *s)
                                        {NULL, NULL}};
     const struct key_hint *hints = p->control->is_live ? hints_of(p) : to_live;
 
+    if (p->is_typing || p->is_finding) {
+        add_typing_hints(p, s);
+        return;
+    }
     for (int row = 0; row < HINT_ROWS; row++)
         hints = key_hints_draw(WINDOW_PANEL, s->row++, TEXT_COL + 1,
                                s->screen->panel_cols - TEXT_COL - 1, hints);

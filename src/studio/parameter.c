@@ -329,8 +329,12 @@ static struct parameter describe(const struct owner *o, const struct value *v,
 
         p.fraction = fraction_of(scale, number);
         format_number(scale, number, p.text);
+        snprintf(p.takes, sizeof p.takes,
+                 scale->most < RADIANCE_MAX ? "%g to %g" : "from %g",
+                 scale->least, scale->most);
     } else if (row->type == VALUE_CHOICE) {
         p.takes_text = row->expected != NULL;
+        snprintf(p.takes, sizeof p.takes, "a name");
         snprintf(p.text, sizeof p.text, "%.60s",
                  choice_name(o, (uint32_t)v->number));
         p.map = row->is_map ? o->map : MTL_MAPS;
@@ -341,6 +345,8 @@ static struct parameter describe(const struct owner *o, const struct value *v,
                  " %.50s", v->note);
     } else {
         p.has_color = true;
+        snprintf(p.takes, sizeof p.takes, "#rrggbb, r g b%s",
+                 row->type == VALUE_LIGHT_COLOR ? ", 3000K" : "");
         memcpy(p.color, v->rgb, sizeof p.color);
         if (v->number > 0)
             format_number(row->scale, v->number, p.text);

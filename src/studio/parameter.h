@@ -91,6 +91,7 @@ struct parameter {
     double fraction; /* position on the scale, 0 to 1; negative if there is no
                         scale */
     bool takes_text;
+    char takes[32]; /* which text that is, for a hint: "0 to 1" */
     bool has_color;
     double color[3];  /* linear */
     enum mtl_map map; /* that an image is for; MTL_MAPS: none */

@@ -3,23 +3,11 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/file.h"
 #include "terminal/xmalloc.h"
 
 /* ---- rows ---- */
-
-/* Returns true if the text has the letters, in either case. */
-static bool has_letters(const char *text, const char *letters)
-{
-    size_t length = strlen(letters);
-
-    for (; *text != '\0'; text++)
-        if (strncasecmp(text, letters, length) == 0)
-            return true;
-    return length == 0;
-}
 
 /* Returns what is in the column of keys: the ending of a name. */
 static const char *kind_of(const struct scene_file *f)
@@ -38,7 +26,7 @@ static void find(struct scene_list *s)
     for (int i = 0; i < s->files.count; i++) {
         const struct scene_file *f = &s->files.files[i];
 
-        if (!has_letters(f->text, s->list.search))
+        if (strcasestr(f->text, s->list.search) == NULL)
             continue;
         s->found[s->count] = i;
         s->rows[s->count++] = (struct list_row){kind_of(f), f->text, f->group};

@@ -529,13 +529,17 @@ static void draw_panel(struct studio *studio)
     workspace_refresh(&studio->workspace);
 }
 
-/* Selects a new pick in the panel if that is open. */
+/* Time for which a pick is outlined, as its message is shown. */
+#define PICKED_NS (4 * S_NS)
+
+/* Selects a new pick in the panel, and outlines it. */
 static void follow_pick(struct studio *studio)
 {
     struct editor_panel *panel = &studio->workspace.panel;
 
-    if (studio->camera.cursor.is_pick_new && panel->is_open) {
+    if (studio->camera.cursor.is_pick_new) {
         editor_panel_select(panel, &studio->camera.cursor.pick);
+        studio->workspace.picked_until_ns = clock_ns() + PICKED_NS;
         draw_panel(studio);
     }
     studio->camera.cursor.is_pick_new = false;
@@ -608,7 +612,8 @@ static bool list_takes(struct studio *studio, int key, enum action action)
 static bool has_cursor(const struct studio *studio)
 {
     return studio->workspace.screen.has_cursor &&
-           !studio->workspace.panel.is_typing;
+           !studio->workspace.panel.is_typing &&
+           !studio->workspace.panel.is_finding;
 }
 
 static bool cursor_takes(struct studio *studio, int key, enum action action)
@@ -784,8 +789,9 @@ static void take_pasted(struct studio *studio, int key)
         if (is_text)
             workspace_list_key(&studio->workspace, key);
     } else if (panel->is_open && is_text &&
-               (panel->is_typing || (panel->is_in_parameters &&
-                                     keymap_panel_action(key) == PANEL_TYPE))) {
+               (panel->is_typing || panel->is_finding ||
+                (panel->is_in_parameters &&
+                 keymap_panel_action(key) == PANEL_TYPE))) {
         editor_panel_key(panel, key);
         draw_panel(studio);
     } else if (!panel->is_typing) {

@@ -586,8 +586,11 @@ static void outline_selection(struct workspace *workspace)
     struct view_mode *view_mode = &workspace->inspector.view_mode;
     struct world w;
     struct camera camera;
+    bool is_picked = workspace->camera->input.is_orbiting ||
+                     clock_ns() < workspace->picked_until_ns;
 
-    if (!workspace->panel.is_open || !view_mode_world(view_mode, &w))
+    if (!(workspace->panel.is_open || is_picked) ||
+        !view_mode_world(view_mode, &w))
         return;
     camera = view_mode_camera(view_mode, &w.settings.camera, &workspace->frame);
     editor_panel_outline(&workspace->panel, &camera, &workspace->frame);

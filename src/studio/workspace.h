@@ -60,6 +60,7 @@ struct workspace {
     uint64_t frame_ns;  /* when a new frame is due */
     uint64_t status_ns; /* when the status line is formatted next */
     uint64_t facts_ns;  /* when the graph and the window about it are */
+    uint64_t picked_until_ns;   /* the picked object is outlined until then */
     uint64_t filtered_until_ns; /* the status line says so until then */
     int width_px, height_px;    /* size of the picture in this layout */
 };
