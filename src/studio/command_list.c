@@ -7,8 +7,9 @@
 #include "glim/version.h"
 
 /* Commands of the menu after the first row, which goes on. */
-static const enum action menu[] = {ACTION_RESTORE,   ACTION_DROP, ACTION_SAVE,
-                                   ACTION_SAVE_EDIT, ACTION_HELP, ACTION_QUIT};
+static const enum action menu[] = {ACTION_RESTORE,   ACTION_DROP,  ACTION_SAVE,
+                                   ACTION_SAVE_EDIT, ACTION_SCENE, ACTION_HELP,
+                                   ACTION_QUIT};
 
 /* Those at its begin that concern a kept session. */
 #define MENU_KEPT 2

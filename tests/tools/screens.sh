@@ -8,7 +8,6 @@
 set -u
 out=${OUT:-docs/screens}
 glim=$(realpath "${GLIM:-build/release/glim}")
-scene=$(realpath scenes/materials.obj)
 display=:93
 
 for program in Xvfb xterm xdotool import convert; do
@@ -20,6 +19,8 @@ for program in Xvfb xterm xdotool import convert; do
 done
 mkdir -p "$out"
 home=$(mktemp -d)
+mkdir "$home/models"
+cp scenes/materials.* scenes/*.png "$home/models/"
 trap 'kill $server $terminal 2>/dev/null; rm -rf "$home"' EXIT
 terminal=
 Xvfb $display -screen 0 1600x1200x24 >/dev/null 2>&1 &
@@ -36,7 +37,9 @@ objects 1.5 Escape Tab Down Down
 light 1 Tab
 help 1 Escape question
 search 1 n o i s e
-about 4 Escape Escape g
+open 1.5 Escape Escape O
+views 1 Escape k 1 apostrophe
+about 4 Escape g
 compare 1.5 g K Tab Tab Down Down Down Down Down Down Return Down Down parenleft parenleft parenleft parenleft Escape Escape
 differences 5 y
 normals 2 Escape n n
@@ -68,13 +71,14 @@ run()
     theme=$1
     size=$2
     rm -rf "$home/glim" # the session that the last run has left
+    rm -f "$home"/models/*~
     colors="-bg black -fg gray85"
     [ "$theme" = light ] && colors="-bg white -fg black"
     # shellcheck disable=SC2086 # several words
-    XDG_CONFIG_HOME=$home XDG_STATE_HOME=$home XDG_CACHE_HOME=$home \
+    HOME=$home XDG_CONFIG_HOME=$home XDG_STATE_HOME=$home XDG_CACHE_HOME=$home \
         COLORTERM=truecolor xterm -fa 'DejaVu Sans Mono' -fs 10 $colors +sb \
         -b 0 -geometry "$size" -title glim-screens \
-        -e "cd '$home' && '$glim' -t 2 '$scene'" &
+        -e "cd '$home/models' && '$glim' -t 2 materials.obj" &
     terminal=$!
     window=$(xdotool search --sync --onlyvisible --name glim-screens | tail -n 1)
     xdotool windowmove "$window" 0 0 windowfocus "$window"
@@ -87,7 +91,7 @@ run()
 }
 
 for theme in ${THEMES:-dark light}; do
-    for size in ${SIZES:-80x24 120x40}; do
+    for size in ${SIZES:-80x24 160x50}; do
         run $theme $size
     done
 done
