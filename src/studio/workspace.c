@@ -630,15 +630,16 @@ static enum pixel_graphics_pace pace_of(const struct workspace *workspace,
                                            : PIXEL_GRAPHICS_RESTS;
 }
 
-/* A picture has no more pixels than the draft until it rests. A filtered one
- * also waits until noise is less than half of the light: detail above the
+/* A picture has no more pixels than the draft until it rests. Filtered cells
+ * also wait until noise is less than half of the light: detail above the
  * draft's resolution is the film's, and not filtered. */
 static void size_frame(struct workspace *workspace,
                        enum pixel_graphics_pace pace)
 {
     const struct screen *screen = &workspace->screen;
     const struct film_error *e = &workspace->control->progress.film_error;
-    bool is_clean = !workspace->inspector.view_mode.is_filtered ||
+    bool is_clean = screen->graphics.shape.kind != PIXEL_GRAPHICS_NONE ||
+                    !workspace->inspector.view_mode.is_filtered ||
                     (e->is_known && e->error < 0.5);
     bool is_fine = pace == PIXEL_GRAPHICS_RESTS && is_clean;
 
