@@ -105,7 +105,7 @@ wait_until()
     tries=0
     until "$@"; do
         tries=$((tries + 1))
-        [ $tries -lt 90 ] || die "waited for: $*"
+        [ $tries -lt 800 ] || die "waited for: $*"
         [ $tries -lt 20 ] && sleep 0.03 || sleep 0.2
     done
 }

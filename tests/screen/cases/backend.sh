@@ -13,10 +13,11 @@ device_is_there() # and takes its message away
     wait_for "renders; self-test: the CPU's bits"
     keys Escape
     wait_until_gone "renders; self-test"
-    wait_for "LIVE .* OpenCL pthread"
+    wait_for "LIVE  OpenCL "
 }
 start -t 1 flat.obj
-wait_for "LIVE .* 1 thread "
+wait_for "LIVE .* spp"
+reject "OpenCL"
 keys b
 device_is_there
 wait_for_rows 20 "48;2;188;124;0"
@@ -30,13 +31,14 @@ sees_nothing() # a move says it again, if it was missed
 wait_until sees_nothing
 keys Escape
 wait_until_gone "nothing of the scene"
-wait_for "LIVE .* [1-9][0-9]* spp .* OpenCL pthread"
+wait_for "LIVE  OpenCL .* [1-9][0-9]* spp"
 wait_for_rows 20 "48;2;188;124;0"
 keys b
 wait_for "the CPU renders"
 keys Escape
 wait_until_gone "the CPU renders"
-wait_for "LIVE .* 1 thread "
+wait_for "LIVE .* spp"
+reject "OpenCL"
 keys b
 device_is_there
 keys Space b
@@ -47,7 +49,7 @@ fresh
 start --backend opencl -s 3 flat.obj
 device_is_there
 keys Space Enter
-wait_for "NORMAL done  3/3 spp .* OpenCL"
+wait_for "NORMAL done  OpenCL  3/3 spp"
 keys p
 wait_for "saved flat.png 100x50, 3 spp"
 keys C-q

@@ -37,7 +37,7 @@ is_tidy()
         die "beside the scene: $(ls -A scenes)"
     [ "$(ls -A state/glim)" = "$(printf 'recent\nsessions')" ] ||
         die "in the state folder: $(ls -A state/glim)"
-    [ "$(ls -A state/glim/sessions | grep -v '^lock$' | wc -l)" = "$1" ] ||
+    [ "$(ls -A state/glim/sessions | grep -v '^lock$\|png$' | wc -l)" = "$1" ] ||
         die "sessions: $(ls -A state/glim/sessions)"
 }
 shows() # a colour of the picture, as R;G;B

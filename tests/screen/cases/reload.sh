@@ -104,7 +104,7 @@ story() # options: which backend
     sed 's/^res .*/res 50 100/' wall.view | write wall.view
     wait_for "changed: l loads"
     load
-    wait_for "LIVE .* 50x100"
+    wait_for "LIVE .* spp"
     wait_for_rows 20 "$ORANGE"
     [ "$(screen_colors | sed -n 10p | grep -o "${ORANGE}m *" |
         tr -dc ' ' | wc -c)" = 20 ] || die "not laid out anew"
@@ -113,7 +113,7 @@ story() # options: which backend
     fresh
 }
 
-machine="threads*"
+machine="filtered"
 story -t 1
 
 # at once, but not while a render of normal mode would be lost
