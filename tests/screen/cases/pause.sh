@@ -22,7 +22,7 @@ keys Enter 0 # from sample 0 on, and running
 wait_until_gone "paused"
 keys i
 wait_until_gone "LIVE"
-[ -z "$(screen | tr -d ' \n▀▄')" ] || die "not hidden: $(screen)"
+[ -z "$(screen | tr -d ' \n▀▄▂▆▖▗▘▙▚▛▜▝▞▟▌▐')" ] || die "not hidden: $(screen)"
 keys i Enter
 wait_for "LIVE paused"
 keys w # a change goes on
