@@ -42,9 +42,11 @@ keys Escape
 # what is picked is outlined, without the panel, too
 keys Escape Escape
 wait_until_gone "part191"
-is_outlined() # true if some cells have the colour of the outline
+is_outlined() # true if some cells show the colour of the outline
 {
-    screen_colors | grep -q '8;2;255;154;46m'
+    escape=$(printf '\033')
+    screen_colors | grep -Eq \
+        "48;2;255;154;46m|38;2;255;154;46m($escape\[48;[0-9;]*m)?[^ $escape]"
 }
 wait_until eval "! is_outlined"
 keys v Enter
