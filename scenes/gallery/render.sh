@@ -3,7 +3,7 @@
 # render.sh - renders the README's pictures (`make gallery`)
 #
 # Pictures are small and have little noise; this takes some minutes. screen.png,
-# panel.png, compare.png and progress.png were taken from a real terminal and are
+# panel.png, compare.png and open.png were taken from a real terminal and are
 # not made here.
 set -eu
 cd "$(dirname "$0")/../.."
