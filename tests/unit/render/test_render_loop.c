@@ -225,6 +225,8 @@ static void a_film_outlives_drafts(void **state)
     assert_true(render_start(whole, &job, &err));
     assert_true(render_start(kept, &job, &err));
     while (!render_wait(kept, 1)) {
+        uint64_t spp_done = render_progress(kept).spp_done;
+
         other = job;
         other.keeps_film = true;
         other.draft_width = 10 + drafts % 7;
@@ -235,6 +237,7 @@ static void a_film_outlives_drafts(void **state)
             other.limits = (struct render_limits){0};
         }
         assert_true(render_start(kept, &other, &err));
+        assert_true(render_progress(kept).spp_done >= spp_done);
         if (drafts++ % 3 == 0)
             render_wait(kept, -1);
         other.world.settings.sample = SAMPLE_LIGHT;
