@@ -475,11 +475,12 @@ bool view_mode_thumbnail(struct view_mode *s, const struct pose *pose,
         w.settings.sample = SAMPLE_PREVIEW;
         w.settings.features |= FEATURE_AOV;
         aov_of_pixels(s->pool, &w, frame->width, frame->height, numbers);
-        for (size_t i = 0; i < pixels; i++)
-            frame_dot(frame, (double)(i % (size_t)frame->width),
-                      (double)(i / (size_t)frame->width),
-                      false_color(SAMPLE_PREVIEW, numbers + 3 * i,
-                                  (struct number_range){0, 1}));
+        for (int y = 0; y < frame->height; y++)
+            for (int x = 0; x < frame->width; x++)
+                frame_dot(frame, x, y,
+                          false_color(SAMPLE_PREVIEW,
+                                      numbers + 3 * (y * frame->width + x),
+                                      (struct number_range){0, 1}));
     }
     free(numbers);
     return ok;
