@@ -92,11 +92,13 @@ static void studio_set_live(struct studio *studio, bool is_live)
 }
 
 /* Returns true if a render of normal mode has not been saved. Waits for a save
- * in progress. */
+ * in progress only if that may be the render: live mode answers meanwhile. */
 static bool would_lose_render(struct studio *studio)
 {
-    return save_finish(&studio->control) &&
-           live_render_has_unsaved(&studio->control);
+    if (!live_render_has_unsaved(&studio->control))
+        return false;
+    save_finish(&studio->control);
+    return live_render_has_unsaved(&studio->control);
 }
 
 /* One level back, behind those of the parts: removes a message, or opens the

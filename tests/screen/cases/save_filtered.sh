@@ -30,5 +30,11 @@ keys p
 wait_for "saved interior-3.png 480x270, as it is shown"
 awk "BEGIN { exit !(2 * $(relmse interior-3.png) < $noisy) }" ||
     die "with a drawing: $(relmse interior-3.png), with noise $noisy"
-keys Escape C-q
+# live mode can be left while a picture is being saved
+keys Escape
+wait_for "LIVE  filtered"
+keys p Space
+wait_for "NORMAL ready  normal mode"
+wait_for "NORMAL ready  saved interior-4.png"
+keys C-q
 expect_end 0
