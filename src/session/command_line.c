@@ -615,12 +615,13 @@ void options_print_help(FILE *to)
     for (int i = 1; i < COMMAND_COUNT; i++)
         print_line(to, "       glim%s %s", commands[i].name,
                    commands[i].operands);
-    print_lines(to, "\n"
-                    "Path traces an OBJ, glTF, PLY or STL scene, live in the "
-                    "terminal or, with -b, to\n"
-                    "a file. On the screen, ? shows the keys and q quits.\n"
-                    "\n"
-                    "commands\n");
+    print_lines(to,
+                "\n"
+                "Path traces an OBJ, glTF, PLY or STL scene, live in the "
+                "terminal or, with -b, to\n"
+                "a file. On the screen, ? shows the keys and Ctrl-Q quits.\n"
+                "\n"
+                "commands\n");
     for (int i = 1; i < COMMAND_COUNT; i++)
         print_row(to, commands[i].name + 1, commands[i].help);
     for (int i = 0; (rule = option_rule(i)) != NULL; i++)
