@@ -168,6 +168,11 @@ static void change_by(struct editor_panel *p, int steps)
 
     if (id < 0)
         return;
+    if (!selected(p).has_steps) {
+        live_render_say(p->control, "Enter types a colour; the arrows change "
+                                    "the rows below");
+        return;
+    }
     edit_begin_gesture(edit_of(p), GESTURES + (uint32_t)id, clock_ns());
     parameter_step(&p->selection, id, steps);
     take_change(p);

@@ -404,6 +404,9 @@ static const struct key_hint hints_parameters[] = {
     {"Left Right", "change"}, {"( )", "tenfold"}, {"Esc", "back"},
     {"0-9 #", "type"},        {"h", "HSV"},       {"u", "undo"},
     {"^S", "save"},           {NULL, NULL}};
+static const struct key_hint hints_color[] = {
+    {"Enter", "types it"}, {"h", "HSV"},   {"Esc", "back"},
+    {"u", "undo"},         {"^S", "save"}, {NULL, NULL}};
 static const struct key_hint hints_light[] = {{"Left Right", "change"},
                                               {"Ins Del", "new, remove"},
                                               {"Esc", "close"},
@@ -427,9 +430,11 @@ static const struct key_hint *hints_of(struct editor_panel *p)
         return hints_list;
     if (p->selection.page == PAGE_LIGHT)
         return hints_light;
-    return panel_parameters(p, list) > 0 && list[p->parameter].map != MTL_MAPS
-               ? hints_map
-               : hints_parameters;
+    if (panel_parameters(p, list) == 0)
+        return hints_parameters;
+    return list[p->parameter].map != MTL_MAPS ? hints_map
+           : !list[p->parameter].has_steps    ? hints_color
+                                              : hints_parameters;
 }
 
 /* Adds keys while a text is typed, and which text is taken. */

@@ -318,6 +318,7 @@ static struct parameter describe(const struct owner *o, const struct value *v,
     const struct parameter_row *row = o->row;
     struct parameter p = {.label = label_of(o, part),
                           .fraction = -1,
+                          .has_steps = true,
                           .takes_text = true,
                           .map = MTL_MAPS,
                           .texture = NO_INDEX,
@@ -334,7 +335,8 @@ static struct parameter describe(const struct owner *o, const struct value *v,
                  scale->least, scale->most);
     } else if (row->type == VALUE_CHOICE) {
         p.takes_text = row->expected != NULL;
-        snprintf(p.takes, sizeof p.takes, "a name");
+        snprintf(p.takes, sizeof p.takes, "%s",
+                 row->expected != NULL ? row->expected : "");
         snprintf(p.text, sizeof p.text, "%.60s",
                  choice_name(o, (uint32_t)v->number));
         p.map = row->is_map ? o->map : MTL_MAPS;
@@ -345,6 +347,7 @@ static struct parameter describe(const struct owner *o, const struct value *v,
                  " %.50s", v->note);
     } else {
         p.has_color = true;
+        p.has_steps = row->type == VALUE_LIGHT_COLOR;
         snprintf(p.takes, sizeof p.takes, "#rrggbb, r g b%s",
                  row->type == VALUE_LIGHT_COLOR ? ", 3000K" : "");
         memcpy(p.color, v->rgb, sizeof p.color);

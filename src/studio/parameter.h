@@ -90,6 +90,7 @@ struct parameter {
     char text[PARAMETER_TEXT_BYTES];
     double fraction; /* position on the scale, 0 to 1; negative if there is no
                         scale */
+    bool has_steps;  /* false: a colour, only its channels have steps */
     bool takes_text;
     char takes[32]; /* which text that is, for a hint: "0 to 1" */
     bool has_color;

@@ -39,6 +39,10 @@ wait_for "│ 0 to 1$"
 keys Escape Up 0
 wait_for "#rrggbb, r g b"
 keys Escape
+# a colour has no steps, and says so
+expect "Enter types it"
+keys Right
+wait_for "Enter types a colour; the arrows change the rows below"
 # what is picked is outlined, without the panel, too
 keys Escape Escape
 wait_until_gone "part191"

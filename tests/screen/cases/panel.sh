@@ -103,7 +103,9 @@ wait_for "Ins copy"
 keys Tab Tab
 wait_for "─ Sky and picture"
 expect "│>....sun        off"
-keys Right
+keys Enter
+wait_for "│ off or on"
+keys Escape Right
 wait_for "│>....sun        on"
 expect "     elevation  45       █████▌"
 expect "     strength   1"
