@@ -450,7 +450,7 @@ static const struct {
     [QUESTION_RESTART] = {"Unsaved render. Restart it? y: yes, p: save, "
                           "other: no",
                           restart_unasked, 'p', save_render},
-    [QUESTION_NUMBER] = {.text = "Number for this view? 1 to 9, other: none"},
+    [QUESTION_NUMBER] = {.text = "Number for this view? 1 to 9; others cancel"},
     [QUESTION_VIEW] = {NULL, write_view_over, 0, NULL},
     [QUESTION_RESTORE] = {"Unsaved changes. Replace them? y: yes, s: save",
                           go_on_kept, 's', save_and_restore},

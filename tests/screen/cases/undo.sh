@@ -43,7 +43,7 @@ wait_for "LIVE paused"
 keys k
 wait_for "Number for this view"
 wait_until rests # the question has no time limit
-expect "Number for this view"
+expect "Number for this view? 1 to 9; others cancel"
 keys 3
 wait_for "stored as view 3"
 keys k x 4 # the x is no number: nothing is kept
