@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/min_max.h"
@@ -197,7 +198,10 @@ void error_graph_draw(const struct live_render *control, struct screen *screen,
     struct error_graph g = {.cols = int_min(at->cols - LABEL_COLS - 2,
                                             ERROR_GRAPH_COLS),
                             .rows = int_min(at->rows - 2, ERROR_GRAPH_ROWS),
-                            .has_unicode = screen->display.has_unicode};
+                            /* curses writes the graph by the locale's
+                             * characters, whatever the terminal shows */
+                            .has_unicode =
+                                screen->display.has_unicode && MB_CUR_MAX > 1};
     double target = p->error_limit > 0 ? p->error_limit
                                        : error_text_target(p->film_error.high);
     int row = at->row - (term_size().rows - 1); /* the status line is 0 */

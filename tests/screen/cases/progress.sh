@@ -64,6 +64,15 @@ keys C-q
 expect_end 0 cleared
 expect '"percent": null,'
 
+# a terminal that shows Unicode does not change what curses can write
+fresh
+start_line "unset TMUX; LC_ALL=C TERM=xterm-256color glim -t 1 lamp.obj"
+wait_for "LIVE .* spp"
+wait_for "[#|:][#|:]* *[.]*"
+reject "[?][?]"
+keys C-q
+expect_end 0
+
 fresh
 start --stats nowhere/run.json lamp.obj
 wait_for "nowhere: no such file or folder"
