@@ -172,7 +172,8 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
     if (s->has_device)
         snprintf(text[FIELD_DEVICE], FIELD_BYTES, "OpenCL");
     if (s->restore_key)
-        snprintf(text[FIELD_KEPT], FIELD_BYTES, "kept: %.8s", s->restore_key);
+        snprintf(text[FIELD_KEPT], FIELD_BYTES, "kept session: %.8s",
+                 s->restore_key);
     if (s->load_key)
         snprintf(text[FIELD_FILES], FIELD_BYTES, "changed: %.8s loads",
                  s->load_key);

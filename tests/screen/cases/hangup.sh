@@ -30,14 +30,15 @@ has_spp()
 {
     [ -n "$(spp)" ]
 }
-# Nothing is left beside the scene, and no more than one file in the folder.
+# Nothing is left beside the scene, and so many sessions in the folder, which
+# also has the last pictures of scenes.
 is_tidy()
 {
     [ "$(ls -A scenes)" = "$(printf 'lamp.mtl\nlamp.obj\nlamp.view')" ] ||
         die "beside the scene: $(ls -A scenes)"
     [ "$(ls -A state/glim)" = "$(printf 'recent\nsessions')" ] ||
         die "in the state folder: $(ls -A state/glim)"
-    [ "$(ls -A state/glim/sessions | grep -v '^lock$\|png$' | wc -l)" = "$1" ] ||
+    [ "$(ls -A state/glim/sessions | grep -v '^lock$\|\.png$' | wc -l)" = "$1" ] ||
         die "sessions: $(ls -A state/glim/sessions)"
 }
 shows() # a colour of the picture, as R;G;B
@@ -95,7 +96,7 @@ for key in C-q C-c; do
     start scenes/lamp.obj
     wait_for "$asks"
     keys w r
-    wait_for "kept: ^R"
+    wait_for "kept session: ^R"
     keys $key
     wait_for "^exit "
     is_tidy 1
@@ -146,7 +147,7 @@ wait_for "kept: .*unsaved changes; ^R goes on"
 keys C-r
 wait_for "restored: view\|kept: "
 shows '0;255;0'
-wait_for "kept: ^R"
+wait_for "kept session: ^R"
 keys C-r
 wait_for "Unsaved changes. Replace them?"
 keys y
