@@ -192,7 +192,7 @@ static void draw_plot(const struct error_graph *g, int row, int col)
 }
 
 void error_graph_draw(const struct live_render *control, struct screen *screen,
-                      const struct window_rect *at, bool is_filtered)
+                      const struct window_rect *at)
 {
     const struct render_progress *p = &control->progress;
     struct error_graph g = {.cols = int_min(at->cols - LABEL_COLS - 2,
@@ -214,8 +214,7 @@ void error_graph_draw(const struct live_render *control, struct screen *screen,
         ns = 0;
     about_speed(control, right, sizeof right);
     draw_sides(row, at->col + 1, at->cols - 2, ROLE_TEXT,
-               is_filtered ? "noise without the filter" : "noise over time",
-               right);
+               "noise of the samples", right);
     if (error_graph_plot(&g, &control->session->errors, target,
                          ns > 0 ? (ns + (double)p->render_ns) * 1e-9 : 0))
         draw_plot(&g, row + 1, at->col + 1);

@@ -38,9 +38,9 @@ bool error_graph_plot(struct error_graph *g, const struct error_history *errors,
                       double target, double target_s);
 
 /* Draws a graph with a title and axes into `at` of the screen, above the last
- * row. It needs 4 rows and 24 columns. The errors are those without a filter,
- * which the title says of a picture that is filtered. */
+ * row. It needs 4 rows and 24 columns. The errors are those without a filter.
+ */
 void error_graph_draw(const struct live_render *control, struct screen *screen,
-                      const struct window_rect *at, bool is_filtered);
+                      const struct window_rect *at);
 
 #endif

@@ -572,8 +572,7 @@ static void draw_facts(struct workspace *workspace, uint64_t now_ns)
     if (now_ns < workspace->facts_ns || screen->is_too_small)
         return;
     if (keys_bar_room(&workspace->keys_bar, &room))
-        error_graph_draw(workspace->control, screen, &room,
-                         says_filtered(workspace, now_ns));
+        error_graph_draw(workspace->control, screen, &room);
     if (workspace->has_about && !workspace_has_list(workspace))
         about_window_draw(workspace->control, screen);
     workspace->facts_ns =

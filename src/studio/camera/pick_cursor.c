@@ -168,7 +168,9 @@ static void set_pick(struct pick_cursor *cursor, const struct pick *pick)
     cursor->has_pick = cursor->is_pick_new = true;
     set_shown(cursor, false);
     describe(cursor, pick, text);
-    live_render_say(cursor->control, "%s (%s orbit, %s focus, %s frame)", text,
+    live_render_say(cursor->control,
+                    "%s (%s edits, %s orbit, %s focus, %s frame)", text,
+                    live_render_key(cursor->control, ACTION_PANEL).text,
                     live_render_key(cursor->control, ACTION_ORBIT).text,
                     live_render_key(cursor->control, ACTION_FOCUS).text,
                     live_render_key(cursor->control, ACTION_FRAME).text);

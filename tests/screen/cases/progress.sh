@@ -55,7 +55,7 @@ fresh
 size=120x24
 start_line "LC_ALL=C TERM=tmux-256color glim -t 1 --stats - lamp.obj"
 wait_for "LIVE .* spp"
-wait_for "noise [a-z ]*"
+wait_for "noise of the samples"
 wait_for "[#|:][#|:]* *[.]*" # the graph
 keys g
 wait_for "about this render"
