@@ -320,15 +320,20 @@ static void add_parameter(struct editor_panel *p, struct sheet *s,
     char text[LINE_BYTES], value[NAME_BYTES];
     size_t length = strlen(p->typed);
     bool is_typed = is_selected && p->is_typing;
-    enum text_role role = is_selected ? ROLE_SELECTED : ROLE_TEXT;
+    enum text_role role = is_selected     ? ROLE_SELECTED
+                          : v->heads_lamp ? ROLE_TITLE
+                                          : ROLE_TEXT;
+    char label[NAME_BYTES];
 
+    snprintf(label, sizeof label, v->heads_lamp ? "%.20s %u" : "%.20s",
+             v->label, v->lamp + 1);
     text_width_cut(value, sizeof value, v->text,
                    v->fraction >= 0 ? NUMBER_COLS : VALUE_COLS);
     if (is_typed)
-        snprintf(text, sizeof text, "     %-10s %.18s_", v->label,
+        snprintf(text, sizeof text, "     %-10s %.18s_", label,
                  length > 18 ? p->typed + length - 18 : p->typed);
     else
-        snprintf(text, sizeof text, "     %-10s %s", v->label, value);
+        snprintf(text, sizeof text, "     %-10s %s", label, value);
     if (is_selected)
         text[0] = '>';
     add_line(s, role, text);
@@ -428,10 +433,10 @@ static const struct key_hint *hints_of(struct editor_panel *p)
         return hints_images;
     if (!p->is_in_parameters)
         return hints_list;
-    if (p->selection.page == PAGE_LIGHT)
-        return hints_light;
     if (panel_parameters(p, list) == 0)
         return hints_parameters;
+    if (p->selection.page == PAGE_LIGHT && list[p->parameter].has_steps)
+        return hints_light;
     return list[p->parameter].map != MTL_MAPS ? hints_map
            : !list[p->parameter].has_steps    ? hints_color
                                               : hints_parameters;

@@ -374,6 +374,9 @@ int parameters_list(const struct selection *t,
         for (int part = 0; part < parts; part++) {
             assert(count < PARAMETERS_MAX);
             list[count] = describe(&o, &v, part);
+            list[count].heads_lamp =
+                o.lamp_number != NO_INDEX &&
+                (count == 0 || list[count - 1].lamp != o.lamp_number);
             list[count++].id = i * PARTS + part;
         }
     }

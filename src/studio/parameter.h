@@ -98,6 +98,7 @@ struct parameter {
     enum mtl_map map; /* that an image is for; MTL_MAPS: none */
     uint32_t texture; /* the texture that it switches; NO_INDEX: none */
     uint32_t lamp;    /* the light that has it; NO_INDEX: none */
+    bool heads_lamp;  /* it is the first one of that light */
 };
 
 /* Lamps that are listed at most, and room for their parameters. */

@@ -603,6 +603,30 @@ static void check_rgb(const double got[3], double r, double g, double b)
     check_close(got[2], b, 1e-3 * fabs(b));
 }
 
+/* Each lamp has one first row, with its kind. */
+static void lamps_have_a_first_row(void **state)
+{
+    struct fixture s;
+    struct parameter list[PARAMETERS_MAX];
+    uint32_t heads = 0;
+    struct selection selection;
+    int count;
+
+    (void)state;
+    open_fixture(&s);
+    selection = (struct selection){.edit = &s.edit,
+                                   .scene = &s.scene,
+                                   .page = PAGE_LIGHT};
+    count = parameters_list(&selection, list);
+    for (int i = 0; i < count; i++)
+        if (list[i].heads_lamp) {
+            assert_int_equal(list[i].lamp, heads++);
+            assert_true(i == 0 || list[i - 1].lamp != list[i].lamp);
+        }
+    assert_int_equal(heads, s.edit.now.view.lamps.count);
+    close_fixture(&s);
+}
+
 /* A colour keeps the strength, and a strength the colour, of its own lamp. */
 static void typed_values_reach_the_lamp(void **state)
 {
@@ -875,6 +899,7 @@ int main(void)
         cmocka_unit_test(choices_are_cyclic),
         cmocka_unit_test(texts_can_be_typed),
         cmocka_unit_test(typed_values_reach_the_material),
+        cmocka_unit_test(lamps_have_a_first_row),
         cmocka_unit_test(typed_values_reach_the_lamp),
         cmocka_unit_test(typed_numbers_reach_the_lamp),
         cmocka_unit_test(lamps_come_and_go),
