@@ -12,7 +12,7 @@ limit -s 4
 limit -e 20%
 limit -e .2
 limit --time 0.3
-limit --time .005m
+limit --time .02m
 limit -s 4 -e 0.0001% --time 1h
 limit -s 1000000000 -e 20% --time 1h
 limit -s 1000000000 -e 1e-9% --time .3s
