@@ -253,8 +253,14 @@ static bool read_json(struct gltf_document *d, struct gltf_bytes json,
 {
     const char *text = (const char *)json.bytes;
     json_error_t e = {.text = ""};
+    size_t at = 0;
 
     lexer_trim(&text, &json.size_bytes);
+    while (at < json.size_bytes && memchr(" \t\r\n", text[at], 4) != NULL)
+        at++;
+    if (at < json.size_bytes && text[at] != '{' && text[at] != '[')
+        return fail(err, "%s: found no glTF, expected '{' or a GLB header",
+                    d->path);
     if (!take_json(d, json, err))
         return false;
     d->root = json_loadb(text, json.size_bytes, 0, &e);

@@ -64,7 +64,7 @@ wait_for "broken.glb"
 raw_keys "brok"
 wait_for ": brok_"
 keys Enter
-wait_for "broken.glb:1:2: found JSON"
+wait_for "broken.glb: found no glTF"
 expect "─ open a scene ─"
 keys Escape
 expect_end 0
