@@ -141,7 +141,8 @@ static void begin(struct live_render *control, struct session_start start)
         live_render_say_error(control, control->session->notice);
     control->session->notice[0] = '\0';
     control->is_halted = start.steps > 0;
-    control->has_gone_on = start.from != NULL;
+    control->has_gone_on =
+        start.from != NULL || (start.keeps_film && control->has_gone_on);
     control->saved_samples = 0;
     control->saving_samples = 0; /* both counted the old picture */
     if (control->session->files_version != control->watched_version)

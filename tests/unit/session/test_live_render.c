@@ -490,12 +490,14 @@ static void new_drafts_keep_the_samples(void **state)
     live_render_set_live(w, true);
     while (w->progress.spp_done < FILM_YOUNG_SPP)
         live_render_update(w);
+    w->has_gone_on = true;
     for (int i = 0; i < 6; i++) {
         samples = w->progress.samples;
         w->session->sample = i % 2 == 0 ? SAMPLE_NORMAL : SAMPLE_LIGHT;
         w->session->draft_width = 10 + i;
         live_render_renew_draft(w);
         assert_true(w->progress.samples >= samples);
+        assert_true(w->has_gone_on);
         if (i % 2 == 0) /* numbers are shown, however old the film is */
             assert_non_null(render_draft(w->session->engine.render));
         while (live_render_awaits_picture(w))
