@@ -243,16 +243,24 @@ static bool has_ending(const struct scene_format *f, const char *path)
     return false;
 }
 
-const struct scene_format *scene_format_of(const char *path, const char *bytes,
-                                           size_t size_bytes)
+const struct scene_format *scene_format_named(const char *path)
 {
-    for (int i = 0; i < FORMAT_COUNT; i++)
-        if (formats[i].matches != NULL && formats[i].matches(bytes, size_bytes))
-            return &formats[i];
     for (int i = 0; i < FORMAT_COUNT; i++)
         if (has_ending(&formats[i], path))
             return &formats[i];
-    return &formats[0];
+    return NULL;
+}
+
+const struct scene_format *scene_format_of(const char *path, const char *bytes,
+                                           size_t size_bytes)
+{
+    const struct scene_format *named;
+
+    for (int i = 0; i < FORMAT_COUNT; i++)
+        if (formats[i].matches != NULL && formats[i].matches(bytes, size_bytes))
+            return &formats[i];
+    named = scene_format_named(path);
+    return named != NULL ? named : &formats[0];
 }
 
 /* ---- scenes ---- */

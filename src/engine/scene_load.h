@@ -72,6 +72,10 @@ struct scene_format {
 /* Returns the format of this number, from 0, or NULL after the last. */
 const struct scene_format *scene_format_number(uint32_t number);
 
+/* Returns the format with the ending of the file's name, before which .gz is
+ * ignored, or NULL. */
+const struct scene_format *scene_format_named(const char *path);
+
 /* Returns the format of the file: one that its bytes begin, else the one with
  * the ending of its name, before which .gz is ignored, else OBJ. */
 const struct scene_format *scene_format_of(const char *path, const char *bytes,

@@ -393,7 +393,18 @@ static bool fail_memory(const struct frame *frame, struct error *err)
                 frame->width, frame->height);
 }
 
-/* Computes the numbers at the frame's own size. */
+/* Computes the numbers of a kind at the frame's own size. The world is traced,
+ * and its camera that of the frame. */
+static void trace_numbers(struct view_mode *s, enum sample_kind sample,
+                          struct world *w, const struct frame *frame,
+                          float *numbers)
+{
+    w->settings.sample = sample;
+    w->settings.features |= FEATURE_AOV;
+    aov_of_pixels(s->pool, w, frame->width, frame->height, numbers);
+}
+
+/* Computes the numbers of the view at the frame's own size. */
 static bool find_numbers(struct view_mode *s, const struct frame *frame,
                          struct error *err)
 {
@@ -403,9 +414,7 @@ static bool find_numbers(struct view_mode *s, const struct frame *frame,
         return false;
     if (!need_numbers(s, 3 * (size_t)frame->width * (size_t)frame->height))
         return fail_memory(frame, err);
-    w.settings.sample = kinds[s->kind].sample;
-    w.settings.features |= FEATURE_AOV;
-    aov_of_pixels(s->pool, &w, frame->width, frame->height, s->numbers);
+    trace_numbers(s, kinds[s->kind].sample, &w, frame, s->numbers);
     return true;
 }
 
@@ -472,9 +481,7 @@ bool view_mode_thumbnail(struct view_mode *s, const struct pose *pose,
          world_ensure_tree(host, &w, view_mode_pool(s), err);
     if (ok) {
         w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
-        w.settings.sample = SAMPLE_PREVIEW;
-        w.settings.features |= FEATURE_AOV;
-        aov_of_pixels(s->pool, &w, frame->width, frame->height, numbers);
+        trace_numbers(s, SAMPLE_PREVIEW, &w, frame, numbers);
         for (int y = 0; y < frame->height; y++)
             for (int x = 0; x < frame->width; x++)
                 frame_dot(frame, x, y,

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -23,33 +22,12 @@
 
 /* ---- names ---- */
 
-/* Returns true if a name of this length has one of the endings, which are
- * separated by blanks. */
-static bool has_ending(const char *name, size_t length, const char *endings)
-{
-    for (const char *p = endings; *p != '\0'; p += strspn(p, " ")) {
-        size_t end = strcspn(p, " ");
-
-        if (length > end + 1 && name[length - end - 1] == '.' &&
-            strncasecmp(name + length - end, p, end) == 0)
-            return true;
-        p += end;
-    }
-    return false;
-}
-
 bool scene_files_reads(const char *name)
 {
-    size_t length = strlen(name);
-    const struct scene_format *f;
+    const struct scene_format *f = scene_format_named(name);
 
-    if (has_ending(name, length, "gz"))
-        length -= 3;
-    for (uint32_t i = 0; (f = scene_format_number(i)) != NULL; i++)
-        if ((f->missing == NULL || f->missing() == NULL) &&
-            has_ending(name, length, f->endings))
-            return true;
-    return false;
+    return f != NULL && name[0] != '.' &&
+           (f->missing == NULL || f->missing() == NULL);
 }
 
 /* Returns the path with ~ for the user's folder. */
@@ -103,9 +81,9 @@ static void add_entry(struct scene_files *s, const char *folder,
 
     if (stat(path, &found) == 0) {
         is_folder = S_ISDIR(found.st_mode);
-        is_listed = is_folder ? has_folders && name[0] != '.'
-                              : S_ISREG(found.st_mode) && name[0] != '.' &&
-                                    scene_files_reads(name);
+        is_listed = is_folder
+                        ? has_folders && name[0] != '.'
+                        : S_ISREG(found.st_mode) && scene_files_reads(name);
     }
     if (is_listed)
         add(s, path, xformat("%s%s", name, is_folder ? "/" : ""), group,

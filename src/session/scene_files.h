@@ -34,7 +34,7 @@ void scene_files_list(struct scene_files *s, const char *folder);
 void scene_files_free(struct scene_files *s);
 
 /* Returns true if the name of a file ends as those of a format that can be
- * read, perhaps with .gz behind it. */
+ * read, perhaps with .gz behind it, and is not hidden. */
 bool scene_files_reads(const char *name);
 
 /* ---- pictures ---- */

@@ -145,28 +145,16 @@ void command_list_open(struct command_list *p, const struct keymap *keys,
     draw(p, keys, screen);
 }
 
-static enum action take(struct command_list *p, const struct keymap *keys,
-                        struct screen *screen, enum list_result result)
+enum action command_list_take(struct command_list *p, const struct keymap *keys,
+                              struct screen *screen, const struct event *event)
 {
+    struct list_row rows[COMMANDS_MAX];
+    enum list_result result;
+
+    rows_of(p, rows);
+    result = list_window_take(&p->list, event, rows, p->count);
     if (result == LIST_STAYS)
         draw(p, keys, screen);
     return result == LIST_CHOSEN ? p->commands[p->list.selected].action
                                  : ACTION_NONE;
-}
-
-enum action command_list_key(struct command_list *p, const struct keymap *keys,
-                             struct screen *screen, int key)
-{
-    return take(p, keys, screen, list_window_key(&p->list, key, p->count));
-}
-
-enum action command_list_mouse(struct command_list *p,
-                               const struct keymap *keys, struct screen *screen,
-                               const struct event *event)
-{
-    struct list_row rows[COMMANDS_MAX];
-
-    rows_of(p, rows);
-    return take(p, keys, screen,
-                list_window_mouse(&p->list, event, rows, p->count));
 }

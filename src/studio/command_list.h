@@ -36,10 +36,7 @@ void command_list_find(struct command_list *p, const struct keymap *keys);
 
 /* Takes a key or the mouse. Returns the action of a command that is chosen, or
  * ACTION_NONE. */
-enum action command_list_key(struct command_list *p, const struct keymap *keys,
-                             struct screen *screen, int key);
-enum action command_list_mouse(struct command_list *p,
-                               const struct keymap *keys, struct screen *screen,
-                               const struct event *event);
+enum action command_list_take(struct command_list *p, const struct keymap *keys,
+                              struct screen *screen, const struct event *event);
 
 #endif

@@ -347,12 +347,10 @@ void comparison_keep(struct comparison *c, struct frame *shown)
     drop_others(c);
     if (p->samples == 0) {
         live_render_say(c->control, "nothing to keep yet");
-        frame_free(shown);
         return;
     }
     if (!snapshot_take(&kept, film_of(c), &err)) {
         live_render_say_error(c->control, err.text);
-        frame_free(shown);
         return;
     }
     while (c->count == COMPARISON_KEPT_MAX ||

@@ -111,8 +111,8 @@ struct comparison {
 void comparison_init(struct comparison *c, struct live_render *control);
 
 /* Keeps the present render and compares with it. The oldest one goes if there
- * are too many. Takes the frame that shows it filtered, for the wipe; one
- * without pixels: it is not filtered. */
+ * are too many. Takes the frame that shows it filtered, for the wipe, unless
+ * nothing is kept; one without pixels: it is not filtered. */
 void comparison_keep(struct comparison *c, struct frame *shown);
 
 /* Shows the wipe, then the differences, then neither. */

@@ -269,7 +269,7 @@ enum list_result list_window_key(struct list_window *l, int key, int count)
     return LIST_STAYS;
 }
 
-enum list_result list_window_mouse(struct list_window *l,
+static enum list_result take_mouse(struct list_window *l,
                                    const struct event *event,
                                    const struct list_row *rows, int count)
 {
@@ -288,4 +288,12 @@ enum list_result list_window_mouse(struct list_window *l,
         return LIST_STAYS;
     l->selected = line.row;
     return leave(l, LIST_CHOSEN);
+}
+
+enum list_result list_window_take(struct list_window *l,
+                                  const struct event *event,
+                                  const struct list_row *rows, int count)
+{
+    return event->kind == EVENT_KEY ? list_window_key(l, event->key, count)
+                                    : take_mouse(l, event, rows, count);
 }

@@ -62,9 +62,9 @@ enum list_result {
 /* Takes a key. Esc ends a search first. */
 enum list_result list_window_key(struct list_window *l, int key, int count);
 
-/* Takes the mouse. A press outside of the window closes it. */
-enum list_result list_window_mouse(struct list_window *l,
-                                   const struct event *event,
-                                   const struct list_row *rows, int count);
+/* Takes a key or the mouse. A press outside of the window closes it. */
+enum list_result list_window_take(struct list_window *l,
+                                  const struct event *event,
+                                  const struct list_row *rows, int count);
 
 #endif

@@ -81,9 +81,11 @@ void scene_list_open(struct scene_list *s, struct screen *screen)
     draw(s, screen);
 }
 
-static char *take(struct scene_list *s, struct screen *screen,
-                  enum list_result result)
+char *scene_list_take(struct scene_list *s, struct screen *screen,
+                      const struct event *event)
 {
+    enum list_result result =
+        list_window_take(&s->list, event, s->rows, s->count);
     const struct scene_file *f;
     char *path;
 
@@ -100,18 +102,6 @@ static char *take(struct scene_list *s, struct screen *screen,
     free(path);
     scene_list_open(s, screen);
     return NULL;
-}
-
-char *scene_list_key(struct scene_list *s, struct screen *screen, int key)
-{
-    return take(s, screen, list_window_key(&s->list, key, s->count));
-}
-
-char *scene_list_mouse(struct scene_list *s, struct screen *screen,
-                       const struct event *event)
-{
-    return take(s, screen,
-                list_window_mouse(&s->list, event, s->rows, s->count));
 }
 
 void scene_list_free(struct scene_list *s)

@@ -27,11 +27,10 @@ struct scene_list {
 /* Opens the window, for the first time or after a new layout. */
 void scene_list_open(struct scene_list *s, struct screen *screen);
 
-/* Take a key or the mouse. Return the path of a scene that is chosen, for
+/* Takes a key or the mouse. Returns the path of a scene that is chosen, for
  * free(), or NULL. Folders are entered; the window may close. */
-char *scene_list_key(struct scene_list *s, struct screen *screen, int key);
-char *scene_list_mouse(struct scene_list *s, struct screen *screen,
-                       const struct event *event);
+char *scene_list_take(struct scene_list *s, struct screen *screen,
+                      const struct event *event);
 
 void scene_list_free(struct scene_list *s);
 

@@ -75,10 +75,9 @@ static bool take_event(void *context, const struct event *event)
         end(s, 0);
     else if (action == ACTION_ABORT)
         end(s, 128 + SIGQUIT);
-    else if (is_list && event->kind == EVENT_KEY)
-        s->path = scene_list_key(&s->scenes, &s->screen, event->key);
-    else if (is_list && event->kind == EVENT_MOUSE)
-        s->path = scene_list_mouse(&s->scenes, &s->screen, event);
+    else if (is_list &&
+             (event->kind == EVENT_KEY || event->kind == EVENT_MOUSE))
+        s->path = scene_list_take(&s->scenes, &s->screen, event);
     else if (screen_answer(&s->screen, event))
         lay_out(s);
     if (s->path != NULL || (is_list && !s->scenes.list.is_open))

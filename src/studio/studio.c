@@ -602,11 +602,16 @@ static void open_chosen(struct studio *studio)
     studio_quit(studio);
 }
 
+static void take_list(struct studio *studio, const struct event *event)
+{
+    studio_run(studio, workspace_take_list(&studio->workspace, event));
+    open_chosen(studio);
+}
+
 static bool list_takes(struct studio *studio, int key, enum action action)
 {
     (void)action;
-    studio_run(studio, workspace_list_key(&studio->workspace, key));
-    open_chosen(studio);
+    take_list(studio, &(struct event){.kind = EVENT_KEY, .key = key});
     return true;
 }
 
@@ -789,7 +794,7 @@ static void take_pasted(struct studio *studio, int key)
 
     if (has_list(studio)) {
         if (is_text)
-            workspace_list_key(&studio->workspace, key);
+            list_takes(studio, key, ACTION_NONE);
     } else if (panel->is_open && is_text &&
                (panel->is_typing || panel->is_finding ||
                 (panel->is_in_parameters &&
@@ -816,12 +821,6 @@ static bool wipe_takes(struct studio *studio, const struct event *event)
     return true;
 }
 
-static void take_list_mouse(struct studio *studio, const struct event *event)
-{
-    studio_run(studio, workspace_list_mouse(&studio->workspace, event));
-    open_chosen(studio);
-}
-
 static void take_mouse(struct studio *studio, const struct event *event)
 {
     enum action hint =
@@ -834,7 +833,7 @@ static void take_mouse(struct studio *studio, const struct event *event)
         return;
     }
     if (has_list(studio))
-        take_list_mouse(studio, event);
+        take_list(studio, event);
     else if (editor_panel_mouse(&studio->workspace.panel, event))
         draw_panel(studio);
     else if (!wipe_takes(studio, event))

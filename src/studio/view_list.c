@@ -92,30 +92,19 @@ bool view_list_open(struct view_list *v, struct screen *screen)
     return true;
 }
 
-static enum action take(struct view_list *v, struct screen *screen,
-                        enum list_result result)
+enum action view_list_take(struct view_list *v, struct screen *screen,
+                           const struct event *event)
 {
     struct list_row rows[VIEW_SHOTS];
+    enum list_result result;
 
+    find(v, rows);
+    result = list_window_take(&v->list, event, rows, v->count);
     if (result == LIST_STAYS)
         draw(v, screen, rows);
     return result == LIST_CHOSEN
                ? (enum action)(ACTION_VIEW_1 + v->numbers[v->list.selected])
                : ACTION_NONE;
-}
-
-enum action view_list_key(struct view_list *v, struct screen *screen, int key)
-{
-    return take(v, screen, list_window_key(&v->list, key, v->count));
-}
-
-enum action view_list_mouse(struct view_list *v, struct screen *screen,
-                            const struct event *event)
-{
-    struct list_row rows[VIEW_SHOTS];
-
-    find(v, rows);
-    return take(v, screen, list_window_mouse(&v->list, event, rows, v->count));
 }
 
 void view_list_free(struct view_list *v)

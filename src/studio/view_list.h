@@ -27,11 +27,10 @@ struct view_list {
  * there are no views. */
 bool view_list_open(struct view_list *v, struct screen *screen);
 
-/* Take a key or the mouse. Return the action of a view that is chosen, or
+/* Takes a key or the mouse. Returns the action of a view that is chosen, or
  * ACTION_NONE. */
-enum action view_list_key(struct view_list *v, struct screen *screen, int key);
-enum action view_list_mouse(struct view_list *v, struct screen *screen,
-                            const struct event *event);
+enum action view_list_take(struct view_list *v, struct screen *screen,
+                           const struct event *event);
 
 void view_list_free(struct view_list *v);
 

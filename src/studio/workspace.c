@@ -254,6 +254,7 @@ void workspace_keep_render(struct workspace *workspace)
         frame_init(&shown, frame->width, frame->height, &ignored))
         inspector_picture(inspector, &shown);
     comparison_keep(&workspace->comparison, &shown);
+    frame_free(&shown); /* if it was not taken */
 }
 
 void workspace_next_drawing(struct workspace *workspace)
@@ -395,46 +396,33 @@ void workspace_open_views(struct workspace *workspace)
     open_window(workspace);
 }
 
-/* Closes the window of a list that is closed. */
-static enum action end_list(struct workspace *workspace, enum action chosen)
+static enum action take_list(struct workspace *workspace,
+                             const struct event *event)
 {
-    if (!workspace_has_list(workspace)) {
+    struct screen *screen = &workspace->screen;
+
+    if (workspace->scenes.list.is_open) {
+        workspace->chosen_scene =
+            scene_list_take(&workspace->scenes, screen, event);
+        return ACTION_NONE;
+    }
+    if (workspace->views.list.is_open)
+        return view_list_take(&workspace->views, screen, event);
+    return command_list_take(&workspace->commands, keys_of(workspace), screen,
+                             event);
+}
+
+enum action workspace_take_list(struct workspace *workspace,
+                                const struct event *event)
+{
+    enum action chosen = take_list(workspace, event);
+
+    if (!workspace_has_list(workspace)) { /* it has closed */
         screen_close_window(&workspace->screen);
         open_window(workspace);
         workspace_refresh(workspace);
     }
     return chosen;
-}
-
-enum action workspace_list_key(struct workspace *workspace, int key)
-{
-    if (workspace->scenes.list.is_open) {
-        workspace->chosen_scene =
-            scene_list_key(&workspace->scenes, &workspace->screen, key);
-        return end_list(workspace, ACTION_NONE);
-    }
-    if (workspace->views.list.is_open)
-        return end_list(workspace, view_list_key(&workspace->views,
-                                                 &workspace->screen, key));
-    return end_list(workspace,
-                    command_list_key(&workspace->commands, keys_of(workspace),
-                                     &workspace->screen, key));
-}
-
-enum action workspace_list_mouse(struct workspace *workspace,
-                                 const struct event *event)
-{
-    if (workspace->scenes.list.is_open) {
-        workspace->chosen_scene =
-            scene_list_mouse(&workspace->scenes, &workspace->screen, event);
-        return end_list(workspace, ACTION_NONE);
-    }
-    if (workspace->views.list.is_open)
-        return end_list(workspace, view_list_mouse(&workspace->views,
-                                                   &workspace->screen, event));
-    return end_list(workspace,
-                    command_list_mouse(&workspace->commands, keys_of(workspace),
-                                       &workspace->screen, event));
 }
 
 /* ---- drawing ---- */

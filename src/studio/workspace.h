@@ -121,11 +121,10 @@ void workspace_open_views(struct workspace *workspace);
 /* Returns true if a list is open. */
 bool workspace_has_list(const struct workspace *workspace);
 
-/* Give a key or the mouse to the open list. Return the action of a command that
- * is chosen, or ACTION_NONE. */
-enum action workspace_list_key(struct workspace *workspace, int key);
-enum action workspace_list_mouse(struct workspace *workspace,
-                                 const struct event *event);
+/* Gives a key or the mouse to the open list. Returns the action of a command
+ * that is chosen, or ACTION_NONE. */
+enum action workspace_take_list(struct workspace *workspace,
+                                const struct event *event);
 
 /* Takes a scene that was loaded anew; what had these names stays selected. */
 void workspace_renew(struct workspace *workspace,

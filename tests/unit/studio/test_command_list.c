@@ -140,7 +140,7 @@ static enum list_result press(struct list_window *l, int x, int y)
                           .y = y};
 
     l->is_open = true;
-    return list_window_mouse(l, &event, rows, 3);
+    return list_window_take(l, &event, rows, 3);
 }
 
 static void the_mouse_chooses(void **state)
