@@ -61,6 +61,7 @@ wait_until_gone "go on"
 # a press of the mouse runs a command: rows count from 1
 keys Escape
 wait_for "Esc *go on"
+wait_for "all commands and keys" # all of the menu is there
 y=$(screen | grep -n "all commands and keys" | cut -d: -f1)
 raw_keys "$(printf '\033[<0;60;%dM\033[<0;60;%dm' "$y" "$y")"
 wait_for "move forward"
