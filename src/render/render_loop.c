@@ -35,7 +35,9 @@
 
 struct render_films {
     struct film film;
-    struct film draft;        /* width 0: there is no draft */
+    struct film drafts[2];
+    struct film *draft;       /* one of them; width 0: there is no draft */
+    struct film *old_draft;   /* shown until the draft is whole; or width 0 */
     struct adaptive adaptive; /* empty: the render is not adaptive */
     struct light_block light; /* of light paths, for the film */
 };
@@ -148,6 +150,15 @@ static void take_file(struct render_films *f, struct film_file *from)
     a->is_decided = true;
 }
 
+/* Keeps the draft, which is whole, as the old one. */
+static void keep_draft(struct render_films *f)
+{
+    struct film *draft = f->draft;
+
+    f->draft = f->old_draft;
+    f->old_draft = draft;
+}
+
 /* Clears the films for a new picture, with the sizes that the job wants. */
 static bool render_films_reset(struct render_films *f,
                                const struct render_job *job, struct error *err)
@@ -155,7 +166,7 @@ static bool render_films_reset(struct render_films *f,
     if (!(job->keeps_film ||
           reset_film(&f->film, job->crop.width, job->crop.height,
                      has_surfaces(job), err)) ||
-        !reset_draft(&f->draft, job, err) ||
+        !reset_draft(f->draft, job, err) ||
         !reset_adaptive(&f->adaptive, job, err))
         return false;
     f->film.first_sample = job->first_sample;
@@ -172,7 +183,7 @@ static struct world render_films_draft_world(const struct render_films *f,
     struct world w = job->world;
     struct projection_part part = {job->crop.x,     job->crop.y,
                                    job->crop.width, job->crop.height,
-                                   f->draft.width,  f->draft.height};
+                                   f->draft->width,  f->draft->height};
 
     w.settings.camera = projection_camera(&w.settings.camera, &part);
     w.settings.order = ORDER_DRAFT;
@@ -196,7 +207,8 @@ static uint64_t render_films_draft_spp(const struct render_job *job)
 {
     if (!render_films_want_light(job))
         return 1;
-    return job->draft_has_surfaces ? DRAFT_HALVES_SPP : DRAFT_SPP;
+    return job->draft_has_surfaces && !job->draft_is_fine ? DRAFT_HALVES_SPP
+                                                          : DRAFT_SPP;
 }
 
 /* Copies counters and sizes into the progress, whose limits are set. */
@@ -207,7 +219,7 @@ static void render_films_count(const struct render_films *f,
     p->pixels = (uint64_t)f->film.width * (uint64_t)f->film.height;
     p->samples = atomic_load(&f->film.samples);
     p->samples_limit = p->spp_limit * p->pixels;
-    p->draft_samples = atomic_load(&f->draft.samples);
+    p->draft_samples = atomic_load(&f->draft->samples);
     p->rays = atomic_load(&f->film.rays);
     p->non_finite = atomic_load(&f->film.non_finite);
     p->saturated = atomic_load(&f->film.saturated);
@@ -217,7 +229,8 @@ static void render_films_count(const struct render_films *f,
 static void render_films_free(struct render_films *f)
 {
     film_free(&f->film);
-    film_free(&f->draft);
+    film_free(&f->drafts[0]);
+    film_free(&f->drafts[1]);
     adaptive_free(&f->adaptive);
     light_block_free(&f->light);
 }
@@ -313,7 +326,7 @@ static enum pass_result run_draft(struct render *r)
     enum pass_result result =
         begin(r, &(struct backend_picture){.host = r->job.host,
                                            .world = &world,
-                                           .film = &r->films.draft});
+                                           .film = r->films.draft});
 
     while (result == PASS_DONE && *spp_done < spp)
         result =
@@ -567,7 +580,7 @@ static enum pass_result render_run(struct render *r)
 {
     enum pass_result result = load(r);
 
-    if (result == PASS_DONE && r->films.draft.width > 0 &&
+    if (result == PASS_DONE && r->films.draft->width > 0 &&
         r->draft_spp_done < render_films_draft_spp(&r->job))
         result = run_draft(r);
     return result == PASS_DONE && render_films_want_light(&r->job) ? run_film(r)
@@ -626,6 +639,8 @@ struct render *render_create(struct backend *backend, struct error *err)
         return NULL;
     }
     r->backend = backend;
+    r->films.draft = &r->films.drafts[0];
+    r->films.old_draft = &r->films.drafts[1];
     r->event_fd = event_fd_open("render", err);
     if (r->event_fd < 0) {
         free(r);
@@ -688,6 +703,11 @@ bool render_start(struct render *r, const struct render_job *job,
                   struct error *err)
 {
     render_halt(r);
+    if (!job->keeps_film || !job->draft_has_surfaces ||
+        !r->job.draft_has_surfaces)
+        film_free(r->films.old_draft);
+    else if (r->draft_spp_done > 0)
+        keep_draft(&r->films);
     if (!render_films_reset(&r->films, job, err))
         return false;
     r->job = *job;
@@ -787,7 +807,7 @@ struct render_progress render_progress(struct render *r)
                        ? r->cut_error
                        : r->film_error;
     p.trend = r->trend;
-    p.draft_is_coarse = r->films.draft.width > 0 && r->draft_spp_done == 0;
+    p.draft_is_coarse = r->films.draft->width > 0 && r->draft_spp_done == 0;
     if (r->state == RENDER_FAILED)
         p.error = r->error;
     pthread_mutex_unlock(&r->lock);
@@ -810,25 +830,40 @@ struct film *render_film(struct render *r)
     return &r->films.film;
 }
 
+/* Returns the draft, or the one before it until each pixel has a sample, which
+ * may have no pixels. */
+static struct film *shown_draft(struct render *r)
+{
+    struct render_films *f = &r->films;
+    bool is_whole;
+
+    pthread_mutex_lock(&r->lock);
+    is_whole = r->draft_spp_done > 0;
+    pthread_mutex_unlock(&r->lock);
+    return is_whole || f->old_draft->width == 0 ? f->draft : f->old_draft;
+}
+
 struct film *render_draft(struct render *r)
 {
+    struct film *draft = shown_draft(r);
     bool is_shown;
 
     pthread_mutex_lock(&r->lock);
     is_shown =
         r->spp_done < FILM_YOUNG_SPP || !render_films_want_light(&r->job);
     pthread_mutex_unlock(&r->lock);
-    return is_shown && r->films.draft.width > 0 ? &r->films.draft : NULL;
+    return is_shown && draft->width > 0 ? draft : NULL;
 }
 
 struct film *render_surfaces(struct render *r)
 {
+    struct film *draft = shown_draft(r);
     bool is_whole;
 
     pthread_mutex_lock(&r->lock);
-    is_whole = r->draft_spp_done > 0;
+    is_whole = draft == r->films.old_draft || r->draft_spp_done > 0;
     pthread_mutex_unlock(&r->lock);
-    return is_whole && r->films.draft.surfaces != NULL ? &r->films.draft : NULL;
+    return is_whole && draft->surfaces != NULL ? draft : NULL;
 }
 
 void render_set_backend(struct render *r, struct backend *backend)

@@ -48,6 +48,8 @@ struct render_job {
      * of the crop if larger. There is no draft if either is 0. */
     int draft_width, draft_height;
     bool draft_has_surfaces; /* for the filter of the screen */
+    /* the draft has fewer samples: its film has enough light already */
+    bool draft_is_fine;
     /* the picture is that of the job before, but for the draft and the kind of
      * samples: its film stays, and is gone on with when light is rendered */
     bool keeps_film;
@@ -140,7 +142,8 @@ struct film *render_film(struct render *r);
 
 /* Returns the draft, which film_preview() adds to the film, or NULL if there is
  * none or the film has FILM_YOUNG_SPP samples, unless the draft has numbers. It
- * is valid until the next render_start(). */
+ * is valid until the next render_start(). A draft with surfaces of a job that
+ * keeps the film is that of the job before until each pixel has a sample. */
 struct film *render_draft(struct render *r);
 
 /* Returns the draft if it has surfaces, in a film of any age, for

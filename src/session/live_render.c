@@ -9,12 +9,17 @@
 
 #include "base/clock.h"
 #include "base/print.h"
+#include "kernels/rng.h"
 #include "render/error_text.h"
 #include "terminal/xmalloc.h"
 
 /* Limit of the wait for the draft's first whole pass: half a frame at 60 Hz, to
  * show a better first picture. */
 #define DRAFT_WAIT_NS UINT64_C(8000000)
+
+/* A picture counts as moving until this time after a restart: keys that are
+ * held come again within it. */
+#define REST_NS UINT64_C(400000000)
 
 /* Time without changes before a reload: editors and exporters write several
  * files, or one file in several steps. */
@@ -128,27 +133,47 @@ static void wait_copied(struct live_render *control)
     background_wait_copied(&control->keeping.copying);
 }
 
+bool live_render_rests(const struct live_render *control)
+{
+    return clock_ns() >= control->changed_ns + REST_NS;
+}
+
+bool live_render_wants_fine_draft(const struct live_render *control)
+{
+    const struct session *s = control->session;
+    const struct render_progress *p = &control->progress;
+    uint64_t pixels = (uint64_t)s->fine_width * (uint64_t)s->fine_height;
+
+    return control->is_live && live_render_rests(control) && pixels > 0 &&
+           p->samples >= pixels * DRAFT_SPP;
+}
+
 /* Starts a picture within the limits of the mode. */
 static void begin(struct live_render *control, struct session_start start)
 {
+    struct session *s = control->session;
+    bool is_same = start.keeps_film && !session_is_outdated(s);
     struct error err;
 
     wait_copied(control);
     start.limits = limits_of(control);
-    if (!session_start(control->session, &start, &err))
+    start.draft_is_fine = live_render_wants_fine_draft(control);
+    if (!session_start(s, &start, &err))
         live_render_say_error(control, err.text);
-    if (control->session->notice[0] != '\0')
-        live_render_say_error(control, control->session->notice);
-    control->session->notice[0] = '\0';
+    if (s->notice[0] != '\0')
+        live_render_say_error(control, s->notice);
+    s->notice[0] = '\0';
     control->is_halted = start.steps > 0;
     control->has_gone_on =
         start.from != NULL || (start.keeps_film && control->has_gone_on);
     control->saved_samples = 0;
     control->saving_samples = 0; /* both counted the old picture */
-    if (control->session->files_version != control->watched_version)
+    if (s->files_version != control->watched_version)
         watch_files(control); /* another sky image */
     control->restarted_ns = clock_ns();
-    control->progress = render_progress(control->session->engine.render);
+    if (!is_same)
+        control->changed_ns = control->restarted_ns;
+    control->progress = render_progress(s->engine.render);
     control->progress.first_picture_ns = 0; /* found by the next update */
 }
 
@@ -167,7 +192,8 @@ bool live_render_init(struct live_render *control, struct session *session,
 {
     *control = (struct live_render){.session = session,
                                     .is_live = true,
-                                    .restarted_ns = clock_ns()};
+                                    .restarted_ns = clock_ns(),
+                                    .changed_ns = clock_ns()};
     if (!session_restart(session, limits_of(control), err) ||
         !save_thread_init(&control->saver, err))
         return false;

@@ -51,6 +51,7 @@ struct live_render {
     uint64_t files_ns;
     uint32_t watched_version; /* session.files_version of the watch */
     uint64_t restarted_ns;
+    uint64_t changed_ns; /* of the last start of another picture */
 
     uint64_t saved_samples;  /* samples of this picture when last saved */
     uint64_t saving_samples; /* samples that are being saved */
@@ -130,8 +131,17 @@ void live_render_step(struct live_render *control);
 /* Restarts the render. Discards the picture of normal mode. */
 void live_render_restart(struct live_render *control);
 
+/* Returns true if the picture has been the same for so long that it does not
+ * move. */
+bool live_render_rests(const struct live_render *control);
+
+/* Returns true if a fine draft of this picture is worth its time: it rests, and
+ * the film has as many samples as such a draft. */
+bool live_render_wants_fine_draft(const struct live_render *control);
+
 /* Renders the draft of live mode anew, for another size of the screen or
- * another kind of samples. The film's samples stay. */
+ * another kind of samples; a fine one if that is wanted. The film's samples
+ * stay, and the draft before is shown until this one is whole. */
 void live_render_renew_draft(struct live_render *control);
 
 /* Restarts in a mode. With the film of an autosaved session, of the same

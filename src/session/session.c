@@ -157,10 +157,12 @@ bool session_check_output(const struct session *s, const char *option,
 }
 
 /* Completes the job of live mode, which begins with a draft. */
-static void add_draft(struct session *s, struct render_job *job)
+static void add_draft(struct session *s, bool is_fine, struct render_job *job)
 {
-    job->draft_width = s->draft_width;
-    job->draft_height = s->draft_height;
+    job->draft_width = is_fine ? s->fine_width : s->draft_width;
+    job->draft_height = is_fine ? s->fine_height : s->draft_height;
+    s->draft_is_fine = is_fine;
+    job->draft_is_fine = is_fine;
     s->draft_has_surfaces = s->is_filtered && s->sample == SAMPLE_LIGHT;
     job->draft_has_surfaces = s->draft_has_surfaces;
     if (s->sample == SAMPLE_LIGHT)
@@ -192,7 +194,7 @@ bool session_start(struct session *s, const struct session_start *start,
     job.keeps_film = keeps;
     request = engine_request(e, job.world.settings.features);
     if (is_live)
-        add_draft(s, &job);
+        add_draft(s, keeps && start->draft_is_fine, &job);
     s->restart_ns = clock_ns();
     if (!keeps) {
         s->speeds = (struct speeds){0};

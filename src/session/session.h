@@ -31,11 +31,14 @@ struct session {
     uint64_t load_ns;
     /* time of the last session_start() */
     uint64_t restart_ns;
-    /* size of the draft for live mode, in pixels; 0: no draft */
+    /* sizes of drafts for live mode, in pixels; 0: no draft. A picture that
+     * rests has a fine draft. */
     int draft_width, draft_height;
+    int fine_width, fine_height;
     enum sample_kind sample; /* samples to be shown in live mode */
     bool is_filtered;        /* the screen's picture is to be filtered */
-    bool draft_has_surfaces; /* of the last restart in live mode */
+    /* of the last start in live mode */
+    bool draft_has_surfaces, draft_is_fine;
     /* measured since restart_ns */
     struct speeds speeds;
     struct error_history errors;
@@ -79,6 +82,7 @@ struct session_start {
     /* live mode as before, but for the draft's size and the kind of samples:
      * the film stays if the edit has not changed */
     bool keeps_film;
+    bool draft_is_fine; /* of a film that is kept */
 };
 
 /* Halts and starts with the shown state of the edit. */

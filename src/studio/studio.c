@@ -481,6 +481,8 @@ static const char *question_text(struct studio *studio, enum question question)
 static void question_ask(struct studio *studio, enum question question)
 {
     studio->question = question;
+    if (question != QUESTION_NONE)
+        workspace_close_list(&studio->workspace);
     workspace_ask(&studio->workspace, question_text(studio, question));
 }
 

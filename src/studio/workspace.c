@@ -43,10 +43,6 @@
  * time: the first frames after a move of the camera are not. */
 #define FILTERED_NS S_NS
 
-/* A picture counts as moving until this time after a restart: keys that are
- * held come again within it. */
-#define REST_NS (400 * MS_NS)
-
 /* A frame that takes longer is cancelled when there is input. Frames of common
  * windows take less. */
 #define PATIENCE_NS (30 * MS_NS)
@@ -65,14 +61,15 @@ static void screen_draft_expect(struct session *s, const struct cells_rect *fit)
     s->draft_height = 2 * fit->rows;
 }
 
-/* Returns true if the draft has the size that the next one will have. */
-static bool is_current(const struct session *s, const struct film *draft)
+/* Returns true if the draft has this size. */
+static bool has_size(const struct session *s, const struct film *draft,
+                     int width, int height)
 {
-    return draft->width == int_min(s->draft_width, s->engine.crop.width) &&
-           draft->height == int_min(s->draft_height, s->engine.crop.height);
+    return draft->width == int_min(width, s->engine.crop.width) &&
+           draft->height == int_min(height, s->engine.crop.height);
 }
 
-/* Sets the draft's size for the present layout of the screen, which the filter
+/* Sets the drafts' sizes for the present layout of the screen, which the filter
  * decides when it is on. The filter needs a draft of this size at once; other
  * drafts are resampled until the next restart. */
 static void screen_draft_fit(struct live_render *control,
@@ -86,10 +83,26 @@ static void screen_draft_fit(struct live_render *control,
         s->draft_width = screen->moving_width;
         s->draft_height = screen->moving_height;
     }
+    screen_filter_draft_size(screen->frame_width, screen->frame_height,
+                             SCREEN_FILTER_PIXELS, &s->fine_width, &s->fine_height);
     if (draft == NULL)
         draft = render_draft(s->engine.render);
     if (!control->is_halted && s->draft_has_surfaces && draft != NULL &&
-        !screen->is_too_small && !is_current(s, draft))
+        !screen->is_too_small &&
+        !has_size(s, draft, s->draft_width, s->draft_height) &&
+        !has_size(s, draft, s->fine_width, s->fine_height))
+        live_render_renew_draft(control);
+}
+
+/* Renders a fine draft of a filtered picture that has only a small one. */
+static void screen_draft_refine(struct live_render *control)
+{
+    const struct session *s = control->session;
+    const struct film *draft = render_surfaces(s->engine.render);
+
+    if (draft != NULL && s->is_filtered && !s->draft_is_fine &&
+        !control->is_halted && live_render_wants_fine_draft(control) &&
+        !has_size(s, draft, s->fine_width, s->fine_height))
         live_render_renew_draft(control);
 }
 
@@ -412,17 +425,32 @@ static enum action take_list(struct workspace *workspace,
                              event);
 }
 
+/* Shows what was there before a list. */
+static void end_list(struct workspace *workspace)
+{
+    screen_close_window(&workspace->screen);
+    open_window(workspace);
+    workspace_refresh(workspace);
+}
+
 enum action workspace_take_list(struct workspace *workspace,
                                 const struct event *event)
 {
     enum action chosen = take_list(workspace, event);
 
-    if (!workspace_has_list(workspace)) { /* it has closed */
-        screen_close_window(&workspace->screen);
-        open_window(workspace);
-        workspace_refresh(workspace);
-    }
+    if (!workspace_has_list(workspace))
+        end_list(workspace);
     return chosen;
+}
+
+void workspace_close_list(struct workspace *workspace)
+{
+    if (!workspace_has_list(workspace))
+        return;
+    workspace->commands.list.is_open = false;
+    workspace->scenes.list.is_open = false;
+    workspace->views.list.is_open = false;
+    end_list(workspace);
 }
 
 /* ---- drawing ---- */
@@ -604,44 +632,47 @@ static void paint(struct workspace *workspace)
         dim(&workspace->frame);
 }
 
-static enum pixel_graphics_pace pace_of(const struct workspace *workspace,
-                                        uint64_t now_ns)
+static enum pixel_graphics_pace pace_of(const struct workspace *workspace)
 {
     const struct live_render *control = workspace->control;
 
     if (!control->is_live || control->progress.state != RENDER_RUNNING)
         return PIXEL_GRAPHICS_RESTS;
-    if (now_ns < control->restarted_ns + REST_NS)
+    if (!live_render_rests(control))
         return PIXEL_GRAPHICS_MOVES;
     return control->progress.spp_done == 0 ? PIXEL_GRAPHICS_BEGINS
                                            : PIXEL_GRAPHICS_RESTS;
 }
 
-/* A picture has no more pixels than the draft until it rests. Filtered cells
- * also wait until noise is less than half of the light: detail above the
- * draft's resolution is the film's, and not filtered. */
-static void size_frame(struct workspace *workspace,
-                       enum pixel_graphics_pace pace)
+/* Returns true if frames may have the pixels of a picture that rests. A filtered
+ * one has them from its fine draft on. */
+static bool is_fine(const struct workspace *workspace,
+                    enum pixel_graphics_pace pace)
 {
-    const struct screen *screen = &workspace->screen;
-    const struct film_error *e = &workspace->control->progress.film_error;
-    bool is_clean = screen->graphics.shape.kind != PIXEL_GRAPHICS_NONE ||
-                    !workspace->inspector.view_mode.is_filtered ||
-                    (e->is_known && e->error < 0.5);
-    bool is_fine = pace == PIXEL_GRAPHICS_RESTS && is_clean;
+    const struct session *s = workspace->control->session;
+    const struct film *draft = render_surfaces(s->engine.render);
 
-    workspace->frame.width =
-        is_fine ? screen->frame_width : screen->moving_width;
-    workspace->frame.height =
-        is_fine ? screen->frame_height : screen->moving_height;
+    return draft != NULL && s->is_filtered
+               ? has_size(s, draft, s->fine_width, s->fine_height)
+               : pace == PIXEL_GRAPHICS_RESTS;
 }
 
+/* Paints a frame again if the fine draft, which does not fit small frames, has
+ * become whole meanwhile. */
 static void make_frame(struct workspace *workspace,
                        enum pixel_graphics_pace pace)
 {
-    size_frame(workspace, pace);
-    paint(workspace);
-    workspace->has_frame = !frame_is_cancelled(&workspace->frame);
+    const struct screen *screen = &workspace->screen;
+    struct frame *frame = &workspace->frame;
+    bool was_fine;
+
+    do {
+        was_fine = is_fine(workspace, pace);
+        frame->width = was_fine ? screen->frame_width : screen->moving_width;
+        frame->height = was_fine ? screen->frame_height : screen->moving_height;
+        paint(workspace);
+    } while (is_fine(workspace, pace) != was_fine);
+    workspace->has_frame = !frame_is_cancelled(frame);
 }
 
 /* Lets input cancel the frame, unless it has cancelled the one before: pictures
@@ -670,7 +701,7 @@ static enum screen_result send(struct workspace *workspace, bool has_frame,
         screen_draw_text(screen);
     if (!has_frame || screen->is_too_small)
         return screen_draw(screen, &(struct screen_frame){.pixels = NULL});
-    frame.pace = pace_of(workspace, now_ns);
+    frame.pace = pace_of(workspace);
     frame.step = frame_step(workspace);
     limit_frame(workspace, now_ns);
     if (is_new)
@@ -760,6 +791,7 @@ void workspace_look(struct workspace *workspace)
 
     inspector_step(&workspace->inspector);
     live_render_update(workspace->control);
+    screen_draft_refine(workspace->control);
     if (film->width != workspace->width_px ||
         film->height != workspace->height_px)
         workspace_layout(workspace);

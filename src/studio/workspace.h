@@ -126,6 +126,9 @@ bool workspace_has_list(const struct workspace *workspace);
 enum action workspace_take_list(struct workspace *workspace,
                                 const struct event *event);
 
+/* Closes the list that is open, if any. */
+void workspace_close_list(struct workspace *workspace);
+
 /* Takes a scene that was loaded anew; what had these names stays selected. */
 void workspace_renew(struct workspace *workspace,
                      const struct selection_names *names);

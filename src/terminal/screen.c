@@ -19,6 +19,10 @@
  * and a key waits for that. */
 #define PIXEL_BYTES_MAX ((size_t)512 << 10)
 
+/* Most pixels of a frame while the picture moves: its draft must be whole
+ * within the time of a frame. */
+#define MOVING_PIXELS 8000
+
 /* Smallest window that has room for a picture and a status line. */
 #define COLS_MIN 40
 #define ROWS_MIN 12
@@ -53,10 +57,13 @@ static void free_sized(struct screen *screen)
 
 static void say_too_small(const struct tty_size *size)
 {
-    char text[96];
+    char text[64];
+    int length =
+        snprintf(text, sizeof text, "needs %dx%d", COLS_MIN, ROWS_MIN);
 
-    snprintf(text, sizeof text, "window %dx%d: at least %dx%d is needed",
-             size->cols, size->rows, COLS_MIN, ROWS_MIN);
+    if (size->cols >= COLS_MIN / 2)
+        snprintf(text + length, sizeof text - (size_t)length, ", has %dx%d",
+                 size->cols, size->rows);
     windows_notice(text);
 }
 
@@ -133,7 +140,8 @@ static bool init_pixels(struct screen *screen,
     screen->frame_width = int_min(screen->graphics.width_px, width_px);
     screen->frame_height = int_min(screen->graphics.height_px, height_px);
     screen_filter_draft_size(screen->frame_width, screen->frame_height,
-                             &screen->moving_width, &screen->moving_height);
+                             MOVING_PIXELS, &screen->moving_width,
+                             &screen->moving_height);
     return true;
 }
 

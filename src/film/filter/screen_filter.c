@@ -43,11 +43,11 @@ struct films {
 
 /* ---- sizes ---- */
 
-void screen_filter_draft_size(int frame_width, int frame_height, int *width,
-                              int *height)
+void screen_filter_draft_size(int frame_width, int frame_height, int most,
+                              int *width, int *height)
 {
     double pixels = (double)frame_width * (double)frame_height;
-    double scale = sqrt(fmin(SCREEN_FILTER_PIXELS / pixels, 1.0));
+    double scale = sqrt(fmin(most / pixels, 1.0));
 
     *width = (int)fmax(frame_width * scale, 1.0);
     *height = (int)fmax(frame_height * scale, 1.0);

@@ -47,7 +47,7 @@ struct screen_filter {
     uint8_t *raw_bytes, *filtered_bytes;
 };
 
-/* Most pixels of a draft: it must be ready soon after a move of the camera. */
+/* Most pixels of a draft that is worth its time for the screen. */
 #define SCREEN_FILTER_PIXELS (400 * 240)
 
 /*
@@ -61,9 +61,9 @@ struct screen_filter {
 #define SCREEN_FILTER_ERROR 1.8
 
 /* Sets the size of a draft for a frame of pixels, which is that of the frame or
- * a smaller one of nearly its shape. */
-void screen_filter_draft_size(int frame_width, int frame_height, int *width,
-                              int *height);
+ * a smaller one of nearly its shape with `most` pixels at most. */
+void screen_filter_draft_size(int frame_width, int frame_height, int most,
+                              int *width, int *height);
 
 /* The films of a picture on the screen. */
 struct screen_films {

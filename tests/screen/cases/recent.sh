@@ -92,8 +92,11 @@ keys Escape Escape
 wait_until_gone "Materials"
 keys Escape # the menu says where they would be written
 wait_for "save 1 material to lamp.mtl"
-keys Escape
-wait_until_gone "save 1 material"
+keys C-q # a question closes the menu
+wait_for "Unsaved changes. Quit?"
+reject "save 1 material"
+keys n
+wait_until_gone "Quit?"
 leave_for() # chooses another scene
 {
     keys O
@@ -117,7 +120,7 @@ expect_end 0
 fresh
 begin
 mux resize-window -x 30 -y 10
-wait_for "window 30x10"
+wait_for "has 30x10"
 mux resize-window -x 80 -y 24
 wait_for "─ open a scene ─"
 keys C-c

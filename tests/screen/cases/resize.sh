@@ -9,9 +9,9 @@ wait_for_rows 25 "48;2;188;124;0"
 mux resize-window -x 100 -y 12
 wait_for_rows 11 "48;2;188;124;0"
 mux resize-window -x 15 -y 8
-wait_for "15x8: at"
+wait_for "needs 40x12"
 mux resize-window -x 40 -y 2
-wait_for "window 40x2: at least 40x12 is needed"
+wait_for "needs 40x12, has 40x2"
 keys w # does nothing here
 mux resize-window -x 60 -y 21
 wait_for_rows 15 "48;2;188;124;0"
@@ -27,7 +27,7 @@ wait_for "Esc back"
 raw_keys 'png'
 wait_for ": png_"
 mux resize-window -x 39 -y 31
-wait_for "window 39x31: at least 40x12 is needed"
+wait_for "needs 40x12, has 39x31"
 keys x # is not searched for
 mux resize-window -x 80 -y 31
 wait_for ": png_"
@@ -36,6 +36,6 @@ keys Escape Escape
 wait_until_gone "save a PNG"
 wait_for_rows 20 "48;2;188;124;0"
 mux resize-window -x 39 -y 31
-wait_for "window 39x31"
+wait_for "has 39x31"
 keys C-q
 expect_end 0

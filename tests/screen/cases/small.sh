@@ -22,9 +22,9 @@ keys v
 wait_for "\[+\]"
 wait_for "nothing but the sky"
 mux resize-window -x 39 -y 12
-wait_for "window 39x12: at least 40x12 is needed"
+wait_for "needs 40x12, has 39x12"
 mux resize-window -x 40 -y 11
-wait_for "window 40x11: at least 40x12 is needed"
+wait_for "needs 40x12, has 40x11"
 mux resize-window -x 80 -y 24
 wait_for_rows 20 "48;2;188;124;0"
 keys '?'

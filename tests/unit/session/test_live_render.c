@@ -517,6 +517,50 @@ static void new_drafts_keep_the_samples(void **state)
     w->session->sample = SAMPLE_LIGHT;
 }
 
+/* A picture that rests gets a fine draft when its film has as many samples as
+ * that. Until it is whole, also if it begins several times, the draft before is
+ * shown, and a move shows neither. */
+static void fine_drafts_follow_small_ones(void **state)
+{
+    struct live_render *w = &((struct fixture *)*state)->control;
+    struct session *s = w->session;
+    struct render *render = s->engine.render;
+
+    s->is_filtered = true;
+    s->draft_width = 8;
+    s->draft_height = 4;
+    s->fine_width = 24;
+    s->fine_height = 12;
+    live_render_set_live(w, true);
+    assert_false(live_render_wants_fine_draft(w));
+    assert_null(render_surfaces(render));
+    while (!live_render_wants_fine_draft(w))
+        live_render_update(w);
+    assert_true(live_render_rests(w));
+    assert_true(w->progress.samples >= 5 * 24 * 12);
+    s->fine_width = 1 << 26; /* more samples than the film has */
+    assert_false(live_render_wants_fine_draft(w));
+    s->fine_width = 24;
+    assert_int_equal(render_surfaces(render)->width, 8);
+    for (int i = 0; i < 3; i++) {
+        live_render_renew_draft(w);
+        assert_true(s->draft_is_fine);
+        assert_true(live_render_rests(w));
+        assert_non_null(render_surfaces(render));
+    }
+    while (render_surfaces(render)->width == 8)
+        assert_true(film_count(render_surfaces(render), 0, 0) > 0);
+    assert_int_equal(render_surfaces(render)->width, 24);
+    assert_int_equal(render_surfaces(render)->height, 12);
+    assert_true(film_count(render_surfaces(render), 23, 11) > 0);
+    move(w);
+    live_render_restart_if_outdated(w);
+    assert_false(live_render_rests(w));
+    assert_false(s->draft_is_fine);
+    assert_true(render_surfaces(render) == NULL ||
+                render_surfaces(render)->width == 8);
+}
+
 int main(void)
 {
 #define WORK_TEST(f) cmocka_unit_test_setup_teardown(f, open_work, close_work)
@@ -526,6 +570,7 @@ int main(void)
         WORK_TEST(moving_shows_pictures),
         WORK_TEST(drafts_are_live),
         WORK_TEST(new_drafts_keep_the_samples),
+        WORK_TEST(fine_drafts_follow_small_ones),
         WORK_TEST(normal_mode_renders_to_its_end),
         WORK_TEST(halted_renders_go_on),
         WORK_TEST(live_mode_pauses),
