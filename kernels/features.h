@@ -9,40 +9,49 @@
 #ifndef KERNELS_FEATURES_H
 #define KERNELS_FEATURES_H
 
-enum feature {
-    FEATURE_COVERAGE = 1, /* opacity or alpha of textures below 1 */
-    FEATURE_TEXTURES = 2, /* images that materials refer to */
-    FEATURE_METAL = 4,    /* MATERIAL_METAL */
-    FEATURE_GLASS = 8,    /* MATERIAL_GLASS and MATERIAL_THIN_GLASS */
-    FEATURE_PLASTIC = 16, /* MATERIAL_PLASTIC */
-    FEATURE_ROUGH = 32,   /* rough metal, glass or coats */
-    FEATURE_ROUGH_DIFFUSE = 64,
-    FEATURE_SKY_IMAGE = 128,    /* the sky is an image */
-    FEATURE_EMITTERS = 256,     /* emissive surfaces */
-    FEATURE_BUMPS = 512,        /* bump and normal maps */
-    FEATURE_AOV = 1024,         /* AOVs in place of radiance: aov.h */
-    FEATURE_GUIDE = 2048,       /* path guide: guide.h */
-    FEATURE_FILTER = 4096,      /* features for the filter: first_surface.h */
-    FEATURE_PRINCIPLED = 8192,  /* MATERIAL_PRINCIPLED */
-    FEATURE_ANISOTROPY = 16384, /* surfaces with a grain */
-    FEATURE_SHEEN = 32768,
-    FEATURE_POINT_LIGHTS = 65536,        /* point and spot lights */
-    FEATURE_DIRECTIONAL_LIGHTS = 131072, /* the sun is one */
-    FEATURE_ATTENUATION = 262144, /* solids that absorb light: attenuation.h */
-    FEATURE_VERTEX_COLORS = 524288,
-    FEATURE_ROUGH_SHEETS = 1048576, /* rough thin glass */
-    FEATURE_THIN_FILM = 4194304,    /* iridescence: thin_film.h */
-    FEATURE_INSTANCES = 8388608,    /* instance.h */
-    /* texture_flag beyond TEXTURE_CLAMP, channels, maps of rare parameters */
-    FEATURE_TEXTURE_OPTIONS = 16777216,
-    FEATURE_VERTEX_ALPHAS = 33554432,
-    FEATURE_TANGENTS = 67108864,       /* tangents of vertices */
-    FEATURE_COAT_NORMALS = 134217728,  /* coats over bumps, or with a map */
-    FEATURE_LIGHT_PATHS = 2097152,     /* settings.has_light_paths */
-    FEATURE_RADIANCE_CELLS = 268435456 /* radiance_cells.h */
-};
+#include "kernels/dialect.h"
 
-#define FEATURES_ALL 536870911u
+#define FEATURE_BIT(n) ((uint64_t)1 << (n))
+
+/* Materials */
+#define FEATURE_TEXTURES      FEATURE_BIT(1) /* images of materials */
+#define FEATURE_METAL         FEATURE_BIT(2)
+#define FEATURE_GLASS         FEATURE_BIT(3) /* and thin glass */
+#define FEATURE_PLASTIC       FEATURE_BIT(4)
+#define FEATURE_ROUGH         FEATURE_BIT(5) /* rough metal, glass or coats */
+#define FEATURE_ROUGH_DIFFUSE FEATURE_BIT(6)
+#define FEATURE_BUMPS         FEATURE_BIT(9) /* bump and normal maps */
+#define FEATURE_PRINCIPLED    FEATURE_BIT(13)
+#define FEATURE_ANISOTROPY    FEATURE_BIT(14) /* surfaces with a grain */
+#define FEATURE_SHEEN         FEATURE_BIT(15)
+#define FEATURE_ATTENUATION   FEATURE_BIT(18) /* attenuation.h */
+#define FEATURE_ROUGH_SHEETS  FEATURE_BIT(20) /* rough thin glass */
+#define FEATURE_THIN_FILM     FEATURE_BIT(22) /* iridescence: thin_film.h */
+#define FEATURE_COAT_NORMALS  FEATURE_BIT(27) /* coats over bumps, or a map */
+/* texture_flag beyond TEXTURE_CLAMP, channels, maps of rare parameters */
+#define FEATURE_TEXTURE_OPTIONS FEATURE_BIT(24)
+
+/* Geometry */
+#define FEATURE_COVERAGE      FEATURE_BIT(0) /* opacity or alpha below 1 */
+#define FEATURE_VERTEX_COLORS FEATURE_BIT(19)
+#define FEATURE_VERTEX_ALPHAS FEATURE_BIT(25)
+#define FEATURE_TANGENTS      FEATURE_BIT(26) /* of vertices */
+#define FEATURE_INSTANCES     FEATURE_BIT(23) /* instance.h */
+
+/* Light */
+#define FEATURE_SKY_IMAGE          FEATURE_BIT(7)  /* the sky is an image */
+#define FEATURE_EMITTERS           FEATURE_BIT(8)  /* emissive surfaces */
+#define FEATURE_POINT_LIGHTS       FEATURE_BIT(16) /* and spot lights */
+#define FEATURE_DIRECTIONAL_LIGHTS FEATURE_BIT(17) /* the sun is one */
+
+/* Samples */
+#define FEATURE_AOV            FEATURE_BIT(10) /* AOVs, not radiance: aov.h */
+#define FEATURE_GUIDE          FEATURE_BIT(11) /* path guide: guide.h */
+#define FEATURE_FILTER         FEATURE_BIT(12) /* first_surface.h */
+#define FEATURE_LIGHT_PATHS    FEATURE_BIT(21) /* settings.has_light_paths */
+#define FEATURE_RADIANCE_CELLS FEATURE_BIT(28) /* radiance_cells.h */
+
+#define FEATURES_ALL (FEATURE_BIT(29) - 1u)
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

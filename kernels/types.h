@@ -389,7 +389,7 @@ struct settings {
     struct sky sky;
     uint32_t max_vertices; /* surface vertices of a path, emitter included */
     uint32_t seed;
-    uint32_t features; /* enum feature, or-ed */
+    uint64_t features; /* a set of features.h */
     uint32_t direct;   /* enum direct */
     uint32_t order;    /* enum order */
     uint32_t sample;   /* enum sample_kind */

@@ -214,16 +214,16 @@ void engine_end(struct engine *e)
     drop_filtered(e);
 }
 
-uint32_t engine_features(const struct engine *e)
+uint64_t engine_features(const struct engine *e)
 {
     return world_features(&e->world) |
-           (e->options.wants_filter ? (uint32_t)FEATURE_FILTER : 0) |
-           (e->options.is_exact ? 0 : (uint32_t)FEATURE_RADIANCE_CELLS) |
-           (e->world.light_paths.sources != NULL ? (uint32_t)FEATURE_LIGHT_PATHS
+           (e->options.wants_filter ? FEATURE_FILTER : 0) |
+           (e->options.is_exact ? 0 : FEATURE_RADIANCE_CELLS) |
+           (e->world.light_paths.sources != NULL ? FEATURE_LIGHT_PATHS
                                                  : 0);
 }
 
-struct cl_request engine_request(const struct engine *e, uint32_t features)
+struct cl_request engine_request(const struct engine *e, uint64_t features)
 {
     struct cl_request request = e->options.device;
 

@@ -38,7 +38,7 @@ struct backends {
     struct cl_start *start; /* NULL unless it is starting */
     char *verdict;          /* of the device's self-test */
     /* features that its kernels support, or will after the start */
-    uint32_t features;
+    uint64_t features;
 };
 
 /* Creates the backend of the CPU, with the best kernel if `kernel` is NULL. */
@@ -138,10 +138,10 @@ bool engine_set_crop(struct engine *e, const struct view *view,
 void engine_set_whole(struct engine *e, const struct view *view);
 
 /* Returns the kernel features that pictures need. */
-uint32_t engine_features(const struct engine *e);
+uint64_t engine_features(const struct engine *e);
 
 /* Returns the request for a device with these features. */
-struct cl_request engine_request(const struct engine *e, uint32_t features);
+struct cl_request engine_request(const struct engine *e, uint64_t features);
 
 /* Waits for the device of the options, and lets it render. *log, for free(), is
  * the output of drivers, or NULL. */

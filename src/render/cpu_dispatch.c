@@ -66,7 +66,7 @@ const struct cpu_kernel *cpu_kernel_named(const char *name, struct error *err)
 }
 
 const struct cpu_kernel *cpu_kernel_fit(const struct cpu_kernel *paths,
-                                        uint32_t features)
+                                        uint64_t features)
 {
     for (int i = 0; i < COUNT; i++)
         if (strcmp(builds[i]->name, paths->name) == 0 &&

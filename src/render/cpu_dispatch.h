@@ -33,6 +33,6 @@ const struct cpu_kernel *cpu_kernel_named(const char *name, struct error *err);
 /* Returns the smallest build for the instruction set of `paths` that has all of
  * `features`, or `paths` itself if there is none. */
 const struct cpu_kernel *cpu_kernel_fit(const struct cpu_kernel *paths,
-                                        uint32_t features);
+                                        uint64_t features);
 
 #endif

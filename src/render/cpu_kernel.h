@@ -19,7 +19,7 @@
 
 struct cpu_kernel {
     const char *name;  /* name of the instruction set */
-    uint32_t features; /* features it has, a set of enum feature */
+    uint64_t features; /* features it has, a set of features.h */
 
     /* path_samples() of path_stream.h. */
     void (*samples)(const struct world *w, const struct sample_id *places,

@@ -613,10 +613,10 @@ static bool is_translucent(const struct texture *textures, uint32_t texture)
     return texture != NO_INDEX && textures[texture].has_alpha != 0;
 }
 
-uint32_t material_features(const struct material *m,
+uint64_t material_features(const struct material *m,
                            const struct texture *textures)
 {
-    uint32_t features = 0;
+    uint64_t features = 0;
 
     if (material_shines(m))
         features |= FEATURE_EMITTERS;
@@ -660,7 +660,7 @@ uint32_t material_features(const struct material *m,
     return features;
 }
 
-bool features_use_tangents(uint32_t features)
+bool features_use_tangents(uint64_t features)
 {
     return (features &
             (FEATURE_BUMPS | FEATURE_ANISOTROPY | FEATURE_COAT_NORMALS)) != 0;

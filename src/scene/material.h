@@ -103,11 +103,11 @@ material_values_needed(const struct material_values *file,
 
 /* ---- features ---- */
 
-/* Returns a set of enum feature. */
-uint32_t material_features(const struct material *material,
+/* Returns a set of features.h. */
+uint64_t material_features(const struct material *material,
                            const struct texture *textures);
 
 /* Returns true if materials of these features use the tangents of vertices. */
-bool features_use_tangents(uint32_t features);
+bool features_use_tangents(uint64_t features);
 
 #endif

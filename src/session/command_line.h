@@ -147,7 +147,7 @@ struct options {
     int ranks;          /* processes of a cluster to start; 0: none */
     bool is_worker;     /* render for rank 0; no scene is needed */
     bool probe;         /* test a device, see cl_probe.h; no scene is needed */
-    uint32_t features;  /* features for the test */
+    uint64_t features;  /* features for the test */
     bool is_import;     /* send a scene, see import.h; or */
     bool is_unpack;     /* meshes, see gltf_draco.h, with these limits */
     struct library_limits library_limits;

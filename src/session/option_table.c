@@ -439,12 +439,7 @@ static bool set_text_size(struct options *o, const struct option_given *g,
 static bool set_probe(struct options *o, const struct option_given *g,
                       struct error *err)
 {
-    uint64_t features;
-
-    if (!whole_number(g, 0, UINT32_MAX, &features, err))
-        return false;
-    o->features = (uint32_t)features;
-    return true;
+    return whole_number(g, 0, FEATURES_ALL, &o->features, err);
 }
 
 static bool set_library_limits(struct options *o, const struct option_given *g,

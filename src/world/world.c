@@ -305,9 +305,9 @@ struct world world_arrays(const struct host_world *host,
     return w;
 }
 
-uint32_t world_features(const struct host_world *host)
+uint64_t world_features(const struct host_world *host)
 {
-    uint32_t features = host->sky_texels != NULL ? FEATURE_SKY_IMAGE : 0;
+    uint64_t features = host->sky_texels != NULL ? FEATURE_SKY_IMAGE : 0;
 
     if (host->guide.grid.table_count > 0)
         features |= FEATURE_GUIDE;

@@ -182,8 +182,8 @@ bool world_lend(const struct host_world *host, const struct scene *scene,
                 const struct view *view, uint32_t seed, struct world *world,
                 struct error *err);
 
-/* Returns the kernel features that the world needs, a set of enum feature. */
-uint32_t world_features(const struct host_world *host);
+/* Returns the kernel features that the world needs, a set of features.h. */
+uint64_t world_features(const struct host_world *host);
 
 /* Returns true if a used material emits light. */
 bool world_has_emitters(const struct host_world *host);

@@ -51,7 +51,7 @@ static uint64_t cpu_ns(const struct session *s)
  * picture, 0 before the first, which builds the tree. More features
  * select the build for all of them; samples are of light and do not use those.
  */
-static double rate(struct session *s, uint32_t more_features, struct rect crop,
+static double rate(struct session *s, uint64_t more_features, struct rect crop,
                    uint64_t spp, struct render_progress *p)
 {
     uint64_t begin_ns = cpu_ns(s);

@@ -35,7 +35,7 @@ static double rate(struct session *s, struct backend *backend)
     return (double)p.samples * 1e3 / (double)(p.render_ns - p.build_ns);
 }
 
-static struct backend *open_device(uint32_t features)
+static struct backend *open_device(uint64_t features)
 {
     struct cl_request request = {.features = features};
     struct error err;

@@ -15,7 +15,7 @@
  */
 static inline bool render_crop(struct session *s, struct rect crop,
                                uint64_t spp, uint32_t seed,
-                               uint32_t more_features, struct error *err)
+                               uint64_t more_features, struct error *err)
 {
     struct render_job job = {.host = &s->engine.world,
                              .crop = crop,

@@ -86,7 +86,7 @@ static inline void make_copies(struct instance_test *t)
     t->copies.instances = NULL;
     t->copies.settings.tri_count = count;
     t->copies.settings.instance_count = 0;
-    t->copies.settings.features &= ~(uint32_t)FEATURE_INSTANCES;
+    t->copies.settings.features &= ~FEATURE_INSTANCES;
 }
 
 /* Finishes a parsed scene, all of whose meshes are kept. */

@@ -8,6 +8,7 @@
  */
 #include "render/opencl/backend_cl.h"
 
+#include <inttypes.h>
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -30,7 +31,7 @@ struct cl_kernels {
     cl_kernel generate;
     cl_kernel trace;
     cl_kernel add;
-    uint32_t features;
+    uint64_t features;
 };
 
 #define TASK_PATHS_FIRST 8192
@@ -147,7 +148,8 @@ static bool compile(struct cl_kernels *k, const struct cl_machine *m,
     cl_int code;
 
     /* rounds division and sqrt as IEEE 754 does, where the device can */
-    snprintf(options, sizeof options, "-cl-std=CL1.2 -Werror -DFEATURES=%uu%s",
+    snprintf(options, sizeof options, "-cl-std=CL1.2 -Werror -DFEATURES=%" PRIu64
+             "ul%s",
              k->features,
              m->device->has_correct_divide
                  ? " -cl-fp32-correctly-rounded-divide-sqrt"
@@ -174,7 +176,7 @@ static bool find_kernel(struct cl_kernels *k, const struct cl_machine *m,
 /* Features that a build must have besides those asked for. NVIDIA's compiler
  * does not end on builds without texture and bump code (driver 580.159, H100);
  * with both it takes 5 to 15 s. */
-static uint32_t features_needed(const struct cl_machine *m)
+static uint64_t features_needed(const struct cl_machine *m)
 {
     return strstr(m->device->platform_name, "NVIDIA") != NULL
                ? FEATURE_TEXTURES | FEATURE_BUMPS
@@ -185,7 +187,7 @@ static uint32_t features_needed(const struct cl_machine *m)
  * this text. After a failure *log is the compiler's output, for free();
  * otherwise it is NULL. */
 static bool cl_kernels_build(struct cl_kernels *k, const struct cl_machine *m,
-                             const char *text, uint32_t features, char **log,
+                             const char *text, uint64_t features, char **log,
                              struct error *err)
 {
     cl_int code;
@@ -267,7 +269,7 @@ static bool clear_film(struct backend_cl *b, size_t pixel_count,
 
 /* Chooses the special kernels if they have all features that the world needs,
  * else the full ones. */
-static void choose_kernels(struct backend_cl *b, uint32_t features)
+static void choose_kernels(struct backend_cl *b, uint64_t features)
 {
     pthread_mutex_lock(&b->lock);
     if (b->next.program != NULL) {
@@ -625,7 +627,7 @@ static void cl_destroy(struct backend *base)
     free(b);
 }
 
-bool backend_cl_specialise(struct backend *base, uint32_t features, char **log,
+bool backend_cl_specialise(struct backend *base, uint64_t features, char **log,
                            struct error *err)
 {
     struct backend_cl *b = (struct backend_cl *)base;

@@ -22,7 +22,7 @@ struct cl_request {
     /* folder of the kernels, or NULL for those built into the program */
     const char *kernels_path;
     bool needs_gpu;    /* fail if the device is not a GPU */
-    uint32_t features; /* features that the kernels are built with */
+    uint64_t features; /* features that the kernels are built with */
 };
 
 /* Creates the backend. Returns NULL on errors. Some drivers crash here, so call
@@ -33,7 +33,7 @@ struct backend *backend_cl_create(const struct cl_request *request, char **log,
 /* Builds kernels with only these features, for the next begin() to use; the
  * bits are the same. Callable from any thread, also while the backend renders,
  * but not during destroy(). */
-bool backend_cl_specialise(struct backend *backend, uint32_t features,
+bool backend_cl_specialise(struct backend *backend, uint64_t features,
                            char **log, struct error *err);
 
 #endif

@@ -65,7 +65,7 @@ static const char faces[] =
     "f 25 26 27\nusemtl clear\nf 28 29 30\n";
 
 static bool make_world(struct scene *scene, struct host_world *host,
-                       uint32_t features, struct error *err)
+                       uint64_t features, struct error *err)
 {
     struct warnings report = {0};
     bool ok =
@@ -87,7 +87,7 @@ static bool make_world(struct scene *scene, struct host_world *host,
 }
 
 static bool make_job(const struct scene *scene, struct host_world *host,
-                     uint32_t features, struct render_job *job,
+                     uint64_t features, struct render_job *job,
                      struct error *err)
 {
     struct view view;
@@ -172,7 +172,7 @@ static bool judge(const float *a, const float *b,
 }
 
 bool selftest_run(struct backend *cpu, struct backend *device,
-                  uint32_t features, char verdict[SELFTEST_VERDICT_BYTES],
+                  uint64_t features, char verdict[SELFTEST_VERDICT_BYTES],
                   struct error *err)
 {
     struct scene scene = {0};
@@ -214,7 +214,7 @@ static char *memory_path(const struct cl_request *r)
     text = cl_source_text(r->kernels_path, &ignored);
     if (text == NULL)
         return NULL;
-    key = format_text("%s %u %s", r->device != NULL ? r->device : "",
+    key = format_text("%s %" PRIu64 " %s", r->device != NULL ? r->device : "",
                       r->features, text);
     path = key != NULL
                ? format_text("%s/glim-%016" PRIx64, folder, cl_source_hash(key))
@@ -324,7 +324,7 @@ static enum child_end run_copy(const struct cl_request *r,
                                const atomic_bool *is_unwanted,
                                struct child_result *result)
 {
-    char features[16];
+    char features[24];
     const char *arguments[10] = {"glim", "--probe", features, "--backend",
                                  r->needs_gpu ? "auto" : "opencl"};
     struct child_task task = {
@@ -338,7 +338,7 @@ static enum child_end run_copy(const struct cl_request *r,
     };
     int count = 5;
 
-    snprintf(features, sizeof features, "%u", r->features);
+    snprintf(features, sizeof features, "%" PRIu64, r->features);
     if (r->device != NULL) {
         arguments[count++] = "--device";
         arguments[count++] = r->device;

@@ -39,7 +39,7 @@
 /* Runs the test. The verdict is "the CPU's bits", or the number of pixels with
  * small differences. */
 bool selftest_run(struct backend *cpu, struct backend *device,
-                  uint32_t features, char verdict[SELFTEST_VERDICT_BYTES],
+                  uint64_t features, char verdict[SELFTEST_VERDICT_BYTES],
                   struct error *err);
 
 /* ---- probes ---- */

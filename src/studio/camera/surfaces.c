@@ -68,7 +68,7 @@ static bool first_surface(struct world *w, struct ray ray,
     float passed = 0;
 
     /* else partial coverage would let rays pass by chance */
-    w->settings.features &= ~(uint32_t)FEATURE_COVERAGE;
+    w->settings.features &= ~FEATURE_COVERAGE;
     if (w->nodes == NULL || !isfinite(ray.o.x + ray.o.y + ray.o.z))
         return false;
     for (int i = 0; i < LAYERS_MAX; i++) {

@@ -28,7 +28,7 @@ static void compare_samples(const struct cpu_kernel *kernel,
                             const struct instance_test *t,
                             const struct world *copies)
 {
-    uint32_t features = t->w.settings.features;
+    uint64_t features = t->w.settings.features;
     const struct cpu_kernel *full = cpu_kernel_fit(kernel, features);
     const struct cpu_kernel *part =
         cpu_kernel_fit(kernel, copies->settings.features);

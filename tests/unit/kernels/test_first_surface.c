@@ -155,7 +155,7 @@ static void direct_light_is_that_of_short_paths(void **state)
             m.world.settings.max_vertices = PATH_HARD_STOP;
             m.world.settings.features = FEATURES_ALL;
             whole = follow(&m, views[k].d, i, &s);
-            m.world.settings.features &= ~(uint32_t)FEATURE_FILTER;
+            m.world.settings.features &= ~FEATURE_FILTER;
             plain = follow(&m, views[k].d, i, NULL);
             assert_memory_equal(&whole, &plain, sizeof whole);
             m.world.settings.max_vertices = views[k].vertices;

@@ -135,7 +135,7 @@ static void lamps_are_equal(void **state)
 /* Random files have each feature of glTF, some of them without instances. */
 static void random_files_are_equal(void **state)
 {
-    uint32_t features = 0;
+    uint64_t features = 0;
     uint64_t seed = 5;
 
     (void)state;

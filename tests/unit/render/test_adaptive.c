@@ -70,7 +70,7 @@ static void close_render(struct render *r)
 
 /* FEATURE_FILTER: the shares lower the error of the filtered picture. 0: that
  * of the film. */
-static uint32_t filter_feature;
+static uint64_t filter_feature;
 
 static void start(struct render *r, struct mesh *m, uint64_t spp,
                   bool is_adaptive, uint32_t seed)

@@ -32,10 +32,10 @@ static void chosen_builds_have_the_needed_features(void **state)
     for (int i = 0; (whole = cpu_kernel_at(i)) != NULL; i++) {
         assert_int_equal(whole->features, FEATURES_ALL);
         for (int k = 0; k < RANDOM_SETS; k++) {
-            uint32_t features = FEATURES_ALL;
+            uint64_t features = FEATURES_ALL;
 
             for (int n = k % 8; n > 0; n--) /* of few bits and of many */
-                features &= (uint32_t)rand() << 8 ^ (uint32_t)rand();
+                features &= (uint64_t)rand() << 24 ^ (uint64_t)rand();
             p = cpu_kernel_fit(whole, features);
             assert_int_equal(features & ~p->features, 0);
             assert_string_equal(p->name, whole->name);
@@ -49,7 +49,7 @@ static void chosen_builds_have_the_needed_features(void **state)
     }
 }
 
-static void render(struct session *s, uint32_t more_features, float *rgb)
+static void render(struct session *s, uint64_t more_features, float *rgb)
 {
     struct render_job job = {.host = &s->engine.world,
                              .crop = {0, 0, WIDTH, HEIGHT},
@@ -78,12 +78,12 @@ static int compare_builds(const char *scene, const struct cpu_kernel *whole)
     const struct cpu_kernel *p;
     struct session s;
     struct error err;
-    uint32_t features;
+    uint64_t features;
     int count = 0;
 
     check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
     features = world_features(&s.engine.world);
-    render(&s, FEATURES_ALL & ~(uint32_t)FEATURE_COVERAGE, want);
+    render(&s, FEATURES_ALL & ~FEATURE_COVERAGE, want);
     for (int i = 0; (p = cpu_kernel_build(i)) != NULL; i++) {
         if (p == whole || strcmp(p->name, whole->name) != 0 ||
             (features & ~p->features) != 0)
