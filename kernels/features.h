@@ -24,7 +24,7 @@
 #define FEATURE_PRINCIPLED    FEATURE_BIT(13)
 #define FEATURE_ANISOTROPY    FEATURE_BIT(14) /* surfaces with a grain */
 #define FEATURE_SHEEN         FEATURE_BIT(15)
-#define FEATURE_ATTENUATION   FEATURE_BIT(18) /* attenuation.h */
+#define FEATURE_ATTENUATION   FEATURE_BIT(18) /* media: medium.h */
 #define FEATURE_ROUGH_SHEETS  FEATURE_BIT(20) /* rough thin glass */
 #define FEATURE_THIN_FILM     FEATURE_BIT(22) /* iridescence: thin_film.h */
 #define FEATURE_COAT_NORMALS  FEATURE_BIT(27) /* coats over bumps, or a map */
@@ -37,6 +37,8 @@
 #define FEATURE_VERTEX_ALPHAS FEATURE_BIT(25)
 #define FEATURE_TANGENTS      FEATURE_BIT(26) /* of vertices */
 #define FEATURE_INSTANCES     FEATURE_BIT(23) /* instance.h */
+/* Media that scatter, or boundaries of media; with FEATURE_ATTENUATION */
+#define FEATURE_MEDIA FEATURE_BIT(29)
 
 /* Light */
 #define FEATURE_SKY_IMAGE          FEATURE_BIT(7)  /* the sky is an image */
@@ -51,7 +53,7 @@
 #define FEATURE_LIGHT_PATHS    FEATURE_BIT(21) /* settings.has_light_paths */
 #define FEATURE_RADIANCE_CELLS FEATURE_BIT(28) /* radiance_cells.h */
 
-#define FEATURES_ALL (FEATURE_BIT(29) - 1u)
+#define FEATURES_ALL (FEATURE_BIT(30) - 1u)
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

@@ -50,6 +50,35 @@ static inline void first_surface_begin(struct first_surface *s)
     s->state = SURFACE_AHEAD;
 }
 
+static inline bool first_surface_is_ahead(const struct first_surface *s)
+{
+    return HAS(FEATURE_FILTER) && s->state == SURFACE_AHEAD;
+}
+
+/* Takes a distance to where the path goes on as it came. */
+static inline void first_surface_pass(struct first_surface *s, float distance)
+{
+    if (first_surface_is_ahead(s))
+        s->depth += distance;
+}
+
+/* Takes the medium in which the path is scattered. It is like a surface across
+ * the ray, whose normal is n. */
+static inline void first_surface_scatter(struct first_surface *s,
+                                         const struct medium *m, struct vec3 n,
+                                         float distance)
+{
+    if (!first_surface_is_ahead(s))
+        return;
+    s->depth += distance;
+    s->albedo =
+        v3(m->extinction.x > 0.0f ? m->scattering.x / m->extinction.x : 0.0f,
+           m->extinction.y > 0.0f ? m->scattering.y / m->extinction.y : 0.0f,
+           m->extinction.z > 0.0f ? m->scattering.z / m->extinction.z : 0.0f);
+    s->normal = n;
+    s->state = SURFACE_MET;
+}
+
 /* Takes the BSDF of the path's next vertex, with its normal and its distance
  * from the last one. */
 static inline void first_surface_meet(struct first_surface *s,

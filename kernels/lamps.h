@@ -175,6 +175,8 @@ static inline float directional_importance(const struct world *w, uint32_t i,
 
     if (r->transmits)
         cosine = fabsf(cosine);
+    if (receiver_is_free(r))
+        cosine = 1.0f;
     return w->directional_lights[i].power *
            f_max(cosine + w->directional_lights[i].sine, 0.0f);
 }

@@ -218,8 +218,12 @@ static inline float sphere_pdf_at(const struct world *w,
            point_light_pdf(w, i, r->p);
 }
 
+/* Density of a direction to the sky by the cosine at the receiver; even in a
+ * medium. */
 static inline float sky_cosine_pdf(const struct receiver *r, struct vec3 wi)
 {
+    if (receiver_is_free(r))
+        return cone_pdf(2.0f);
     return f_max(v3_dot(wi, r->n), 0.0f) * (1.0f / PI);
 }
 
@@ -258,7 +262,10 @@ static inline struct vec3 sky_direction(const struct world *w,
             return guide_sample(w, first, u);
         u = guide_remap(u, share);
     }
-    return sky_has_table(w) ? sky_sample(w, u) : cosine_around(r->n, u);
+    if (sky_has_table(w))
+        return sky_sample(w, u);
+    return receiver_is_free(r) ? cone_around(v3(0.0f, 1.0f, 0.0f), 2.0f, u)
+                               : cosine_around(r->n, u);
 }
 
 /* Samples a directional light. */

@@ -31,12 +31,18 @@ static inline uint32_t light_path(const struct world *w, uint32_t light,
     return w->lights[light].path[word];
 }
 
-/* The surface point that is lit. */
+/* The point that is lit, on a surface or in a medium. */
 struct receiver {
     struct vec3 p;
-    struct vec3 n;  /* unit */
+    struct vec3 n;  /* unit; of a surface */
     bool transmits; /* true if light from behind matters as well */
+    bool is_free;   /* true in a medium; FEATURE_MEDIA */
 };
+
+static inline bool receiver_is_free(const struct receiver *r)
+{
+    return HAS(FEATURE_MEDIA) && r->is_free;
+}
 
 /* Added to bounds of cosines, so that they are above 0 by more than their
  * rounding error. */
@@ -84,6 +90,8 @@ static inline void light_node_cdf(const struct world *w, uint32_t node,
 
         in = f_max(in, in * behind) + radius;
         in = f_max(in - 0.25f * radius, 0.25f * in);
+        if (receiver_is_free(r))
+            in = distance;
         out = fabsf(out) + 0.25f * radius +
               distance * (w->light_nodes[node].spread[i] + LIGHT_COSINE_SLACK);
         parts[i] = w->light_nodes[node].power[i] / (square * square) *

@@ -29,7 +29,7 @@
 /* Samples the next ray from the BSDF, or from the path guide if it has a table
  * here. Returns false if the path is absorbed. */
 static inline bool path_scatter(const struct world *w, struct path *p,
-                                const struct material *m, const struct bsdf *b,
+                                uint32_t material, const struct bsdf *b,
                                 const struct surface_point *v, struct vec3 wo,
                                 struct vec2 direction, float choice)
 {
@@ -57,7 +57,7 @@ static inline bool path_scatter(const struct world *w, struct path *p,
     p->scale = f_finite(p->scale * s.eta_scale);
     p->pdf = s.is_delta ? 0.0f : s.pdf;
     if (HAS(FEATURE_ATTENUATION))
-        p->medium = medium_beyond(m, b, v, s.wi.z, p->medium);
+        media_follow(&p->media, material, b, v, s.wi.z);
     return true;
 }
 
@@ -81,7 +81,8 @@ static inline void path_set_key(const struct world *w, struct sampler s,
 
 /* Begins a path. Its estimates, if they are not NULL, become those of its
  * vertices. */
-static inline void path_open(struct path *p, struct camera_sample start,
+static inline void path_open(const struct world *w, struct path *p,
+                             struct camera_sample start,
                              struct cell_estimates *estimates)
 {
     p->ray = start.ray;
@@ -94,7 +95,10 @@ static inline void path_open(struct path *p, struct camera_sample start,
     p->from.p = start.ray.o;
     p->from.n = start.ray.d;
     p->from.transmits = true;
-    p->medium = v3(0.0f, 0.0f, 0.0f);
+    p->from.is_free = false;
+    if (HAS(FEATURE_ATTENUATION))
+        p->media = w->settings.camera_media;
+    p->crossings = 0;
     p->drops = false;
     p->is_chain = true;
     p->casts = false;
@@ -124,6 +128,104 @@ static inline bool path_meet_role(const struct world *w, struct path *p,
     return has_cells;
 }
 
+/* True if the path ends here by the limit of bounces. */
+static inline bool path_is_full(const struct world *w, struct path *p)
+{
+    if (p->vertex < w->settings.max_vertices)
+        return false;
+    p->out.cut = p->vertex >= PATH_HARD_STOP ? 1u : 0u;
+    return true;
+}
+
+/* Completes a vertex whose next direction is known. Returns false if roulette
+ * ends the path. */
+static inline bool path_advance(const struct world *w, struct path *p, float u)
+{
+    if (!path_survives(p, u))
+        return false;
+    p->vertex++;
+    p->crossings = 0;
+    p->out.rays++;
+    p->ray.t_max = FLOAT_MAX;
+    path_set_key(w, p->sampler, p->vertex, &p->ray);
+    return true;
+}
+
+/* ---- media ---- */
+
+/* Returns random numbers for a collision. After a boundary they are others. */
+static inline struct vec2 path_medium_2d(const struct path *p)
+{
+    struct sampler s = p->sampler;
+
+    if (p->crossings > 0)
+        s.key = hash_u32(s.key + p->crossings);
+    return vertex_2d(s, p->vertex, DIMENSION_MEDIUM);
+}
+
+/* Takes the path along a distance t of its ray, whose end it sees: its
+ * throughput becomes that of light which is emitted there. *beta becomes that
+ * with which it goes on, from the collision or from the end. */
+static inline struct collision
+path_travel(struct path *p, const struct medium *m, float t, struct vec3 *beta)
+{
+    struct collision c = {t, v3(1.0f, 1.0f, 1.0f), false};
+    bool scatters = medium_scatters(m);
+
+    if (scatters) {
+        c = medium_collide(m, p->beta, p->ray, t, path_medium_2d(p));
+        *beta = v3_mul(p->beta, c.weight);
+    }
+    p->beta = attenuated(p->beta, m, p->ray, t);
+    if (!scatters)
+        *beta = p->beta;
+    return c;
+}
+
+/* Extends the path by a vertex in a medium, at a distance t of its ray. Returns
+ * as path_extend(). */
+static inline bool path_collide(const struct world *w, struct path *p,
+                                const struct medium *m, float t,
+                                struct vec3 beta)
+{
+    struct vec3 d = p->ray.d;
+
+    p->beta = beta;
+    if (v3_is_zero(beta) || path_is_full(w, p))
+        return false;
+    path_prepare_2d(p);
+    first_surface_scatter(&p->surface, m, v3_neg(d), t);
+    p->ray.o = v3_add(p->ray.o, v3_scale(d, t));
+    p->ray.from = 0;
+    p->from.p = p->ray.o;
+    p->from.n = d;
+    p->from.transmits = true;
+    p->from.is_free = true;
+    p->cell = guide_cell_none();
+    p->casts = p->is_chain = false;
+    p->light.is_lit = path_choose_medium_light(w, p, m, d);
+    p->ray.d = phase_sample(m, d, path_2d(p, DIMENSION_BSDF_DIRECTION));
+    p->pdf = phase_density(m, d, p->ray.d);
+    return path_advance(w, p, path_2d(p, DIMENSION_BSDF_LOBE).y);
+}
+
+/* Takes the path's ray through a boundary, at a distance t. Returns false after
+ * too many of them. */
+static inline bool path_cross(struct path *p, uint32_t material,
+                              const struct surface_point *v, float t)
+{
+    if (p->crossings == CROSSINGS_MAX) {
+        p->out.cut = 1;
+        return false;
+    }
+    p->crossings++;
+    p->out.rays++;
+    first_surface_pass(&p->surface, t);
+    boundary_cross(&p->media, material, v, &p->ray);
+    p->ray.t_max = FLOAT_MAX;
+    return true;
+}
+
 /* Extends the path by one vertex, the hit *h of the path's ray. The shadow ray
  * of p->light is to be traced next, if there is one, then the path's ray.
  * Returns false if the path ends. */
@@ -133,45 +235,58 @@ static inline bool path_extend(const struct world *w, struct path *p,
     struct material m;
     struct surface_point v;
     struct bsdf b;
-    struct vec3 wo;
+    struct vec3 wo, beta;
     struct vec2 lobe;
+    struct medium medium;
+    struct collision c = {0.0f, v3(1.0f, 1.0f, 1.0f), false};
+    uint32_t material;
     bool has_cells = false;
 
     p->light.is_lit = false;
     /* Add lights before the hit, and the sky and suns of a ray that leaves */
     if (HAS(FEATURE_POINT_LIGHTS))
         path_add_spheres(w, p, h->tri == NO_INDEX ? FLOAT_MAX : h->t);
+    if (HAS(FEATURE_ATTENUATION)) {
+        medium = medium_of(w, &p->media);
+        c = path_travel(p, &medium, h->tri == NO_INDEX ? FLOAT_MAX : h->t,
+                        &beta);
+    }
     if (h->tri == NO_INDEX) {
-        if (HAS(FEATURE_ATTENUATION))
-            p->beta = attenuated(p->beta, p->medium, FLOAT_MAX);
         path_add_sky(w, p);
         if (HAS(FEATURE_DIRECTIONAL_LIGHTS))
             path_add_discs(w, p);
-        return false;
+        if (!HAS(FEATURE_MEDIA) || !c.is_there)
+            return false;
+        first_surface_light(&p->surface, p->vertex, p->out.radiance);
+        return path_collide(w, p, &medium, c.t, beta);
     }
     /* Find the surface. The sample points are computed early: they take long,
      * and nothing before depends on them. */
     path_prepare_2d(p);
-    m = w->materials[tri_material(w, h->tri, instance_of(w, h->tri))];
+    material = tri_material(w, h->tri, instance_of(w, h->tri));
+    m = w->materials[material];
     if (!surface_at(w, &m, p->ray, *h, &v))
         return false;
-    /* Attenuate by the medium on the way. The camera is in a solid if it sees
-     * one of its faces from inside. */
-    if (HAS(FEATURE_ATTENUATION)) {
-        if (p->vertex == 1 && !v.is_outside)
-            p->medium = m.attenuation;
-        p->beta = attenuated(p->beta, p->medium, h->t);
-    }
     /* Add emission of the surface */
     path_add_emission(w, p, &m, h->tri, &v);
     first_surface_light(&p->surface, p->vertex, p->out.radiance);
+    /* Scatter in the medium on the way, or enter another one */
+    if (HAS(FEATURE_MEDIA) && c.is_there) {
+        if (p->media.count == 0 && first_surface_is_ahead(&p->surface)) {
+            b = bsdf_at(w, &m, &v);
+            first_surface_meet(&p->surface, &b, v.n, h->t);
+        }
+        return path_collide(w, p, &medium, c.t, beta);
+    }
+    if (HAS(FEATURE_MEDIA))
+        p->beta = beta;
+    if (HAS(FEATURE_MEDIA) && m.is_boundary != 0)
+        return path_cross(p, material, &v, h->t);
     if (HAS(FEATURE_LIGHT_PATHS))
         has_cells = path_meet_role(w, p, &m);
     /* End at the limit of bounces */
-    if (p->vertex >= w->settings.max_vertices) {
-        p->out.cut = p->vertex >= PATH_HARD_STOP ? 1u : 0u;
+    if (path_is_full(w, p))
         return false;
-    }
     /* Evaluate the BSDF's parameters and the path guide's cell */
     b = bsdf_at(w, &m, &v);
     first_surface_meet(&p->surface, &b, v.n, h->t);
@@ -192,22 +307,17 @@ static inline bool path_extend(const struct world *w, struct path *p,
     p->from.p = v.p;
     p->from.n = v.n;
     p->from.transmits = bsdf_transmits(&b);
+    p->from.is_free = false;
     p->cell = guide_cell_none();
     if (HAS(FEATURE_GUIDE) && guide_helps(&b))
         p->cell = guide_at(w, v.p, v.ng);
     /* Sample a light */
-    p->light.is_lit = path_choose_light(w, p, &m, &b, &v, wo);
+    p->light.is_lit = path_choose_light(w, p, material, &m, &b, &v, wo);
     /* Sample the BSDF for the next direction; Russian roulette */
     lobe = path_2d(p, DIMENSION_BSDF_LOBE);
-    if (!path_scatter(w, p, &m, &b, &v, wo,
-                      path_2d(p, DIMENSION_BSDF_DIRECTION), lobe.x) ||
-        !path_survives(p, lobe.y))
-        return false;
-    p->vertex++;
-    p->out.rays++;
-    p->ray.t_max = FLOAT_MAX;
-    path_set_key(w, p->sampler, p->vertex, &p->ray);
-    return true;
+    return path_scatter(w, p, material, &b, &v, wo,
+                        path_2d(p, DIMENSION_BSDF_DIRECTION), lobe.x) &&
+           path_advance(w, p, lobe.y);
 }
 
 /* Extends the path by one vertex and traces its rays. *h becomes the next hit.
@@ -276,7 +386,7 @@ static inline struct path_sample path_trace(const struct world *w,
     hit_closest(w, start.ray, &h);
     if (samples_are_aovs(w))
         return aov_sample(w, start.ray, h);
-    path_open(&p, start, NULL);
+    path_open(w, &p, start, NULL);
     while (path_step(w, &p, &h))
         ;
     return path_close(w, &p, start.ray, surface);

@@ -12,7 +12,7 @@
 #ifndef KERNELS_PATH_LIGHTS_H
 #define KERNELS_PATH_LIGHTS_H
 
-#include "kernels/attenuation.h"
+#include "kernels/medium.h"
 #include "kernels/path_state.h"
 #include "kernels/roulette.h"
 #include "kernels/sphere_walk.h"
@@ -107,8 +107,11 @@ static inline void path_add_sphere(const struct world *w, struct path *p,
         return;
     radiance =
         v3_scale(w->point_lights[i].emission, point_light_part(w, i, r.d));
-    if (HAS(FEATURE_ATTENUATION))
-        radiance = attenuated(radiance, p->medium, t);
+    if (HAS(FEATURE_ATTENUATION)) {
+        struct medium medium = medium_of(w, &p->media);
+
+        radiance = attenuated(radiance, &medium, r, t);
+    }
     if (p->pdf > 0.0f)
         pdf = sphere_pdf_at(w, &p->from, i);
     path_add(p, radiance, bsdf_mis_weight(w, p->pdf, pdf));
@@ -172,9 +175,8 @@ static inline bool shadow_survives(const struct path *p, struct vec3 *light)
     return true;
 }
 
-/* Returns true if light_sample() can contribute at a surface with this BSDF. */
-static inline bool wants_light_sample(const struct world *w,
-                                      const struct bsdf *b)
+/* Returns true if light_sample() may find a light, and is wanted. */
+static inline bool has_light_samples(const struct world *w)
 {
     bool has_lights = w->settings.sky_share > 0.0f;
 
@@ -182,21 +184,35 @@ static inline bool wants_light_sample(const struct world *w,
         has_lights = has_lights || w->settings.light_count > 0;
     if (HAS(FEATURE_POINT_LIGHTS))
         has_lights = has_lights || w->settings.point_light_count > 0;
-    return has_lights && w->settings.direct != DIRECT_BSDF && !bsdf_is_delta(b);
+    return has_lights && w->settings.direct != DIRECT_BSDF;
 }
 
-/* Attenuates light that comes to the surface from a light sample, whose
- * direction has this cosine to the shading normal. */
-static inline struct vec3
-path_light_attenuated(const struct path *p, const struct material *m,
-                      const struct bsdf *b, const struct surface_point *v,
-                      const struct light_sample *l, float cosine,
-                      struct vec3 radiance)
+/* Returns true if light_sample() can contribute at a surface with this BSDF. */
+static inline bool wants_light_sample(const struct world *w,
+                                      const struct bsdf *b)
 {
-    float distance = l->is_near ? v3_length(v3_sub(l->p, v->p)) : FLOAT_MAX;
+    return has_light_samples(w) && !bsdf_is_delta(b);
+}
 
-    return attenuated(radiance, medium_beyond(m, b, v, cosine, p->medium),
-                      distance);
+/* Attenuates radiance of a light sample that comes to p in these media. With
+ * boundaries, path_add_light() does that. */
+static inline struct vec3 path_light_attenuated(const struct world *w,
+                                                struct path *p,
+                                                const struct media *media,
+                                                const struct light_sample *l,
+                                                struct vec3 radiance)
+{
+    float distance =
+        l->is_near ? v3_length(v3_sub(l->p, p->from.p)) : FLOAT_MAX;
+    struct ray r = {p->from.p, l->wi, distance, 0, 0};
+    struct medium medium;
+
+    if (HAS(FEATURE_MEDIA) && w->settings.has_boundaries != 0) {
+        p->light.media = *media;
+        return radiance;
+    }
+    medium = medium_of(w, media);
+    return attenuated(radiance, &medium, r, distance);
 }
 
 /* Aims the shadow ray at the light sample. The direction is computed again,
@@ -232,7 +248,7 @@ static inline bool path_aim(const struct world *w, const struct path *p,
 /* Draws the light sample of the path's vertex. Returns false if there is none,
  * or if roulette drops its shadow ray. */
 FLATTENED static inline bool
-path_choose_light(const struct world *w, struct path *p,
+path_choose_light(const struct world *w, struct path *p, uint32_t material,
                   const struct material *m, const struct bsdf *b,
                   const struct surface_point *v, struct vec3 wo)
 {
@@ -263,17 +279,111 @@ path_choose_light(const struct world *w, struct path *p,
     radiance = path_part(p, radiance,
                          bsdf_eta_scale(b, wi) *
                              light_mis_weight(w, l.pdf, pdf) / l.pdf);
-    if (HAS(FEATURE_ATTENUATION))
-        radiance = path_light_attenuated(p, m, b, v, &l, wi.z, radiance);
+    if (HAS(FEATURE_ATTENUATION)) {
+        struct media media = p->media;
+
+        media_follow(&media, material, b, v, wi.z);
+        radiance = path_light_attenuated(w, p, &media, &l, radiance);
+    }
     p->light.tri = l.tri;
     p->light.radiance = radiance;
     return shadow_survives(p, &p->light.radiance) &&
            path_aim(w, p, v, &l, wi.z, &p->light.shadow);
 }
 
+/* Draws the light sample of a vertex in a medium, to which the path has come in
+ * direction d. Returns as path_choose_light(). */
+static inline bool path_choose_medium_light(const struct world *w,
+                                            struct path *p,
+                                            const struct medium *m,
+                                            struct vec3 d)
+{
+    struct surface_point v;
+    struct light_sample l;
+    struct vec3 radiance;
+    float pdf;
+
+    if (!has_light_samples(w) ||
+        !light_sample(w, &p->from, NO_INDEX,
+                      path_2d(p, DIMENSION_LIGHT_POSITION),
+                      path_2d(p, DIMENSION_LIGHT_CHOICE), &l))
+        return false;
+    pdf = phase_density(m, d, l.wi);
+    radiance = v3_scale(l.radiance, pdf);
+    if (v3_is_zero(radiance))
+        return false;
+    radiance =
+        path_part(p, radiance,
+                  light_mis_weight(w, l.pdf, l.is_delta ? 0.0f : pdf) / l.pdf);
+    v.above = p->from.p;
+    v.face = 0;
+    p->light.tri = l.tri;
+    p->light.radiance = path_light_attenuated(w, p, &p->media, &l, radiance);
+    return shadow_survives(p, &p->light.radiance) &&
+           path_aim(w, p, &v, &l, 1.0f, &p->light.shadow);
+}
+
+/* Boundaries of media that a ray crosses at most between two vertices. */
+#define CROSSINGS_MAX 64u
+
+/* Takes a ray to the other side of a boundary. */
+static inline void boundary_cross(struct media *media, uint32_t material,
+                                  const struct surface_point *v, struct ray *r)
+{
+    media_cross(media, material, v);
+    surface_spawn_ray(v, r->d, -1.0f, r);
+}
+
+/* Returns the share of light that comes along the shadow ray, through media and
+ * their boundaries. Boundaries are crossed in the order in which they lie, so
+ * that the share does not depend on the tree. */
+static inline struct vec3 shadow_transmittance(const struct world *w,
+                                               struct path *p)
+{
+    struct ray r = p->light.shadow;
+    struct media media = p->light.media;
+    struct vec3 left = v3(1.0f, 1.0f, 1.0f);
+    float length = v3_length(r.d);
+
+    r.d = v3_scale(r.d, 1.0f / length);
+    r.t_max = f_min(r.t_max * length, FLOAT_MAX);
+    for (uint32_t i = 0; i <= CROSSINGS_MAX; i++) {
+        struct medium medium = medium_of(w, &media);
+        struct surface_point v;
+        uint32_t material;
+        struct hit h;
+        bool is_end;
+
+        p->out.rays++;
+        is_end = !hit_closest(w, r, &h) || h.tri == p->light.tri;
+        left = attenuated(left, &medium, r, is_end ? r.t_max : h.t);
+        if (is_end)
+            return left;
+        material = tri_material(w, h.tri, instance_of(w, h.tri));
+        if (w->materials[material].is_boundary == 0 || v3_is_zero(left))
+            break;
+        {
+            struct material m = w->materials[material];
+
+            if (!surface_at(w, &m, r, h, &v))
+                break;
+        }
+        boundary_cross(&media, material, &v, &r);
+        if (r.t_max < FLOAT_MAX)
+            r.t_max -= h.t;
+    }
+    return v3(0.0f, 0.0f, 0.0f);
+}
+
 /* Traces the shadow ray and adds the light sample if it is not occluded. */
 static inline void path_add_light(const struct world *w, struct path *p)
 {
+    if (HAS(FEATURE_MEDIA) && w->settings.has_boundaries != 0) {
+        p->out.radiance =
+            v3_add(p->out.radiance,
+                   v3_mul(p->light.radiance, shadow_transmittance(w, p)));
+        return;
+    }
     p->out.rays++;
     if (!hit_any(w, p->light.shadow, p->light.tri))
         p->out.radiance = v3_add(p->out.radiance, p->light.radiance);

@@ -27,6 +27,7 @@ struct path_light {
     struct vec3 radiance;
     uint32_t tri; /* NO_INDEX: none; the light is not a triangle */
     bool is_lit;  /* there is a sample, whose shadow ray is to be traced */
+    struct media media; /* where the shadow ray begins; FEATURE_MEDIA */
 };
 
 /* State of a path between two vertices. */
@@ -40,9 +41,10 @@ struct path {
     float scale;      /* factor of the throughput that roulette ignores */
     float pdf;        /* density of the ray's direction; 0 for the camera and
                          delta lobes, with which light samples do not compete */
-    struct receiver from;    /* vertex that the ray left, if pdf is above 0 */
-    struct guide_cell cell;  /* tables of the path guide at that vertex */
-    struct vec3 medium;      /* absorption along the ray; FEATURE_ATTENUATION */
+    struct receiver from;   /* vertex that the ray left, if pdf is above 0 */
+    struct guide_cell cell; /* tables of the path guide at that vertex */
+    struct media media;     /* where the ray is; FEATURE_ATTENUATION */
+    uint32_t crossings;     /* of boundaries since that vertex; FEATURE_MEDIA */
     struct path_light light; /* light sample of the last vertex */
     struct path_sample out;
     struct first_surface surface;

@@ -51,7 +51,8 @@ enum dimension {
     DIMENSION_LIGHT_CHOICE = 1,
     DIMENSION_BSDF_DIRECTION = 2,
     DIMENSION_BSDF_LOBE = 3, /* and Russian roulette */
-    DIMENSION_KINDS = 4      /* number of dimensions at a vertex */
+    DIMENSION_KINDS = 4,     /* of these, which are computed together */
+    DIMENSION_MEDIUM = 4     /* distance and channel of a collision */
 };
 
 /* Samples of a pixel in a draft, in one with halves, and the longest side of a

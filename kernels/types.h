@@ -60,6 +60,25 @@ enum material_role {
     ROLE_MATTE  /* scatters light into all directions, and maybe a delta */
 };
 
+/* Most bodies in which a path is at a time; it does not notice others. */
+#define MEDIA_MAX 8
+
+/* Materials of the bodies in which a path is, in the order in which it has
+ * entered them. */
+struct media {
+    uint32_t count;
+    uint32_t at[MEDIA_MAX];
+};
+
+/* See medium.h. */
+struct medium {
+    struct vec3 extinction; /* coefficient of absorption and scattering */
+    struct vec3 scattering;
+    float anisotropy; /* mean cosine of scattering, between -1 and 1 */
+    float base;       /* these two of fog: a height, */
+    float falloff;    /* and a length; 0: it is even */
+};
+
 struct material {
     struct vec3 color;
     float alpha;          /* GGX roughness; below ALPHA_SMOOTH: a delta lobe */
@@ -80,7 +99,8 @@ struct material {
     float anisotropy;  /* 0 to 1; of MATERIAL_PRINCIPLED too */
     struct vec2 grain; /* direction of the wider axis, in units of the tangents
                           along u and v */
-    struct vec3 attenuation; /* absorption in solids: attenuation.h */
+    struct medium medium;  /* inside a solid */
+    uint32_t is_boundary;  /* 1: rays cross it; only its medium is there */
     uint32_t is_thin;      /* 1: glass of MATERIAL_PRINCIPLED is a thin sheet */
     float bump_scale;      /* height of an alpha of 1, in texels */
     float normal_strength; /* 0: the map of normals has no effect; 1: all */
@@ -407,6 +427,9 @@ struct settings {
     float light_share; /* of a light of the tree; otherwise there is none */
     float sky_power;   /* importance of the sky beside the irradiance of
                           directional lights */
+    struct medium fog; /* outside of all bodies */
+    struct media camera_media; /* bodies in which the eye is */
+    uint32_t has_boundaries;   /* 1: some material is one */
 
     /* lengths of the world's arrays */
     uint32_t tri_count; /* each mesh once */

@@ -58,7 +58,7 @@ void path_record_follow(struct path_record *t, const struct world *w,
 
     path_set_key(w, start.sampler, 1, &start.ray);
     hit_closest(w, start.ray, &h);
-    path_open(&p, start, NULL);
+    path_open(w, &p, start, NULL);
     t->count = t->vertices = 0;
     while (goes_on) {
         struct path before = p;

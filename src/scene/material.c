@@ -147,23 +147,77 @@ static bool is_thin(const struct material_values *s,
     return statement_unit(&s->thinness, "Tf_thin", at) > 0;
 }
 
-/* Sets the absorption of a solid with the colour tf, or Tf_attenuation if that
- * is present, after Tf_distance. Returns false if the distance is absent or
- * 0. */
-static bool attenuate(struct material *m, struct vec3 tf,
-                      const struct material_values *s,
-                      const struct statement_place *at)
+/* Largest coefficient of a medium, in units of the file or of the scene. */
+#define COEFFICIENT_MAX 1e30f
+
+struct medium medium_scaled(struct medium m, float factor)
+{
+    const struct vec3 most = {COEFFICIENT_MAX, COEFFICIENT_MAX,
+                              COEFFICIENT_MAX};
+
+    m.extinction = v3_min(v3_scale(m.extinction, factor), most);
+    m.scattering = v3_min(v3_scale(m.scattering, factor), m.extinction);
+    return m;
+}
+
+/* Returns the albedo of single scattering of an isotropic medium whose half
+ * space has this color under a white sky (Kulla and Conty 2017, "Revisiting
+ * physically based shading at Imageworks"), for scattering of mean cosine g. */
+static float single_albedo(float color, float g)
+{
+    float s = 4.09712f + 4.20863f * color -
+              sqrtf(9.59217f + 41.6808f * color + 17.7126f * color * color);
+
+    return fminf(fmaxf((1 - s * s) / (1 - g * s * s), 0), 1);
+}
+
+/* Returns the share of the extinction that is scattered. */
+static struct vec3 medium_albedo(const struct material_values *s, float g,
+                                 const struct statement_place *at)
+{
+    struct vec3 c;
+
+    if (s->medium_color.line == 0)
+        return statement_reflectance(&s->medium_albedo, "Tf_albedo", 0, at);
+    c = statement_reflectance(&s->medium_color, "Tf_multiscatter", 0, at);
+    return (struct vec3){single_albedo(c.x, g), single_albedo(c.y, g),
+                         single_albedo(c.z, g)};
+}
+
+/* Mean cosine of scattering that is nearest to straight on or back. */
+#define ANISOTROPY_MAX 0.999
+
+/* Sets the medium of a solid: by its coefficients; or by the color that is left
+ * of light after Tf_distance, tf or Tf_attenuation if that is present. Returns
+ * true if it explains tf. */
+static bool fill(struct material *m, struct vec3 tf,
+                 const struct material_values *s,
+                 const struct statement_place *at)
 {
     double d = statement_within(&s->attenuation_distance, "Tf_distance", 0,
                                 DBL_MAX, 0, at);
+    double g =
+        statement_within(&s->medium_anisotropy, "Tf_anisotropy", -1, 1, 0, at);
+    struct medium *to = &m->medium;
 
+    to->anisotropy = (float)fmax(fmin(g, ANISOTROPY_MAX), -ANISOTROPY_MAX);
+    if (s->medium_scatter.line != 0 || s->medium_absorb.line != 0) {
+        to->scattering = statement_radiance(&s->medium_scatter, at);
+        to->extinction =
+            v3_add(to->scattering, statement_radiance(&s->medium_absorb, at));
+        *to = medium_scaled(*to, 1);
+        return false;
+    }
     if (d == 0)
         return false;
     if (s->attenuation.line != 0)
         tf = statement_reflectance(&s->attenuation, "Tf_attenuation", 1, at);
-    m->attenuation = (struct vec3){absorption(tf.x, d), absorption(tf.y, d),
+    to->extinction = (struct vec3){absorption(tf.x, d), absorption(tf.y, d),
                                    absorption(tf.z, d)};
-    return true;
+    to->scattering =
+        v3_mul(to->extinction, medium_albedo(s, to->anisotropy, at));
+    *to = medium_scaled(*to, 1);
+    return s->attenuation.line == 0;
 }
 
 static bool is_black(const struct vec3 *c)
@@ -178,8 +232,7 @@ static void make_glass(struct material *m, uint32_t kind,
     m->kind = kind;
     m->color = statement_reflectance(&s->transmission, "Tf", 1, at);
     m->color_texture = material_values_map(s, MTL_MAP_COLOR);
-    if (kind == MATERIAL_GLASS && attenuate(m, m->color, s, at) &&
-        s->attenuation.line == 0)
+    if (kind == MATERIAL_GLASS && fill(m, m->color, s, at))
         m->color = (struct vec3){1, 1, 1};
     if (is_black(&m->color) && m->color_texture != NO_INDEX)
         m->color = (struct vec3){1, 1, 1}; /* a factor of map_Kd, as Kd is */
@@ -284,8 +337,7 @@ static double transmission(struct material *m, const struct material_values *s,
     tf = statement_reflectance(&s->transmission, "Tf", 1, at);
     top = v3_max_component(tf);
     m->is_thin = top > 0 && is_thin(s, at);
-    if (top > 0 && m->is_thin == 0 &&
-        attenuate(m, v3_scale(tf, 1 / top), s, at) && s->attenuation.line == 0)
+    if (top > 0 && m->is_thin == 0 && fill(m, v3_scale(tf, 1 / top), s, at))
         return (double)top;
     return (double)(tf.x + tf.y + tf.z) / 3;
 }
@@ -478,6 +530,8 @@ static enum material_role role_of(const struct material *m)
 
     if (m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_ROUGH_DIFFUSE)
         return ROLE_MATTE;
+    if (m->is_boundary != 0)
+        return ROLE_NONE;
     if (is_clear || m->kind == MATERIAL_METAL ||
         (m->kind == MATERIAL_PRINCIPLED &&
          m->metalness + m->transmission >= 0.5f)) {
@@ -486,6 +540,17 @@ static enum material_role role_of(const struct material *m)
         is_matte = m->kind == MATERIAL_METAL && m->alpha_texture == NO_INDEX;
     }
     return is_matte ? ROLE_MATTE : ROLE_NONE;
+}
+
+/* Returns true for a face of Ni 1 without color, behind which there is a
+ * medium: it neither reflects nor bends light. */
+static bool is_boundary(const struct material *m)
+{
+    const struct vec3 c = m->color;
+
+    return m->kind == MATERIAL_GLASS && m->ior == 1 && c.x == 1 && c.y == 1 &&
+           c.z == 1 && m->color_texture == NO_INDEX &&
+           !v3_is_zero(m->medium.extinction) && v3_is_zero(m->emission);
 }
 
 struct material material_from_source(const struct material_values *source,
@@ -525,6 +590,7 @@ struct material material_from_source(const struct material_values *source,
                      "uses: ignored",
                      path, s->attenuation_distance.line);
     m.emission = statement_radiance(&light, &at);
+    m.is_boundary = is_boundary(&m);
     m.role = role_of(&m);
     return m;
 }
@@ -643,8 +709,10 @@ uint64_t material_features(const struct material *m,
         features |= FEATURE_SHEEN;
     if (m->kind == MATERIAL_PRINCIPLED && m->film > 0)
         features |= FEATURE_THIN_FILM;
-    if (!v3_is_zero(m->attenuation))
+    if (!v3_is_zero(m->medium.extinction))
         features |= FEATURE_ATTENUATION;
+    if (!v3_is_zero(m->medium.scattering) || m->is_boundary != 0)
+        features |= FEATURE_MEDIA;
     if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
         features |= FEATURE_GLASS;
     if (m->is_thin != 0 ||

@@ -69,6 +69,10 @@ enum mtl_dialect {
     COLOR(transmission, "Tf")                                                  \
     COLOR(ambient, "Ka") /* read in files of Blender only */                   \
     COLOR(attenuation, "Tf_attenuation")                                       \
+    COLOR(medium_scatter, "Tf_scatter")                                        \
+    COLOR(medium_absorb, "Tf_absorb")                                          \
+    COLOR(medium_albedo, "Tf_albedo")                                          \
+    COLOR(medium_color, "Tf_multiscatter")                                     \
     COLOR(sheen_color, "Ps_color")                                             \
     NUMBER(illum, "illum")                                                     \
     NUMBER(shininess, "Ns")                                                    \
@@ -85,6 +89,7 @@ enum mtl_dialect {
     NUMBER(anisotropy_rotation, "anisor")                                      \
     NUMBER(attenuation_distance, "Tf_distance")                                \
     NUMBER(thinness, "Tf_thin")                                                \
+    NUMBER(medium_anisotropy, "Tf_anisotropy")                                 \
     NUMBER(sheen_roughness, "Ps_roughness")                                    \
     NUMBER(film, "Pf")                                                         \
     NUMBER(film_ior, "Pf_ior")                                                 \

@@ -16,6 +16,7 @@
 #include "image/image_read.h"
 #include "scene/material.h"
 #include "world/bvh/instance_trees.h"
+#include "world/camera_media.h"
 #include "world/light/daylight.h"
 #include "world/light/guide_grid.h"
 #include "world/textures.h"
@@ -100,8 +101,7 @@ static bool is_one_image(const struct scene *scene, uint32_t a, uint32_t b)
 static struct material in_world(const struct scene *scene, struct material m)
 {
     m.color_is_opaque = is_one_image(scene, m.color_texture, m.opacity_texture);
-    m.attenuation = v3_min(v3(FLT_MAX, FLT_MAX, FLT_MAX),
-                           v3_scale(m.attenuation, (float)(1 / scene->scale)));
+    m.medium = medium_scaled(m.medium, (float)(1 / scene->scale));
     return m;
 }
 
@@ -324,9 +324,19 @@ uint64_t world_features(const struct host_world *host)
     for (uint32_t i = 0; i < host->material_count; i++)
         if (host->material_is_used[i])
             features |= material_features(&host->materials[i], host->textures);
+    if ((features & FEATURE_MEDIA) != 0)
+        features |= FEATURE_ATTENUATION;
     if (host->has_tangents && features_use_tangents(features))
         features |= FEATURE_TANGENTS;
     return features;
+}
+
+static bool has_boundaries(const struct host_world *host)
+{
+    for (uint32_t i = 0; i < host->material_count; i++)
+        if (host->material_is_used[i] && host->materials[i].is_boundary != 0)
+            return true;
+    return false;
 }
 
 bool world_has_emitters(const struct host_world *host)
@@ -436,7 +446,9 @@ static bool find_light_paths(struct host_world *host, const struct world *w,
         host->light_paths_sky == sky_mean)
         return true;
     light_paths_free(&host->light_paths);
-    if (!light_paths_build(&host->light_paths, w, &host->lights, sky_mean))
+    /* light paths do not know media that scatter, nor boundaries */
+    if ((world_features(host) & FEATURE_MEDIA) == 0 &&
+        !light_paths_build(&host->light_paths, w, &host->lights, sky_mean))
         return fail(err, "out of memory for light paths");
     if (host->light_paths.sources != NULL && !aim_light_paths(host, *w, err))
         return false;
@@ -493,9 +505,12 @@ bool world_lend(const struct host_world *host, const struct scene *scene,
                                   : (uint32_t)view->max_bounces + 1;
     w.settings.seed = seed;
     w.settings.features = world_features(host);
+    w.settings.has_boundaries = has_boundaries(host);
     if (!pose_check(&view->pose, "camera", err) ||
         !make_camera(scene, view, &w.settings.camera, err))
         return false;
+    if ((w.settings.features & FEATURE_ATTENUATION) != 0)
+        w.settings.camera_media = camera_media(&w, w.settings.camera.eye);
     *world = w;
     return true;
 }

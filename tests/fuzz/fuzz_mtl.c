@@ -47,7 +47,7 @@ static void check_material(const struct scene *scene, const struct material *m)
     require(m->film_thickness >= 0 && m->film_thickness <= 2000,
             "thickness of the film");
     require(m->cutoff >= 0 && m->cutoff <= 1, "cutoff");
-    require(is_light(m->attenuation), "absorption");
+    require(is_light(m->medium.extinction), "absorption");
     require(isfinite(m->normal_strength), "slope of normals");
     require(isfinite(m->coat_normal_strength), "slope of the coat's normals");
     material_maps(m, maps);

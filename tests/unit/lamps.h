@@ -49,7 +49,7 @@ static inline struct vec3 any_direction(uint64_t *seed)
 static inline struct receiver any_receiver(uint64_t *seed)
 {
     struct receiver r = {point_between(seed, -1, 1), any_direction(seed),
-                         check_random(seed) < 0.3};
+                         check_random(seed) < 0.3, false};
 
     return r;
 }

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "image/color.h"
 #include "world/bvh/ray_queries.h"
-#include "kernels/attenuation.h"
+#include "kernels/medium.h"
 #include "kernels/camera.h"
 #include "kernels/light.h"
 #include "kernels/path_state.h"
@@ -264,7 +264,7 @@ struct light_path {
     uint32_t rays;   /* number of rays that were traced for it */
     int half, worker;
     struct vec3 flux; /* over the density of the path so far */
-    struct vec3 medium;
+    struct media media;
     uint32_t aim; /* triangle that it has to hit first */
 };
 
@@ -370,7 +370,7 @@ static bool path_leave(const struct light_paths *paths, const struct world *w,
         return false;
     cosine = fabsf(v3_dot(tri_placed(w, p->aim).t.ng, p->ray.d));
     p->flux = v3_scale(p->flux, cosine * to.area / s->probability);
-    p->medium = v3(0.0f, 0.0f, 0.0f);
+    p->media.count = 0;
     return v3_max_component(p->flux) > 0.0f;
 }
 
@@ -487,6 +487,7 @@ static void connect(const struct tracing *t, struct light_path *p,
     struct surface_point v;
     struct ray r = {.t_max = FLOAT_MAX};
     struct bsdf b;
+    struct medium medium;
     float pdf, square;
 
     if (!see(&w->settings.camera, point,
@@ -510,7 +511,8 @@ static void connect(const struct tracing *t, struct light_path *p,
     square = v3_dot(v3_sub(point, view.eye), v3_sub(point, view.eye));
     f = v3_scale(f, bsdf_eta_scale(&b, wi) * fabsf(v3_dot(r.d, v.ng)) *
                         view.factor / (fabsf(v3_dot(l, v.ng)) * square));
-    f = v3_mul(f, attenuated(p->flux, p->medium, sqrtf(square)));
+    medium = medium_of(w, &p->media);
+    f = v3_mul(f, attenuated(p->flux, &medium, r, sqrtf(square)));
     r.o = surface_ray_origin(&v, wo.z);
     r.d = v3_sub(view.eye, r.o);
     r.t_max = 1.0f;
@@ -548,9 +550,10 @@ static struct vec3 weight_of(const struct world *w, const struct material *m,
 /* Scatters a path at a surface. Roulette keeps its flux. Returns false if it
  * ends. */
 static bool scatter(const struct world *w, struct light_path *p,
-                    const struct material *m, const struct surface_point *v,
+                    uint32_t material, const struct surface_point *v,
                     struct hit h, uint32_t vertex)
 {
+    const struct material *m = &w->materials[material];
     uint32_t first = NUMBER_VERTEX + NUMBER_STRIDE * vertex;
     struct vec2 choice = number_2d(p->sampler, first + NUMBER_LOBE);
     struct bsdf b = bsdf_at(w, m, v);
@@ -579,7 +582,7 @@ static bool scatter(const struct world *w, struct light_path *p,
         return false;
     p->flux = v3_scale(v3_mul(p->flux, weight), 1.0f / q);
     surface_spawn_ray(v, wi, s.wi.z, &p->ray);
-    p->medium = medium_beyond(m, &b, v, s.wi.z, p->medium);
+    media_follow(&p->media, material, &b, v, s.wi.z);
     return true;
 }
 
@@ -605,6 +608,8 @@ static void follow(const struct tracing *t, struct light_path *p)
          vertex++) {
         struct material m;
         struct surface_point v = {0};
+        struct medium medium;
+        uint32_t material;
         struct hit h;
 
         p->rays++;
@@ -613,18 +618,20 @@ static void follow(const struct tracing *t, struct light_path *p)
             p->ray.key = ray_key(p->sampler, vertex);
         if (!hit_closest(w, p->ray, &h) || (vertex == 1 && h.tri != p->aim))
             return;
-        m = w->materials[tri_material_number(w, h.tri)];
+        material = tri_material_number(w, h.tri);
+        m = w->materials[material];
         if (!surface_at(w, &m, p->ray, h, &v))
             return;
-        if (vertex == 1 && !v.is_outside)
-            p->medium = m.attenuation;
-        p->flux = attenuated(p->flux, p->medium, h.t);
+        if (vertex == 1 && !v.is_outside) /* the lamp is in the body */
+            media_enter(&p->media, material);
+        medium = medium_of(w, &p->media);
+        p->flux = attenuated(p->flux, &medium, p->ray, h.t);
         if (m.role == ROLE_MATTE) {
             connect(t, p, &m, h, vertex);
             if (t->film.cells != NULL)
                 deposit(t, p, &v, vertex);
         }
-        if (!scatter(w, p, &m, &v, h, vertex))
+        if (!scatter(w, p, material, &v, h, vertex))
             return;
     }
 }

@@ -124,8 +124,8 @@ static void expect_layers(const struct material *m, const json_t *want)
     }
     for (size_t i = 0; i < 3 && weight > 0 && distance > 0 && m->is_thin == 0;
          i++) {
-        const float is[3] = {m->attenuation.x, m->attenuation.y,
-                             m->attenuation.z};
+        const float is[3] = {m->medium.extinction.x, m->medium.extinction.y,
+                             m->medium.extinction.z};
         const json_t *c = json_object_get(volume, "attenuationColor");
 
         check_close((double)is[i],

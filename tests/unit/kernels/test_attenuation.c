@@ -21,7 +21,7 @@ static struct material glass_of(float ior, struct vec3 absorption)
     struct material m = mesh_material(MATERIAL_GLASS, 1);
 
     m.ior = ior;
-    m.attenuation = absorption;
+    m.medium.extinction = absorption;
     return m;
 }
 

@@ -41,11 +41,14 @@
       M(material, transmission) M(material, coat)                             \
       M(material, coat_alpha) M(material, sheen) M(material, sheen_alpha)     \
       M(material, anisotropy) M(material, grain)                              \
-      M(material, attenuation) M(material, is_thin)                           \
+      M(material, medium) M(material, is_boundary) M(material, is_thin)                           \
       M(material, transmission_texture) M(material, coat_texture)             \
       M(material, coat_alpha_texture) M(material, sheen_texture)              \
       M(material, film) M(material, film_ior) M(material, film_thickness)     \
       M(material, cutoff) M(material, role)                                   \
+    S(media) M(media, count) M(media, at)                                     \
+    S(medium) M(medium, extinction) M(medium, scattering)                     \
+      M(medium, anisotropy) M(medium, base) M(medium, falloff)                \
     S(texture) M(texture, first) M(texture, width) M(texture, height)         \
       M(texture, has_alpha) M(texture, scale) M(texture, offset)              \
       M(texture, flags) M(texture, is_data) M(texture, rotation)              \
@@ -89,7 +92,8 @@
       M(settings, has_light_paths) M(settings, has_light_cells)                   \
       M(settings, has_radiance_cells) M(settings, sky_level)                  \
       M(settings, sky_share) M(settings, light_share)                         \
-      M(settings, sky_power) M(settings, point_light_count)                   \
+      M(settings, sky_power) M(settings, fog) M(settings, camera_media)       \
+      M(settings, has_boundaries) M(settings, point_light_count)                   \
       M(settings, sphere_count) M(settings, directional_light_count)          \
       M(settings, profile_value_count)                                        \
       M(settings, tri_count) M(settings, instance_count)                      \

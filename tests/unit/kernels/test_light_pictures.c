@@ -88,7 +88,7 @@ static void emission_maps_light_the_floor(void **state)
             struct receiver r = {v3(between(&seed, -1, 1), 0,
                                     between(&seed, -1, 1)),
                                  v3_unit(v3(between(&seed, -1, 1), 1, 0)),
-                                 false};
+                                 false, false};
             double error, e;
 
             e = irradiance(&m.world, &r, 200000, &seed, &error);
@@ -104,7 +104,7 @@ static void emission_maps_light_the_floor(void **state)
 static void holes_do_not_shine(void **state)
 {
     static uint32_t texels[TEXTURE_SIDE * TEXTURE_SIDE];
-    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false, false};
     uint64_t seed = 23;
     float linear[256];
     struct texture texture;

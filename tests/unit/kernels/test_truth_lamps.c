@@ -14,11 +14,11 @@ enum { FLOOR, LAMP, SCREEN, OTHER };
 static void polygons_obey_lambert(void **state)
 {
     const struct receiver receivers[] = {
-        {{0, 0, 0}, {0, 1, 0}, false},
-        {{0.3f, 0.9f, -0.2f}, {0, -1, 0}, false},
-        {{0.1f, 0.1f, 0.2f}, {0.8f, 0.6f, 0}, false},
-        {{0, 0.2f, -0.3f}, {0.6f, 0, 0.8f}, false},
-        {{-0.2f, 0.7f, 0.1f}, {0.96f, -0.28f, 0}, false},
+        {{0, 0, 0}, {0, 1, 0}, false, false},
+        {{0.3f, 0.9f, -0.2f}, {0, -1, 0}, false, false},
+        {{0.1f, 0.1f, 0.2f}, {0.8f, 0.6f, 0}, false, false},
+        {{0, 0.2f, -0.3f}, {0.6f, 0, 0.8f}, false, false},
+        {{-0.2f, 0.7f, 0.1f}, {0.96f, -0.28f, 0}, false, false},
     };
     const struct vec3 corners[5] = {{0.6f, 0.4f, 0},
                                     {0.2f, 0.5f, 0.55f},
@@ -87,10 +87,10 @@ static void screens_hide_their_share(void **state)
 {
     const float opacities[] = {1, 0.3f};
     const float glows[] = {0, 3};
-    const struct receiver receivers[] = {{{0, 0, 0}, {0, 1, 0}, false},
+    const struct receiver receivers[] = {{{0, 0, 0}, {0, 1, 0}, false, false},
                                          {{-0.4f, 0.05f, 0.1f},
                                           {0.6f, 0.8f, 0},
-                                          false}};
+                                          false, false}};
 
     (void)state;
     for (size_t k = 0; k < 8; k++) {
@@ -145,7 +145,7 @@ static void cut_outs_hide_and_shine_by_half(void **state)
                                  .has_alpha = 1,
                                  .scale = {1, 1},
                                  .flags = TEXTURE_CLAMP};
-    const struct receiver r = {{0.1f, 0, 0}, {0, 1, 0}, false};
+    const struct receiver r = {{0.1f, 0, 0}, {0, 1, 0}, false, false};
 
     (void)state;
     for (int i = CUT_WIDTH / 2; i < CUT_WIDTH; i++)
@@ -273,10 +273,10 @@ static void all_surfaces_shine_as_they_scatter(void **state)
 /* 300 lamps of three radiances are side by side in a plane. */
 static void many_lamps_add_up(void **state)
 {
-    const struct receiver receivers[] = {{{0, 0, 0}, {0, 1, 0}, false},
+    const struct receiver receivers[] = {{{0, 0, 0}, {0, 1, 0}, false, false},
                                          {{0.5f, 0.2f, -0.3f},
                                           {-0.6f, 0.8f, 0},
-                                          false}};
+                                          false, false}};
 
     (void)state;
     for (size_t k = 0; k < 2; k++) {
@@ -310,7 +310,7 @@ static void many_lamps_add_up(void **state)
  * only BSDF samples find. */
 static void mirrors_show_lamps_to_floors(void **state)
 {
-    const struct receiver r = {{0.2f, 0, 0.1f}, {0, 1, 0}, false};
+    const struct receiver r = {{0.2f, 0, 0.1f}, {0, 1, 0}, false, false};
     const struct sheet lamp = {0.1f, 0.5f, -0.3f, 0.3f, 0.4f};
     const struct sheet image = {-0.5f, -0.1f, -0.3f, 0.3f, 0.4f};
     struct lit_mesh s = {0};
@@ -344,7 +344,7 @@ static void mirrors_show_lamps_to_floors(void **state)
  * squared. */
 static void glass_dims_what_is_in_it(void **state)
 {
-    const struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    const struct receiver r = {{0, 0, 0}, {0, 1, 0}, false, false};
     const struct sheet lamp = {0.05f, 0.6f, -0.3f, 0.3f, 0.4f};
     double truth = ALBEDO / M_PI * 2 * sheet_irradiance(lamp, &r);
     struct lit_mesh s = {0};

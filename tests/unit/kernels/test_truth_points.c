@@ -10,9 +10,9 @@
 #define NOT_BY_CHANCE (1 << DIRECT_BSDF)
 
 static const struct receiver receivers[] = {
-    {{0, 0, 0}, {0, 1, 0}, false},
-    {{0.3f, -0.2f, 0.1f}, {0.6f, 0.8f, 0}, false},
-    {{-0.5f, 0.1f, 0.4f}, {0, 0.28f, -0.96f}, false},
+    {{0, 0, 0}, {0, 1, 0}, false, false},
+    {{0.3f, -0.2f, 0.1f}, {0.6f, 0.8f, 0}, false, false},
+    {{-0.5f, 0.1f, 0.4f}, {0, 0.28f, -0.96f}, false, false},
 };
 
 #define RECEIVERS (sizeof receivers / sizeof *receivers)
@@ -151,7 +151,7 @@ static void spots_fall_off_as_in_gltf(void **state)
         double part = fmin(fmax(cos(angle) * scale - outer * scale, 0), 1);
         struct vec3 d = {(float)sin(angle), (float)-cos(angle), 0};
         struct point_light l = point_at(v3(0.1f, 0.5f, 0.2f), 3);
-        struct receiver r = {v3_add(l.p, v3_scale(d, 2)), v3_neg(d), false};
+        struct receiver r = {v3_add(l.p, v3_scale(d, 2)), v3_neg(d), false, false};
         struct lit_mesh s;
 
         l.axis = v3(0, -1, 0);

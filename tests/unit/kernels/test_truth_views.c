@@ -374,9 +374,9 @@ static void check_floor(struct lit_mesh *s, const struct receiver *r,
 }
 
 static const struct receiver receivers[] = {
-    {{0, 0, 0}, {0, 1, 0}, false},
-    {{0.3f, 0.2f, -0.2f}, {-0.6f, 0.8f, 0}, false},
-    {{0.2f, 0.9f, 0.1f}, {0, -0.8f, 0.6f}, false}};
+    {{0, 0, 0}, {0, 1, 0}, false, false},
+    {{0.3f, 0.2f, -0.2f}, {-0.6f, 0.8f, 0}, false, false},
+    {{0.2f, 0.9f, 0.1f}, {0, -0.8f, 0.6f}, false, false}};
 
 #define RECEIVERS (sizeof receivers / sizeof *receivers)
 #define REPEATS   1.5

@@ -493,20 +493,20 @@ static void solids_absorb_their_colour(void **state)
 
     (void)state;
     check_color(m.color, 1, 1, 1);
-    check_color(m.attenuation, log(2.0) / d, log(4.0) / d, 0);
+    check_color(m.medium.extinction, log(2.0) / d, log(4.0) / d, 0);
     m = only_material("Kd .7\nKs .5\nPr .5\nTf .4 .2 .1\nTf_distance 2.5", 0);
     check_close((double)m.transmission, .4, 1e-7);
     check_color(m.color, .7, .7, .7);
-    check_color(m.attenuation, 0, log(2.0) / d, log(4.0) / d);
+    check_color(m.medium.extinction, 0, log(2.0) / d, log(4.0) / d);
     m = only_material("Tf 0 1 1\nTf_distance 1e-30\nillum 7", 0);
-    assert_true(m.attenuation.x > 1e30f && isfinite(m.attenuation.x));
+    assert_true(m.medium.extinction.x >= 1e30f && isfinite(m.medium.extinction.x));
     m = only_material("Tf .5\nTf_distance 0\nillum 7", 0);
     check_color(m.color, .5, .5, .5);
-    check_color(m.attenuation, 0, 0, 0);
+    check_color(m.medium.extinction, 0, 0, 0);
     m = only_material("Tf .5\nTf_distance -1\nillum 7", 1);
     check_color(m.color, .5, .5, .5);
     m = only_material("Tf .5\nTf_distance 2\nillum 4", 1);
-    check_color(m.attenuation, 0, 0, 0);
+    check_color(m.medium.extinction, 0, 0, 0);
     only_material("Kd .5\nTf_distance 2", 1);
 }
 
@@ -524,7 +524,7 @@ static void sheets_are_rough_if_the_file_says_so(void **state)
     assert_int_equal(m.is_thin, 1);
     check_close((double)m.transmission, .2, 1e-7);
     m = only_material("Kd .7\nPr .5\nTf .4\nTf_thin 1\nTf_distance 1", 1);
-    check_color(m.attenuation, 0, 0, 0);
+    check_color(m.medium.extinction, 0, 0, 0);
     assert_int_equal(only_material("Kd .7\nTf_thin 1", 0).is_thin, 0);
     only_material("Kd .7\nPr .5\nTf .4\nTf_thin 7", 1);
 }

@@ -259,7 +259,7 @@ static void values_of_gltf_are_edited(void **state)
     s.attenuation = (struct mtl_color){{1, 1, 1}, 1};
     set(&s, "then", &blue);
     assert_true(get(&s, "then", &found));
-    check_close(material_of(&s).attenuation.y, -log(.2) / 2, 1e-5);
+    check_close(material_of(&s).medium.extinction.y, -log(.2) / 2, 1e-5);
 }
 
 /* The tint of a solid stays what it is if it begins to count after a distance,
@@ -275,16 +275,16 @@ static void tints_take_a_distance(void **state)
     set(&s, "tint depth", &(struct value){.number = 2});
     set(&s, "tint", &red);
     assert_true(get_color(&s).rgb[1] == .4);
-    check_close((double)material_of(&s).attenuation.y, -log(.4) / 2, 1e-6);
+    check_close((double)material_of(&s).medium.extinction.y, -log(.4) / 2, 1e-6);
     s.illum.value = 2;
     set(&s, "type", &(struct value){.number = 5});
     set(&s, "transmits", &(struct value){.number = .5});
     s.transmission = (struct mtl_color){{.8, .4, .2}, 1};
     set(&s, "transmits", &(struct value){.number = .4});
     check_close((double)material_of(&s).transmission, .4, 1e-7);
-    check_close((double)material_of(&s).attenuation.y, -log(.5) / 2, 1e-6);
+    check_close((double)material_of(&s).medium.extinction.y, -log(.5) / 2, 1e-6);
     set(&s, "tint depth", &(struct value){.number = 0});
-    assert_true(v3_is_zero(material_of(&s).attenuation));
+    assert_true(v3_is_zero(material_of(&s).medium.extinction));
 }
 
 /* Beside its map an absent factor is 1, on the screen as in the picture, and

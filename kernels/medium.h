@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+/*
+ * medium.h - what absorbs and scatters light between surfaces
+ *
+ * Over a distance t the radiance falls by exp(-extinction t), a coefficient for
+ * each channel (Beer and Lambert). Of what is lost, scattering / extinction
+ * goes on in other directions, by the phase function of Henyey and Greenstein
+ * 1941.
+ *
+ * A body is filled with the medium of its material. Bodies may be nested: the
+ * one entered last replaces the others. Outside of all bodies is the fog.
+ *
+ * The fog may thin out with height: above `base` its density is
+ * exp(-(y - base) / falloff), below it is 1. A distance in it counts as its
+ * depth, the integral of the density.
+ *
+ * Units:     lengths in normalised scene units, coefficients in their inverse,
+ *            densities per solid angle
+ */
+#ifndef KERNELS_MEDIUM_H
+#define KERNELS_MEDIUM_H
+
+#include "kernels/power.h"
+#include "kernels/sample.h"
+#include "kernels/surface_point.h"
+
+/* ---- which medium ---- */
+
+static inline void media_enter(struct media *s, uint32_t material)
+{
+    if (s->count < MEDIA_MAX)
+        s->at[s->count++] = material;
+}
+
+/* Removes the body that was entered last of those of the material, if there is
+ * one: meshes may be open. */
+static inline void media_leave(struct media *s, uint32_t material)
+{
+    uint32_t i = s->count;
+
+    while (i > 0 && s->at[i - 1] != material)
+        i--;
+    if (i == 0)
+        return;
+    for (; i < s->count; i++)
+        s->at[i - 1] = s->at[i];
+    s->count--;
+}
+
+/* Crosses the face of a body from the side on which the eye is. */
+static inline void media_cross(struct media *s, uint32_t material,
+                               const struct surface_point *v)
+{
+    if (v->is_outside)
+        media_enter(s, material);
+    else
+        media_leave(s, material);
+}
+
+/* Follows a ray that leaves a surface at the cosine z to its normal. */
+static inline void media_follow(struct media *s, uint32_t material,
+                                const struct bsdf *b,
+                                const struct surface_point *v, float z)
+{
+    if (z < 0.0f && bsdf_is_solid(b))
+        media_cross(s, material, v);
+}
+
+static inline struct medium medium_of(const struct world *w,
+                                      const struct media *s)
+{
+    return s->count == 0 ? w->settings.fog
+                         : w->materials[s->at[s->count - 1]].medium;
+}
+
+/* ---- along a ray ---- */
+
+static inline bool fog_thins(const struct medium *m)
+{
+    return HAS(FEATURE_MEDIA) && m->falloff > 0.0f;
+}
+
+/* Returns the integral of the fog's density from the base to the height y. */
+static inline float fog_column(const struct medium *m, float y)
+{
+    float above = (y - m->base) / m->falloff;
+
+    return above > 0.0f ? m->falloff * (1.0f - f_exp(-above)) : y - m->base;
+}
+
+/* Slope of a ray below which the density along it counts as even over a
+ * falloff. */
+#define FOG_SLOPE_MIN 1e-3f
+
+/* Returns the depth of a distance t along a ray whose direction is a unit
+ * vector. */
+static inline float medium_depth(const struct medium *m, struct ray r, float t)
+{
+    float middle;
+
+    if (!fog_thins(m))
+        return t;
+    if (fabsf(r.d.y) * t > FOG_SLOPE_MIN * m->falloff)
+        return f_min((fog_column(m, r.o.y + r.d.y * t) - fog_column(m, r.o.y)) /
+                         r.d.y,
+                     FLOAT_MAX);
+    middle = (r.o.y + 0.5f * r.d.y * t - m->base) / m->falloff;
+    return middle > 0.0f ? t * f_exp(-middle) : t;
+}
+
+/* Returns the distance of a depth, the inverse of medium_depth(); infinity if
+ * the whole ray is not so deep. */
+static inline float medium_distance(const struct medium *m, struct ray r,
+                                    float depth)
+{
+    float start, column, above;
+
+    if (!fog_thins(m))
+        return depth;
+    start = (r.o.y - m->base) / m->falloff;
+    if (!(fabsf(r.d.y) > 1e-6f))
+        return start > 0.0f ? depth / f_exp(-start) : depth;
+    column = fog_column(m, r.o.y) + r.d.y * depth;
+    if (!(column > 0.0f))
+        return (column + m->base - r.o.y) / r.d.y;
+    above = 1.0f - column / m->falloff;
+    if (!(above > 0.0f))
+        return INFINITY;
+    return (m->base - m->falloff * f_log2(above) / LOG2_E - r.o.y) / r.d.y;
+}
+
+/* Returns the share of the radiance that is left after a depth, which is
+ * FLOAT_MAX for the sky. */
+static inline struct vec3 transmittance(struct vec3 extinction, float depth)
+{
+    return v3(f_exp(-extinction.x * depth), f_exp(-extinction.y * depth),
+              f_exp(-extinction.z * depth));
+}
+
+/* Returns radiance that has come a distance t along the ray, against it. */
+static inline struct vec3
+attenuated(struct vec3 radiance, const struct medium *m, struct ray r, float t)
+{
+    if (v3_is_zero(m->extinction))
+        return radiance;
+    return v3_mul(radiance,
+                  transmittance(m->extinction, medium_depth(m, r, t)));
+}
+
+/* ---- scattering ---- */
+
+static inline bool medium_scatters(const struct medium *m)
+{
+    return HAS(FEATURE_MEDIA) && !v3_is_zero(m->scattering);
+}
+
+/* Where a ray is scattered, if it is, and the factor of its throughput. */
+struct collision {
+    float t;
+    struct vec3 weight;
+    bool is_there;
+};
+
+/* Returns the probabilities with which the channels choose the distance: by
+ * what they would scatter, so that the throughput has a bound. */
+static inline struct vec3 collision_shares(const struct medium *m,
+                                           struct vec3 beta)
+{
+    struct vec3 s = m->scattering, e = m->extinction;
+    struct vec3 q = v3(e.x > 0.0f ? beta.x * s.x / e.x : 0.0f,
+                       e.y > 0.0f ? beta.y * s.y / e.y : 0.0f,
+                       e.z > 0.0f ? beta.z * s.z / e.z : 0.0f);
+    float sum = q.x + q.y + q.z;
+
+    if (!(sum > 0.0f)) {
+        q = beta;
+        sum = q.x + q.y + q.z;
+    }
+    return sum > 0.0f && sum <= FLOAT_MAX
+               ? v3_scale(q, 1.0f / sum)
+               : v3(1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f);
+}
+
+/*
+ * Samples the distance to the next collision of a path with throughput beta, on
+ * a ray that meets the next surface at t_max. u: random numbers for distance
+ * and channel. One channel is chosen and all of them are weighted by the
+ * balance heuristic (Veach 1997, 9.2), as in Wilkie et al. 2014, "Hero
+ * wavelength spectral sampling". Transmittances are divided by the largest, so
+ * that not all of them underflow.
+ */
+static inline struct collision medium_collide(const struct medium *m,
+                                              struct vec3 beta, struct ray r,
+                                              float t_max, struct vec2 u)
+{
+    struct vec3 q = collision_shares(m, beta), e = m->extinction;
+    float least = f_min(e.x, f_min(e.y, e.z));
+    float chosen = u.y < q.x ? e.x : u.y < q.x + q.y ? e.y : e.z;
+    float end = medium_depth(m, r, t_max);
+    float depth =
+        chosen > 0.0f ? -f_log2(1.0f - u.x) / (LOG2_E * chosen) : FLOAT_MAX;
+    struct collision c;
+    struct vec3 left;
+    float density;
+
+    c.is_there = depth < end;
+    c.t = t_max;
+    if (c.is_there) {
+        c.t = f_min(medium_distance(m, r, depth), t_max);
+        end = depth;
+    }
+    left = transmittance(v3_sub(e, v3(least, least, least)), end);
+    density = c.is_there ? v3_dot(q, v3_mul(e, left)) : v3_dot(q, left);
+    c.weight = c.is_there ? v3_mul(m->scattering, left) : left;
+    c.weight = density > 0.0f ? v3_scale(c.weight, 1.0f / density)
+                              : v3(0.0f, 0.0f, 0.0f);
+    return c;
+}
+
+/* Density of directions wi after the direction d, both unit vectors along the
+ * way of the path. 1 - cosine comes from the chord, which keeps its digits. */
+static inline float phase_density(const struct medium *m, struct vec3 d,
+                                  struct vec3 wi)
+{
+    struct vec3 chord = v3_sub(wi, d);
+    float g = m->anisotropy;
+    float rest = (1.0f - g) * (1.0f - g) + g * v3_dot(chord, chord);
+
+    return (1.0f - g * g) * (0.25f / PI) / (rest * sqrtf(rest));
+}
+
+/* Samples phase_density(). The inverse of its distribution is written without a
+ * division by g, and 1 - cosine and 1 + cosine without cancellation. */
+static inline struct vec3 phase_sample(const struct medium *m, struct vec3 d,
+                                       struct vec2 u)
+{
+    float g = fabsf(m->anisotropy);
+    struct vec2 p = disk_from_square(u);
+    float x = f_min(p.x * p.x + p.y * p.y, 1.0f), y = 1.0f - x;
+    float root = 1.0f - g + 2.0f * g * x;
+    float low = (1.0f - g) / root, high = (1.0f + g) / root;
+    float less = 2.0f * y * (1.0f + g * x) * low * low;
+    float more = 2.0f * (1.0f - g * y) * high * high; /* over x */
+    float cosine = less < 1.0f ? 1.0f - less : x * more - 1.0f;
+    float sine = sqrtf(less * more); /* over the root of x */
+    struct vec3 t, b;
+
+    if (m->anisotropy < 0.0f)
+        cosine = -cosine;
+    frame_around(d, &t, &b);
+    return v3_unit(
+        v3_add(v3_scale(d, cosine),
+               v3_add(v3_scale(t, sine * p.x), v3_scale(b, sine * p.y))));
+}
+
+#endif
