@@ -214,9 +214,9 @@ void engine_end(struct engine *e)
     drop_filtered(e);
 }
 
-uint64_t engine_features(const struct engine *e)
+uint64_t engine_features(const struct engine *e, const struct view *view)
 {
-    return world_features(&e->world) |
+    return world_features(&e->world) | view_features(view) |
            (e->options.wants_filter ? FEATURE_FILTER : 0) |
            (e->options.is_exact ? 0 : FEATURE_RADIANCE_CELLS) |
            (e->world.light_paths.sources != NULL ? FEATURE_LIGHT_PATHS
@@ -240,7 +240,7 @@ bool engine_use_device(struct engine *e, const struct view *view, char **log,
     /* first, since the guide adds a feature that the kernels must have */
     if (!world_guide(&e->world, &e->scene, view, err))
         return false;
-    request = engine_request(e, engine_features(e));
+    request = engine_request(e, engine_features(e, view));
     if (!backends_begin_device(&e->backends, &request, err) ||
         !backends_end_device(&e->backends, log, err))
         return false;
@@ -281,7 +281,7 @@ bool engine_prepare(struct engine *e, const struct view *view,
         !world_guide(&e->world, &e->scene, view, err) ||
         !engine_lend(e, view, &job->world, err))
         return false;
-    job->world.settings.features = engine_features(e);
+    job->world.settings.features = engine_features(e, view);
     return true;
 }
 

@@ -138,7 +138,7 @@ bool engine_set_crop(struct engine *e, const struct view *view,
 void engine_set_whole(struct engine *e, const struct view *view);
 
 /* Returns the kernel features that pictures need. */
-uint64_t engine_features(const struct engine *e);
+uint64_t engine_features(const struct engine *e, const struct view *view);
 
 /* Returns the request for a device with these features. */
 struct cl_request engine_request(const struct engine *e, uint64_t features);

@@ -43,6 +43,20 @@ static void write_line(FILE *to, const char *key, const double *values,
     fputc('\n', to);
 }
 
+static void write_fog(FILE *to, const struct fog *f)
+{
+    if (!fog_is_there(f))
+        return;
+    write_numbers(to, "fog scatter", f->scatter, 3);
+    write_numbers(to, " absorb", f->absorb, 3);
+    write_numbers(to, " anisotropy", &f->anisotropy, 1);
+    if (f->falloff > 0) {
+        write_numbers(to, " height", &f->base, 1);
+        write_numbers(to, " falloff", &f->falloff, 1);
+    }
+    fputc('\n', to);
+}
+
 static void write_shots(FILE *to, const struct view *v)
 {
     for (int i = 0; i < VIEW_SHOTS; i++) {
@@ -115,6 +129,7 @@ static void write_key(FILE *to, const struct view *v, enum view_key_id id,
             v->lighting.sun.turbidity > TURBIDITY_DEFAULT)
             write_line(to, "turbidity", &v->lighting.sun.turbidity, 1);
         break;
+    case KEY_FOG: write_fog(to, &v->lighting.fog); break;
     case KEY_APERTURE:
         if (v->pose.aperture > 0)
             write_line(to, "aperture", &v->pose.aperture, 1);

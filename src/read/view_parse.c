@@ -46,6 +46,8 @@ const struct view_key view_keys[VIEW_KEYS] = {
      "an azimuth from -360 to 360 and an elevation from -90 to 90 degrees"},
     {"turbidity", KEY_TURBIDITY, 1, false, TURBIDITY_MIN, TURBIDITY_MAX,
      "a number from 1.7 to 10"},
+    {"fog", KEY_FOG, 0, false, 0, 0,
+     "scatter, absorb, anisotropy, height or falloff"},
     {"aperture", KEY_APERTURE, 1, false, 0, VIEW_NUMBER_MAX,
      "a number from 0 to 1e30"},
     {"focus", KEY_FOCUS, 1, false, 0, VIEW_NUMBER_MAX,
@@ -138,6 +140,7 @@ static void store(struct view *view, enum view_key_id id, const double *v)
     case KEY_APERTURE: view->pose.aperture = v[0]; break;
     case KEY_FOCUS: view->pose.focus = v[0]; break;
     case KEY_EXPOSURE: view->lighting.exposure = v[0]; break;
+    case KEY_FOG:
     case KEY_SKY:
     case KEY_TONE:
     case KEY_ASSIGN:
@@ -226,6 +229,56 @@ static bool read_shot(struct view_reader *r, const struct view_key *view_key,
         return false;
     r->view->shots[(int)number - 1] = shot.pose;
     r->view->has_shot[(int)number - 1] = true;
+    return true;
+}
+
+/* ---- fog ---- */
+
+/* Keys of a line of fog, and where struct fog has their numbers. */
+static const struct {
+    struct view_key key;
+    size_t member;
+} fog_keys[] = {
+    {{"scatter", KEY_FOG, 3, false, 0, VIEW_NUMBER_MAX,
+      "3 numbers from 0 to 1e30"},
+     offsetof(struct fog, scatter)},
+    {{"absorb", KEY_FOG, 3, false, 0, VIEW_NUMBER_MAX,
+      "3 numbers from 0 to 1e30"},
+     offsetof(struct fog, absorb)},
+    {{"anisotropy", KEY_FOG, 1, false, -1, 1, "a number from -1 to 1"},
+     offsetof(struct fog, anisotropy)},
+    {{"height", KEY_FOG, 1, false, -VIEW_NUMBER_MAX, VIEW_NUMBER_MAX,
+      "a number from -1e30 to 1e30"},
+     offsetof(struct fog, base)},
+    {{"falloff", KEY_FOG, 1, false, 0, VIEW_NUMBER_MAX,
+      "a number from 0 to 1e30"},
+     offsetof(struct fog, falloff)},
+};
+
+#define FOG_KEYS (sizeof fog_keys / sizeof fog_keys[0])
+
+/* Reads fog scatter R G B absorb R G B ...; what is left out is 0. */
+static bool read_fog(struct view_reader *r, const struct view_key *key,
+                     struct error *err)
+{
+    struct fog fog = {.falloff = 0};
+
+    while (!lexer_at_line_end(r->lex)) {
+        struct word name = lexer_word(r->lex);
+        size_t i = 0;
+
+        while (i < FOG_KEYS && !word_is(name, fog_keys[i].key.name))
+            i++;
+        if (i == FOG_KEYS)
+            return view_fail_at(r, name, key->expected, key->name, err);
+        for (int k = 0; k < fog_keys[i].key.count; k++) {
+            double *to = (void *)((char *)&fog + fog_keys[i].member);
+
+            if (!view_read_number(r, &fog_keys[i].key, k, &to[k], err))
+                return false;
+        }
+    }
+    r->view->lighting.fog = fog;
     return true;
 }
 
@@ -362,6 +415,8 @@ bool view_parse_line(void *context, struct lexer *lex, struct error *err)
         return view_light_read(r, err);
     if (key && key->id == KEY_VIEW)
         return read_shot(r, key, err);
+    if (key && key->id == KEY_FOG)
+        return read_fog(r, key, err);
     if (key)
         return read_key(r, key, err);
     warnings_add(r->report, "lines with an unknown key",

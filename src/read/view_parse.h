@@ -40,6 +40,7 @@ enum view_key_id {
     KEY_APERTURE,
     KEY_FOCUS,
     KEY_EXPOSURE,
+    KEY_FOG,        /* takes other keys */
     KEY_SKY,        /* takes a name */
     KEY_TONE,       /* takes a name */
     KEY_ASSIGN,     /* takes two names */

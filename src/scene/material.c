@@ -150,6 +150,14 @@ static bool is_thin(const struct material_values *s,
 /* Largest coefficient of a medium, in units of the file or of the scene. */
 #define COEFFICIENT_MAX 1e30f
 
+/* Mean cosine of scattering that is nearest to straight on or back. */
+#define ANISOTROPY_MAX 0.999
+
+float medium_anisotropy(double cosine)
+{
+    return (float)fmax(fmin(cosine, ANISOTROPY_MAX), -ANISOTROPY_MAX);
+}
+
 struct medium medium_scaled(struct medium m, float factor)
 {
     const struct vec3 most = {COEFFICIENT_MAX, COEFFICIENT_MAX,
@@ -184,9 +192,6 @@ static struct vec3 medium_albedo(const struct material_values *s, float g,
                          single_albedo(c.z, g)};
 }
 
-/* Mean cosine of scattering that is nearest to straight on or back. */
-#define ANISOTROPY_MAX 0.999
-
 /* Sets the medium of a solid: by its coefficients; or by the color that is left
  * of light after Tf_distance, tf or Tf_attenuation if that is present. Returns
  * true if it explains tf. */
@@ -200,7 +205,7 @@ static bool fill(struct material *m, struct vec3 tf,
         statement_within(&s->medium_anisotropy, "Tf_anisotropy", -1, 1, 0, at);
     struct medium *to = &m->medium;
 
-    to->anisotropy = (float)fmax(fmin(g, ANISOTROPY_MAX), -ANISOTROPY_MAX);
+    to->anisotropy = medium_anisotropy(g);
     if (s->medium_scatter.line != 0 || s->medium_absorb.line != 0) {
         to->scattering = statement_radiance(&s->medium_scatter, at);
         to->extinction =

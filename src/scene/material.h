@@ -101,6 +101,9 @@ struct material_values
 material_values_needed(const struct material_values *file,
                        const struct material_values *wanted);
 
+/* Returns a mean cosine of scattering that the kernels can sample. */
+float medium_anisotropy(double cosine);
+
 /* Returns the medium in units of length that are 1 / factor as long. */
 struct medium medium_scaled(struct medium medium, float factor);
 

@@ -265,6 +265,15 @@ bool sun_has_same_sky(const struct sun *a, const struct sun *b)
            a->turbidity == b->turbidity;
 }
 
+bool fog_is_there(const struct fog *fog)
+{
+    double most = 0;
+
+    for (int c = 0; c < 3; c++)
+        most = fmax(most, fmax(fog->scatter[c], fog->absorb[c]));
+    return most > 0;
+}
+
 bool lighting_is_same_light(const struct lighting *a, const struct lighting *b)
 {
     return memcmp(a->background, b->background, sizeof a->background) == 0 &&
@@ -273,7 +282,8 @@ bool lighting_is_same_light(const struct lighting *a, const struct lighting *b)
            a->sky_strength == b->sky_strength &&
            a->sky_rotation_deg == b->sky_rotation_deg &&
            sun_has_same_sky(&a->sun, &b->sun) &&
-           a->sun.azimuth_deg == b->sun.azimuth_deg;
+           a->sun.azimuth_deg == b->sun.azimuth_deg &&
+           memcmp(&a->fog, &b->fog, sizeof a->fog) == 0;
 }
 
 bool lighting_equal(const struct lighting *a, const struct lighting *b)

@@ -78,7 +78,15 @@ struct sun {
 #define SUN_AZIMUTH_MAX   360
 #define SUN_ELEVATION_MAX 90
 
-/* Environment light, exposure and tone mapping. */
+/* Medium outside of all bodies. Above `base` its density falls by 1/e over each
+ * `falloff`; 0: it is even. */
+struct fog {
+    double scatter[3], absorb[3]; /* coefficients per unit of length */
+    double anisotropy; /* mean cosine of scattering; above 0: forward */
+    double base, falloff;
+};
+
+/* Environment light, fog, exposure and tone mapping. */
 struct lighting {
     double background[3]; /* constant radiance */
     bool has_background;
@@ -87,6 +95,7 @@ struct lighting {
     double sky_strength; /* factor for the image or the sun with its sky */
     double sky_rotation_deg;
     struct sun sun;  /* replaces the image and the background if it is on */
+    struct fog fog;
     double exposure; /* in stops: radiance is multiplied by 2^exposure */
     uint32_t tone;   /* enum tone */
 };
@@ -134,6 +143,9 @@ bool view_has_part(const struct view *view, int x, int y, int width,
 bool lighting_copy(struct lighting *to, const struct lighting *from);
 /* Returns true if all members are equal. */
 bool lighting_equal(const struct lighting *a, const struct lighting *b);
+
+/* Returns true if there is a fog: something scatters or absorbs. */
+bool fog_is_there(const struct fog *fog);
 
 /* Returns true if the same image shows both suns, turned by their azimuths. */
 bool sun_has_same_sky(const struct sun *a, const struct sun *b);

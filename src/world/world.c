@@ -331,6 +331,13 @@ uint64_t world_features(const struct host_world *host)
     return features;
 }
 
+uint64_t view_features(const struct view *view)
+{
+    return fog_is_there(&view->lighting.fog)
+               ? FEATURE_MEDIA | FEATURE_ATTENUATION
+               : 0;
+}
+
 static bool has_boundaries(const struct host_world *host)
 {
     for (uint32_t i = 0; i < host->material_count; i++)
@@ -419,6 +426,22 @@ static struct sky make_sky(const struct host_world *host,
     return sky;
 }
 
+/* A height beyond the reach of floats becomes the nearest of their range. */
+static struct medium make_fog(const struct scene *scene, const struct fog *f)
+{
+    double base = (f->base - scene->center[1]) * scene->scale;
+    struct medium m = {
+        .scattering = scaled(f->scatter, 1 / scene->scale),
+        .anisotropy = medium_anisotropy(f->anisotropy),
+        .base = (float)fmax(fmin(base, EYE_MAX), -EYE_MAX),
+        .falloff = (float)fmin(f->falloff * scene->scale, EYE_MAX),
+    };
+
+    m.extinction =
+        v3_add(m.scattering, scaled(f->absorb, 1 / scene->scale));
+    return medium_scaled(m, 1);
+}
+
 static bool aim_light_paths(struct host_world *host, struct world w,
                             struct error *err)
 {
@@ -446,9 +469,7 @@ static bool find_light_paths(struct host_world *host, const struct world *w,
         host->light_paths_sky == sky_mean)
         return true;
     light_paths_free(&host->light_paths);
-    /* light paths do not know media that scatter, nor boundaries */
-    if ((world_features(host) & FEATURE_MEDIA) == 0 &&
-        !light_paths_build(&host->light_paths, w, &host->lights, sky_mean))
+    if (!light_paths_build(&host->light_paths, w, &host->lights, sky_mean))
         return fail(err, "out of memory for light paths");
     if (host->light_paths.sources != NULL && !aim_light_paths(host, *w, err))
         return false;
@@ -472,8 +493,13 @@ bool world_guide(struct host_world *host, const struct scene *scene,
     lights_lend(&host->lights, &w);
     if (host->sky_texels != NULL)
         sky *= host->sky_table.mean;
-    if (!find_light_paths(host, &w, sky, err))
+    if (((world_features(host) | view_features(view)) & FEATURE_MEDIA) != 0) {
+        /* light paths do not know media that scatter, nor boundaries */
+        light_paths_free(&host->light_paths);
+        host->light_paths_version = 0;
+    } else if (!find_light_paths(host, &w, sky, err)) {
         return false;
+    }
     if (path_guide_is_current(guide, sky))
         return true;
     if (path_guide_needs_rays(guide, &w, sky)) {
@@ -504,7 +530,8 @@ bool world_lend(const struct host_world *host, const struct scene *scene,
                                   ? PATH_HARD_STOP
                                   : (uint32_t)view->max_bounces + 1;
     w.settings.seed = seed;
-    w.settings.features = world_features(host);
+    w.settings.features = world_features(host) | view_features(view);
+    w.settings.fog = make_fog(scene, &view->lighting.fog);
     w.settings.has_boundaries = has_boundaries(host);
     if (!pose_check(&view->pose, "camera", err) ||
         !make_camera(scene, view, &w.settings.camera, err))

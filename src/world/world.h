@@ -185,6 +185,9 @@ bool world_lend(const struct host_world *host, const struct scene *scene,
 /* Returns the kernel features that the world needs, a set of features.h. */
 uint64_t world_features(const struct host_world *host);
 
+/* Returns the features that the fog of a view needs beside these. */
+uint64_t view_features(const struct view *view);
+
 /* Returns true if a used material emits light. */
 bool world_has_emitters(const struct host_world *host);
 
