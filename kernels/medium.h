@@ -80,6 +80,13 @@ static inline bool fog_thins(const struct medium *m)
     return HAS(FEATURE_MEDIA) && m->falloff > 0.0f;
 }
 
+static inline float fog_density(const struct medium *m, float y)
+{
+    float above = (y - m->base) / m->falloff;
+
+    return above > 0.0f ? f_exp(-above) : 1.0f;
+}
+
 /* Returns the integral of the fog's density from the base to the height y. */
 static inline float fog_column(const struct medium *m, float y)
 {
@@ -88,24 +95,34 @@ static inline float fog_column(const struct medium *m, float y)
     return above > 0.0f ? m->falloff * (1.0f - f_exp(-above)) : y - m->base;
 }
 
-/* Slope of a ray below which the density along it counts as even over a
- * falloff. */
-#define FOG_SLOPE_MIN 1e-3f
+/* True if the density hardly changes over a distance t along a ray. */
+static inline bool fog_is_even(const struct medium *m, struct ray r, float t)
+{
+    return !(fabsf(r.d.y) * t > 1e-3f * m->falloff);
+}
+
+/* Returns the density halfway along a distance t. */
+static inline float fog_middle(const struct medium *m, struct ray r, float t)
+{
+    return fog_density(m, r.o.y + 0.5f * r.d.y * t);
+}
 
 /* Returns the depth of a distance t along a ray whose direction is a unit
  * vector. */
 static inline float medium_depth(const struct medium *m, struct ray r, float t)
 {
-    float middle;
+    float end = r.o.y + r.d.y * t, column;
 
     if (!fog_thins(m))
         return t;
-    if (fabsf(r.d.y) * t > FOG_SLOPE_MIN * m->falloff)
-        return f_min((fog_column(m, r.o.y + r.d.y * t) - fog_column(m, r.o.y)) /
-                         r.d.y,
-                     FLOAT_MAX);
-    middle = (r.o.y + 0.5f * r.d.y * t - m->base) / m->falloff;
-    return middle > 0.0f ? t * f_exp(-middle) : t;
+    if (fog_is_even(m, r, t))
+        return t * fog_middle(m, r, t);
+    if (r.o.y > m->base && end > m->base) /* keeps digits in thin fog */
+        column = m->falloff * fog_density(m, r.o.y) *
+                 (1.0f - f_exp((r.o.y - end) / m->falloff));
+    else
+        column = fog_column(m, end) - fog_column(m, r.o.y);
+    return f_min(column / r.d.y, FLOAT_MAX);
 }
 
 /* Returns the distance of a depth, the inverse of medium_depth(); infinity if
@@ -113,20 +130,23 @@ static inline float medium_depth(const struct medium *m, struct ray r, float t)
 static inline float medium_distance(const struct medium *m, struct ray r,
                                     float depth)
 {
-    float start, column, above;
+    float even, column, start, left;
 
     if (!fog_thins(m))
         return depth;
-    start = (r.o.y - m->base) / m->falloff;
-    if (!(fabsf(r.d.y) > 1e-6f))
-        return start > 0.0f ? depth / f_exp(-start) : depth;
+    even = depth / fog_density(m, r.o.y);
+    if (fog_is_even(m, r, even))
+        return depth / fog_middle(m, r, even);
     column = fog_column(m, r.o.y) + r.d.y * depth;
     if (!(column > 0.0f))
         return (column + m->base - r.o.y) / r.d.y;
-    above = 1.0f - column / m->falloff;
-    if (!(above > 0.0f))
+    /* the share that is left of the density above the start, or the base */
+    start = f_max(r.o.y, m->base);
+    left = r.o.y > m->base ? 1.0f - even * r.d.y / m->falloff
+                           : 1.0f - column / m->falloff;
+    if (!(left > 0.0f))
         return INFINITY;
-    return (m->base - m->falloff * f_log2(above) / LOG2_E - r.o.y) / r.d.y;
+    return (start - r.o.y - m->falloff * f_log2(left) / LOG2_E) / r.d.y;
 }
 
 /* Returns the share of the radiance that is left after a depth, which is
@@ -218,12 +238,13 @@ static inline struct collision medium_collide(const struct medium *m,
 }
 
 /* Density of directions wi after the direction d, both unit vectors along the
- * way of the path. 1 - cosine comes from the chord, which keeps its digits. */
+ * way of the path. What the cosine to the peak lacks to 1 comes from the chord,
+ * which keeps its digits. */
 static inline float phase_density(const struct medium *m, struct vec3 d,
                                   struct vec3 wi)
 {
-    struct vec3 chord = v3_sub(wi, d);
-    float g = m->anisotropy;
+    float g = fabsf(m->anisotropy);
+    struct vec3 chord = m->anisotropy < 0.0f ? v3_add(wi, d) : v3_sub(wi, d);
     float rest = (1.0f - g) * (1.0f - g) + g * v3_dot(chord, chord);
 
     return (1.0f - g * g) * (0.25f / PI) / (rest * sqrtf(rest));

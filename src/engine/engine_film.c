@@ -62,6 +62,7 @@ static void add_settings(const struct settings *s, uint64_t hashes[FILM_PARTS])
     add(&hashes[FILM_LIGHT], &s->sky_share, sizeof s->sky_share);
     add(&hashes[FILM_LIGHT], &s->light_share, sizeof s->light_share);
     add(&hashes[FILM_LIGHT], &s->sky_power, sizeof s->sky_power);
+    add(&hashes[FILM_LIGHT], &s->fog, sizeof s->fog);
     add(&hashes[FILM_LIMITS], &s->max_vertices, sizeof s->max_vertices);
     add(&hashes[FILM_LIMITS], &s->direct, sizeof s->direct);
     add(&hashes[FILM_LIMITS], &s->order, sizeof s->order);

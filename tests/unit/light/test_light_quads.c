@@ -59,7 +59,7 @@ static void points_are_uniform_on_parallelograms(void **state)
                       b = v3_sub(ring[3], ring[0]);
     const double aa = (double)v3_dot(a, a), ab = (double)v3_dot(a, b),
                  bb = (double)v3_dot(b, b);
-    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false, false};
     uint64_t seed = 21;
 
     (void)state;
@@ -103,7 +103,7 @@ static void points_are_uniform_on_parallelograms(void **state)
 static void both_halves_count(void **state)
 {
     const struct vec3 p = {0.5f, 1, 0}, x = {0.01f, 0, 0}, z = {0, 0, 0.01f};
-    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false, false};
     struct mesh m = {0};
     struct lights lights;
     float whole, halves;

@@ -179,7 +179,7 @@ static void clusters_are_not_underrated(void **state)
  * only by chance, whatever the winding of the others. */
 static void orientation_counts_and_winding_does_not(void **state)
 {
-    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false, false};
     struct mesh m = {0};
     struct lights lights;
 
@@ -243,7 +243,7 @@ static void tree_prefers_the_near_lights(void **state)
     for (int i = 0; i < 20; i++) {
         struct receiver r = {v3(between(&seed, -1, 1), 0,
                                 between(&seed, -1, 1)),
-                             v3(0, 1, 0), false};
+                             v3(0, 1, 0), false, false};
         double error, truth = 0, squares = 0;
 
         irradiance(&m.world, &r, 2000, &seed, &error);
@@ -263,7 +263,7 @@ static void tree_prefers_the_near_lights(void **state)
 /* STRESS G7 to G9: no scene makes the path to a light too long. */
 static void deep_trees_fit_into_the_path_s_bits(void **state)
 {
-    struct receiver r = {{0.3f, 0.2f, 0.1f}, {1, 0, 0}, true};
+    struct receiver r = {{0.3f, 0.2f, 0.1f}, {1, 0, 0}, true, false};
     struct mesh m = {0};
     struct lights lights;
 

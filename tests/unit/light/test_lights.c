@@ -151,7 +151,7 @@ static void sky_and_lamps_share(void **state)
     uint64_t seed = 55;
     struct vec3 texels[8] = {{1, 1, 1}, {2, 2, 2}, {1, 1, 1}, {3, 3, 3},
                              {4, 4, 4}, {1, 1, 1}, {2, 2, 2}, {1, 1, 1}};
-    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false, false};
     struct sky_table table = {NULL};
     struct error err;
     struct mesh m = {0};
@@ -228,7 +228,7 @@ static void weak_lamps_are_sampled_less_often(void **state)
 static void degenerate_lights_give_finite_densities(void **state)
 {
     const struct vec3 o = {0, 0, 0}, x = {1, 0, 0}, z = {0, 0, 1};
-    struct receiver r = {{0.2f, -0.5f, 0.2f}, {0, 1, 0}, false};
+    struct receiver r = {{0.2f, -0.5f, 0.2f}, {0, 1, 0}, false, false};
     struct light_sample s;
     struct mesh m = {0};
     struct lights lights;

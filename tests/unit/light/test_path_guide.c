@@ -162,7 +162,7 @@ static void each_cell_has_its_own_table(void **state)
 static void light_samples_of_a_flat_sky_are_unbiased(void **state)
 {
     enum { SAMPLES = 400000 };
-    const struct receiver r = {{-.5f, -.5f, -.5f}, {.6f, .8f, 0}, false};
+    const struct receiver r = {{-.5f, -.5f, -.5f}, {.6f, .8f, 0}, false, false};
     const double truths[3] = {M_PI, 2 * M_PI / 3, 0};
     struct vec3 image[8];
     struct world w = {.settings = {.sky = {.color = {1, 1, 1},

@@ -112,7 +112,7 @@ static float table_pdf(const struct world *w, struct vec3 d)
 static void density_integrates_to_one(void **state)
 {
     const uint32_t sizes[][2] = {{32, 16}, {7, 5}, {3, 200}, {512, 1}, {2, 2}};
-    const struct receiver r = {{0, 0, 0}, {0.6f, 0, 0.8f}, false};
+    const struct receiver r = {{0, 0, 0}, {0.6f, 0, 0.8f}, false, false};
     const int rows = 1400;
 
     (void)state;
@@ -196,7 +196,7 @@ static void samples_follow_the_density(void **state)
 static double irradiance(const struct world *w, struct vec3 n, int count,
                          double *error, double *most)
 {
-    struct receiver r = {{0, 0, 0}, n, false};
+    struct receiver r = {{0, 0, 0}, n, false, false};
     double sum = 0, squares = 0;
     uint64_t seed = 99;
     struct vec3 t, b;
@@ -427,7 +427,7 @@ static void searches_find_the_interval(void **state)
 static void flat_skies_have_no_table(void **state)
 {
     const double levels[] = {0, 1, 1e30, 1e-30};
-    const struct receiver r = {{0, 0, 0}, {0.6f, 0, -0.8f}, false};
+    const struct receiver r = {{0, 0, 0}, {0.6f, 0, -0.8f}, false, false};
     uint64_t seed = 3;
 
     (void)state;
