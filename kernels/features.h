@@ -28,6 +28,7 @@
 #define FEATURE_ROUGH_SHEETS  FEATURE_BIT(20) /* rough thin glass */
 #define FEATURE_THIN_FILM     FEATURE_BIT(22) /* iridescence: thin_film.h */
 #define FEATURE_COAT_NORMALS  FEATURE_BIT(27) /* coats over bumps, or a map */
+#define FEATURE_DISPERSION    FEATURE_BIT(31) /* dispersion.h */
 /* texture_flag beyond TEXTURE_CLAMP, channels, maps of rare parameters */
 #define FEATURE_TEXTURE_OPTIONS FEATURE_BIT(24)
 
@@ -53,7 +54,7 @@
 #define FEATURE_LIGHT_PATHS    FEATURE_BIT(21) /* settings.has_light_paths */
 #define FEATURE_RADIANCE_CELLS FEATURE_BIT(28) /* radiance_cells.h */
 
-#define FEATURES_ALL (FEATURE_BIT(30) - 1u)
+#define FEATURES_ALL (FEATURE_BIT(32) - 1u)
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

@@ -22,6 +22,7 @@
 
 #include "kernels/aov.h"
 #include "kernels/camera.h"
+#include "kernels/dispersion.h"
 #include "kernels/light_cells.h"
 #include "kernels/path_lights.h"
 #include "kernels/radiance_cells.h"
@@ -99,6 +100,7 @@ static inline void path_open(const struct world *w, struct path *p,
     if (HAS(FEATURE_ATTENUATION))
         p->media = w->settings.camera_media;
     p->crossings = 0;
+    p->wavelength = 0.0f;
     p->drops = false;
     p->is_chain = true;
     p->casts = false;
@@ -226,6 +228,18 @@ static inline bool path_cross(struct path *p, uint32_t material,
     return true;
 }
 
+/* Gives the BSDF of a dispersive material the index at the path's wavelength,
+ * which is drawn at the first one. */
+static inline void path_disperse(struct path *p, const struct material *m,
+                                 const struct surface_point *v, struct bsdf *b)
+{
+    if (p->wavelength == 0.0f)
+        p->wavelength =
+            wavelength_draw(&p->beta,
+                            random_2d(p->sampler, DIMENSION_WAVELENGTH).x);
+    bsdf_disperse(m, v, p->wavelength, b);
+}
+
 /* Extends the path by one vertex, the hit *h of the path's ray. The shadow ray
  * of p->light is to be traced next, if there is one, then the path's ray.
  * Returns false if the path ends. */
@@ -292,6 +306,9 @@ static inline bool path_extend(const struct world *w, struct path *p,
     first_surface_meet(&p->surface, &b, v.n, h->t);
     if (bsdf_is_black(&b))
         return false;
+    /* behind the first surface, whose features have no wavelength */
+    if (HAS(FEATURE_DISPERSION) && m.dispersion > 0.0f)
+        path_disperse(p, &m, &v, &b);
     if (has_cells)
         path_add(p,
                  light_cells_radiance(w, p->half_number, &v, &b,

@@ -49,6 +49,7 @@ struct path {
     struct path_sample out;
     struct first_surface surface;
     struct cell_estimates *estimates; /* NULL: none; FEATURE_RADIANCE_CELLS */
+    float wavelength;     /* in nanometres; 0: none yet. FEATURE_DISPERSION */
     uint32_t half_number; /* as in struct camera_sample; of these two: */
     /* FEATURE_LIGHT_PATHS: */
     bool drops;    /* light paths bring light of lamps to surfaces that cast */

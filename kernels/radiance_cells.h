@@ -100,6 +100,9 @@ static inline void radiance_note(struct path *p, const struct bsdf *b,
     struct vec3 weight = path_part(p, radiance_color(b), 1.0f);
     struct cell_estimate *to = &p->estimates->at[p->estimates->count];
 
+    /* further glass would show a wavelength's light in place of the mean */
+    if (HAS(FEATURE_DISPERSION) && p->wavelength > 0.0f)
+        return;
     if (p->estimates->count == CELL_ESTIMATES_MAX ||
         !(f_min(weight.x, f_min(weight.y, weight.z)) >
           RADIANCE_WEIGHT_MIN * v3_max_component(weight)))

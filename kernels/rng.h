@@ -43,7 +43,8 @@
 enum dimension {
     DIMENSION_PIXEL = 0,
     DIMENSION_LENS = 1,
-    DIMENSION_CELL = 2, /* of light_cells.h */
+    DIMENSION_CELL = 2,       /* of light_cells.h */
+    DIMENSION_WAVELENGTH = 5, /* of dispersion.h */
     /* at a vertex: */
     DIMENSION_STRIDE = 8,
     DIMENSION_BOUNCE = DIMENSION_STRIDE,

@@ -258,6 +258,14 @@ static inline void principled_at(const struct world *w,
         stretch_at(w, m, v, b);
 }
 
+/* Index of the far side over that of the eye's side, for glass of this index.
+ */
+static inline float eta_at(const struct bsdf *b, const struct surface_point *v,
+                           float ior)
+{
+    return bsdf_is_solid(b) && !v->is_outside ? 1.0f / ior : ior;
+}
+
 static inline struct bsdf bsdf_at(const struct world *w,
                                   const struct material *m,
                                   const struct surface_point *v)
@@ -284,11 +292,9 @@ static inline struct bsdf bsdf_at(const struct world *w,
         b.alpha *= roughness * roughness;
     }
     b.kind = m->kind;
-    b.eta = m->ior;
     if (bsdf_is_principled(&b))
         principled_at(w, m, v, &b);
-    if (bsdf_is_solid(&b) && !v->is_outside)
-        b.eta = 1.0f / m->ior;
+    b.eta = eta_at(&b, v, m->ior);
     return b;
 }
 

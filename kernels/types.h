@@ -105,6 +105,7 @@ struct material {
     float bump_scale;      /* height of an alpha of 1, in texels */
     float normal_strength; /* 0: the map of normals has no effect; 1: all */
     float normal_depth;    /* the same for its third component */
+    float dispersion;      /* of ior, for dispersion.h; 0: none */
     float film; /* weight of a thin film on MATERIAL_PRINCIPLED: thin_film.h */
     float film_ior;
     float film_thickness; /* these two in nanometres */

@@ -122,10 +122,11 @@ mutants:
 scenes: $(L)/scenes/generate
 	$(Q)$< scenes
 
-## tables: computes kernels/energy_tables.h
-tables: $(L)/tools/energy
-	$(Q)$< > $(B)/energy_tables.h
-	$(Q)mv $(B)/energy_tables.h kernels/energy_tables.h
+## tables: computes kernels/energy_tables.h and kernels/response_tables.h
+tables: $(L)/tools/energy $(L)/tools/response
+	$(Q)for name in energy response; do \
+		$(L)/tools/$$name > $(B)/tables.h && \
+		mv $(B)/tables.h kernels/$${name}_tables.h || exit 1; done
 
 ## format: formats the code with clang-format
 format:

@@ -128,6 +128,18 @@ static float index_of(const struct material_values *s,
                                    IOR_DEFAULT, at);
 }
 
+/* Sets the index, and its dispersion where light is refracted by it. */
+static void set_index(struct material *m, const struct material_values *s,
+                      const struct statement_place *at)
+{
+    double abbe = statement_within(&s->abbe, "Ni_abbe", 0, DBL_MAX, 0, at);
+
+    m->ior = index_of(s, at);
+    if (abbe > 0 && m->ior > 1 &&
+        (m->kind != MATERIAL_PRINCIPLED || m->transmission > 0))
+        m->dispersion = (float)fmin(((double)m->ior - 1) / abbe, IOR_MAX);
+}
+
 /* Least share of light that is left after Tf_distance, so that absorption is
  * finite. */
 #define TRANSMITTANCE_MIN 1e-30f
@@ -243,7 +255,7 @@ static void make_glass(struct material *m, uint32_t kind,
         m->color = (struct vec3){1, 1, 1}; /* a factor of map_Kd, as Kd is */
     if (kind == MATERIAL_GLASS || s->roughness.line != 0)
         roughen(m, s, at);
-    m->ior = index_of(s, at);
+    set_index(m, s, at);
 }
 
 /* Returns true if the statements ask for partial opacity. */
@@ -492,7 +504,7 @@ static void make_opaque(struct material *m, int illum,
     }
     if (is_principled) {
         m->kind = MATERIAL_PRINCIPLED;
-        m->ior = index_of(s, at);
+        set_index(m, s, at);
     }
 }
 
@@ -718,6 +730,8 @@ uint64_t material_features(const struct material *m,
         features |= FEATURE_ATTENUATION;
     if (!v3_is_zero(m->medium.scattering) || m->is_boundary != 0)
         features |= FEATURE_MEDIA;
+    if (m->dispersion > 0)
+        features |= FEATURE_DISPERSION;
     if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
         features |= FEATURE_GLASS;
     if (m->is_thin != 0 ||

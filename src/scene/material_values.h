@@ -77,6 +77,7 @@ enum mtl_dialect {
     NUMBER(illum, "illum")                                                     \
     NUMBER(shininess, "Ns")                                                    \
     NUMBER(ior, "Ni")                                                          \
+    NUMBER(abbe, "Ni_abbe")                                                    \
     NUMBER(opacity, "d")                                                       \
     NUMBER(transparency, "Tr")                                                 \
     NUMBER(roughness, "Pr")                                                    \

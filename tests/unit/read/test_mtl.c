@@ -484,6 +484,29 @@ static void films_are_on_surfaces_that_reflect(void **state)
     check_close((double)m.film_thickness, 400, 0);
 }
 
+static double dispersion_of(const char *text, int warnings)
+{
+    return (double)only_material(text, warnings).dispersion;
+}
+
+/* (Ni - 1) / V, of glass only. */
+static void abbe_numbers_disperse_glass(void **state)
+{
+    (void)state;
+    check_close(dispersion_of("Ni 1.6\nNi_abbe 20\nillum 7", 0), .03, 1e-8);
+    check_close(dispersion_of("Ni_abbe 50\nTf .5\nillum 4", 0), .01, 1e-8);
+    check_close(dispersion_of("Kd .7\nPr .5\nTf .4 .4 .4\nNi 1.8\nNi_abbe 40",
+                              0),
+                .02, 1e-8);
+    check_close(dispersion_of("Ni 1.6\nillum 7", 0), 0, 0);
+    check_close(dispersion_of("Ni 1.6\nNi_abbe 0\nillum 7", 0), 0, 0);
+    check_close(dispersion_of("Ni 1.6\nNi_abbe -5\nillum 7", 1), 0, 0);
+    check_close(dispersion_of("Ni 1.6\nNi_abbe nan\nillum 7", 1), 0, 0);
+    check_close(dispersion_of("Ni .7\nNi_abbe 20\nillum 7", 0), 0, 0);
+    check_close(dispersion_of("Kd .5\nPc 1\nNi_abbe 20", 0), 0, 0);
+    check_close(dispersion_of("Ni 1e6\nNi_abbe 1e-300\nillum 7", 0), 1e6, 0);
+}
+
 /* Absorption per unit of length of the file. */
 static void solids_absorb_their_colour(void **state)
 {
@@ -664,6 +687,7 @@ int main(void)
         cmocka_unit_test(statements_weigh_the_lobes),
         cmocka_unit_test(sheen_has_the_roughness_of_the_file),
         cmocka_unit_test(films_are_on_surfaces_that_reflect),
+        cmocka_unit_test(abbe_numbers_disperse_glass),
         cmocka_unit_test(solids_absorb_their_colour),
         cmocka_unit_test(sheets_are_rough_if_the_file_says_so),
         cmocka_unit_test(maps_weigh_the_layers),

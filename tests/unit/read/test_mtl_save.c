@@ -59,6 +59,7 @@ static void switch_bumps(struct material_values *s)
 static void absorb(struct material_values *s)
 {
     s->attenuation_distance = number(2.5);
+    s->abbe = number(22);
     s->thinness = number(0);
     s->maps_off ^= 1u << MTL_MAP_COAT;
 }
@@ -108,7 +109,7 @@ static void only_changed_statements_are_written(void **state)
          "newmtl a b\nKd 0\nnewmtl m\nKa 0 # C:\\x\\\nPs 1\nKd 1 0.5 0.25\n"},
         {"newmtl m\nNs 30\n", roughen, "newmtl m\nNs 30\nPr 0.5\n"},
         {"newmtl m\nTf_thin 1\nmap_Pc a.png\n", absorb,
-         "newmtl m\nTf_thin 0\n#map_Pc a.png\nTf_distance 2.5\n"},
+         "newmtl m\nTf_thin 0\n#map_Pc a.png\nNi_abbe 22\nTf_distance 2.5\n"},
         {"newmtl m\nPs 1\nPf 0\n", layer,
          "newmtl m\nPs 1\nPf 1\nPs_roughness 0.25\nPf_ior 1.5\n"
          "Pf_thickness 300\nd_cutoff 0.5\n"},
