@@ -10,6 +10,7 @@
 #include "world/bvh/ray_queries.h"
 #include "kernels/medium.h"
 #include "kernels/camera.h"
+#include "kernels/dispersion.h"
 #include "kernels/light.h"
 #include "kernels/path_state.h"
 #include "kernels/rng.h"
@@ -22,8 +23,9 @@ enum {
     NUMBER_CHOICE, /* of the lamp and the triangle that casts */
     NUMBER_LAMP,   /* the point on the lamp */
     NUMBER_CASTER,
-    NUMBER_SPOT,   /* of the sky */
-    NUMBER_VERTEX, /* those of the first vertex; STRIDE for each */
+    NUMBER_SPOT, /* of the sky */
+    NUMBER_WAVELENGTH,
+    NUMBER_VERTEX = NUMBER_WAVELENGTH, /* plus STRIDE times a vertex, from 1 */
     NUMBER_STRIDE = 3,
     NUMBER_LOBE = 1, /* and roulette */
     NUMBER_LENS = 2
@@ -265,7 +267,8 @@ struct light_path {
     int half, worker;
     struct vec3 flux; /* over the density of the path so far */
     struct media media;
-    uint32_t aim; /* triangle that it has to hit first */
+    float wavelength; /* in nanometres; 0: none yet */
+    uint32_t aim;     /* triangle that it has to hit first */
 };
 
 /* Sets the ray from a lamp to a point, and the flux to the irradiance of a face
@@ -475,6 +478,19 @@ struct tracing {
     struct light_film film;
 };
 
+/* The BSDF at a vertex, at the path's wavelength. */
+static struct bsdf vertex_bsdf(const struct world *w,
+                               const struct light_path *p,
+                               const struct material *m,
+                               const struct surface_point *v)
+{
+    struct bsdf b = bsdf_at(w, m, v);
+
+    if (m->dispersion > 0.0f)
+        bsdf_disperse(m, v, p->wavelength, &b);
+    return b;
+}
+
 /* Connects a vertex to the eye. The surface is that which the eye sees. */
 static void connect(const struct tracing *t, struct light_path *p,
                     const struct material *m, struct hit h, uint32_t vertex)
@@ -500,7 +516,7 @@ static void connect(const struct tracing *t, struct light_path *p,
     r.d = v3_unit(v3_sub(point, view.eye));
     if (!surface_at(w, m, r, h, &v))
         return;
-    b = bsdf_at(w, m, &v);
+    b = vertex_bsdf(w, p, m, &v);
     wo = surface_to_local(&v, v3_neg(r.d));
     wi = surface_to_local(&v, l);
     if (!surface_sides_agree(&v, l, wi.z))
@@ -526,19 +542,19 @@ static void connect(const struct tracing *t, struct light_path *p,
 
 /* Weighs a direction that was sampled with a density: by the BSDF as paths from
  * the eye have it, which come the other way. */
-static struct vec3 weight_of(const struct world *w, const struct material *m,
-                             struct hit h, struct vec3 out, struct vec3 l,
-                             float density)
+static struct vec3 weight_of(const struct world *w, const struct light_path *p,
+                             const struct material *m, struct hit h,
+                             struct vec3 out, float density)
 {
     struct ray r = {.d = v3_neg(out), .t_max = FLOAT_MAX};
     struct surface_point v;
-    struct vec3 wi, none = v3(0.0f, 0.0f, 0.0f);
+    struct vec3 l = v3_neg(p->ray.d), wi, none = v3(0.0f, 0.0f, 0.0f);
     struct bsdf b;
     float pdf;
 
     if (!surface_at(w, m, r, h, &v))
         return none;
-    b = bsdf_at(w, m, &v);
+    b = vertex_bsdf(w, p, m, &v);
     wi = surface_to_local(&v, l);
     if (!surface_sides_agree(&v, l, wi.z))
         return none;
@@ -556,7 +572,7 @@ static bool scatter(const struct world *w, struct light_path *p,
     const struct material *m = &w->materials[material];
     uint32_t first = NUMBER_VERTEX + NUMBER_STRIDE * vertex;
     struct vec2 choice = number_2d(p->sampler, first + NUMBER_LOBE);
-    struct bsdf b = bsdf_at(w, m, v);
+    struct bsdf b = vertex_bsdf(w, p, m, v);
     struct vec3 l = v3_neg(p->ray.d), wo = surface_to_local(v, l), wi, weight;
     struct surface_point face;
     struct bsdf_sample s;
@@ -576,7 +592,7 @@ static bool scatter(const struct world *w, struct light_path *p,
     weight = s.is_delta ? v3_scale(s.weight,
                                    fabsf((v3_dot(wi, v->ng) * v3_dot(l, v->n)) /
                                          (v3_dot(wi, v->n) * v3_dot(l, v->ng))))
-                        : weight_of(w, m, h, wi, l, s.pdf);
+                        : weight_of(w, p, m, h, wi, s.pdf);
     q = f_min(v3_max_component(weight), 1.0f);
     if (!(choice.y < q))
         return false;
@@ -626,6 +642,10 @@ static void follow(const struct tracing *t, struct light_path *p)
             media_enter(&p->media, material);
         medium = medium_of(w, &p->media);
         p->flux = attenuated(p->flux, &medium, p->ray, h.t);
+        if (m.dispersion > 0.0f && p->wavelength == 0.0f)
+            p->wavelength =
+                wavelength_draw(&p->flux,
+                                number_2d(p->sampler, NUMBER_WAVELENGTH).x);
         if (m.role == ROLE_MATTE) {
             connect(t, p, &m, h, vertex);
             if (t->film.cells != NULL)

@@ -216,23 +216,29 @@ static void add_pane(void)
  * seeds show. */
 static void check_same_means(void)
 {
-    double sums[2] = {0, 0}, squares[2] = {0, 0}, mean[2], error = 0;
+    double sums[3][2] = {{0}}, squares[3][2] = {{0}};
 
     for (uint32_t seed = 1; seed <= SEEDS; seed++)
         for (int alone = 0; alone < 2; alone++) {
-            double m = render(alone == 1, alone ? SPP_MANY : SPP, seed).all[1];
+            struct means m = render(alone == 1, alone ? SPP_MANY : SPP, seed);
 
-            sums[alone] += m;
-            squares[alone] += m * m;
+            for (int c = 0; c < 3; c++) {
+                sums[c][alone] += m.all[c];
+                squares[c][alone] += m.all[c] * m.all[c];
+            }
         }
-    for (int i = 0; i < 2; i++) {
-        mean[i] = sums[i] / SEEDS;
-        error += (squares[i] / SEEDS - mean[i] * mean[i]) / (SEEDS - 1);
+    for (int c = 0; c < 3; c++) {
+        double mean[2], error = 0;
+
+        for (int i = 0; i < 2; i++) {
+            mean[i] = sums[c][i] / SEEDS;
+            error += (squares[c][i] / SEEDS - mean[i] * mean[i]) / (SEEDS - 1);
+        }
+        print_message("%g by light paths, %g alone, error %g\n", mean[0],
+                      mean[1], sqrt(error));
+        assert_true(mean[0] > 0);
+        check_close(mean[0], mean[1], 4 * sqrt(error));
     }
-    print_message("%g by light paths, %g alone, error %g\n", mean[0], mean[1],
-                  sqrt(error));
-    assert_true(mean[0] > 0);
-    check_close(mean[0], mean[1], 4 * sqrt(error));
 }
 
 static void paths_from_the_eye_agree(void **state)
@@ -241,10 +247,12 @@ static void paths_from_the_eye_agree(void **state)
         {"illum 7\nNi 1.5\nTf 1 1 1", "Pm 1\nPr .5"},
         {"illum 7\nNi 1.5\nTf .9 .8 .9\nTf_distance .5", ""},
         {"illum 7\nNi 1.5\nTf 1 1 1\nPr .4", ""},
-        {"illum 4\nNi 1.5\nTf 1 1 1", ""}};
+        {"illum 4\nNi 1.5\nTf 1 1 1", ""},
+        {"illum 7\nNi 1.7\nNi_abbe 4", ""},
+        {"illum 7\nNi 1.7\nNi_abbe 4\nPr .4", ""}};
 
     (void)state;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 6; i++) {
         write_globe(materials[i][0], materials[i][1]);
         check_same_means();
     }
@@ -306,10 +314,15 @@ static void sheets_show_what_shines_through_them(void **state)
  * glass. */
 static void paths_from_the_eye_agree_behind_glass(void **state)
 {
+    static const char *const globes[] = {"illum 7\nNi 1.5\nTf 1 1 1",
+                                         "illum 7\nNi 1.7\nNi_abbe 4"};
+
     (void)state;
-    write_globe("illum 7\nNi 1.5\nTf 1 1 1", "");
-    add_pane();
-    check_same_means();
+    for (int i = 0; i < 2; i++) {
+        write_globe(globes[i], "");
+        add_pane();
+        check_same_means();
+    }
 }
 
 int main(void)
