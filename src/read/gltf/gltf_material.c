@@ -21,6 +21,9 @@
 #define STRETCH_MAX 10
 #define ANISO_SHARE 0.9
 
+/* The Abbe number of a dispersion of 1. */
+#define DISPERSION_ABBE 20
+
 /* Memory of a material with its statements; 3,300 were measured. */
 #define MATERIAL_BYTES 4096
 
@@ -265,18 +268,23 @@ static bool read_transmission(struct reader *r)
 {
     struct material_values *s = &r->source;
     double weight = 0, thickness = 0, distance = INFINITY, tint[3] = {1, 1, 1};
-    struct gltf_value v, volume;
+    double dispersion = 0;
+    struct gltf_value v, volume, spread;
 
     if (!gltf_extension(&r->v, "KHR_materials_transmission", &v, r->err) ||
         !read_number(r, &v, "transmissionFactor", &weight) ||
         !gltf_extension(&r->v, "KHR_materials_volume", &volume, r->err) ||
         !read_number(r, &volume, "thicknessFactor", &thickness) ||
         !read_number(r, &volume, "attenuationDistance", &distance) ||
-        !gltf_numbers(&volume, "attenuationColor", 3, tint, r->err))
+        !gltf_numbers(&volume, "attenuationColor", 3, tint, r->err) ||
+        !gltf_extension(&r->v, "KHR_materials_dispersion", &spread, r->err) ||
+        !read_number(r, &spread, "dispersion", &dispersion))
         return false;
     if (!(weight > 0))
         return true;
     set_color(&s->transmission, (const double[3]){weight, weight, weight});
+    if (thickness > 0 && dispersion > 0)
+        set_number(&s->abbe, DISPERSION_ABBE / dispersion);
     if (!(thickness > 0))
         set_number(&s->thinness, 1);
     else if (distance > 0 && distance < (double)INFINITY) {

@@ -121,6 +121,13 @@ static void expect_layers(const struct material *m, const json_t *want)
         assert_int_equal(m->is_thin,
                          !(number(volume, "thicknessFactor", 0) > 0));
         check_close((double)m->ior, number(want, "ior", 1.5), 1e-6);
+        check_close((double)m->dispersion,
+                    m->is_thin != 0
+                        ? 0
+                        : (number(want, "ior", 1.5) - 1) / 20 *
+                              number(json_object_get(want, "dispersion"),
+                                     "dispersion", 0),
+                    1e-6);
     }
     for (size_t i = 0; i < 3 && weight > 0 && distance > 0 && m->is_thin == 0;
          i++) {
@@ -378,7 +385,11 @@ static void factors_become_values(void **state)
               "{\"extensions\":{\"KHR_materials_unlit\":{}},\"alphaMode\":"
               "\"BLEND\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.1,"
               "0.2,0.3,0.4],\"baseColorTexture\":{\"index\":0}}},"
-              "{\"alphaMode\":\"MASK\",\"alphaCutoff\":0}");
+              "{\"alphaMode\":\"MASK\",\"alphaCutoff\":0},"
+              "{\"extensions\":{\"KHR_materials_transmission\":{"
+              "\"transmissionFactor\":1},\"KHR_materials_volume\":{"
+              "\"thicknessFactor\":1},\"KHR_materials_dispersion\":{"
+              "\"dispersion\":0.4}}}");
     assert_true(l.ok);
     m = &l.scene.materials[1];
     check_close((double)m->color.z, 0.3, 1e-6);
@@ -397,6 +408,8 @@ static void factors_become_values(void **state)
     m = &l.scene.materials[3];
     assert_int_equal(m->kind, MATERIAL_METAL);
     check_close((double)m->cutoff, 0, 0);
+    m = &l.scene.materials[4];
+    check_close((double)m->dispersion, 0.5 / 50, 1e-8);
     unload(&l);
 }
 
@@ -419,6 +432,7 @@ static const char all_of_it[] =
     "{\"transmissionFactor\":0.6,\"transmissionTexture\":{\"index\":1}},"
     "\"KHR_materials_volume\":{\"thicknessFactor\":1,"
     "\"attenuationDistance\":0.3,\"attenuationColor\":[0.3,0.6,0.9]},"
+    "\"KHR_materials_dispersion\":{\"dispersion\":0.3},"
     "\"KHR_materials_clearcoat\":{\"clearcoatFactor\":0.4,"
     "\"clearcoatRoughnessFactor\":0.2,\"clearcoatTexture\":{\"index\":0},"
     "\"clearcoatRoughnessTexture\":{\"index\":1}},\"KHR_materials_sheen\":{"

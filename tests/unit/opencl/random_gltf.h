@@ -218,12 +218,13 @@ static const struct {
      {"thicknessFactor", "attenuationDistance"},
      {"thicknessTexture", NULL, NULL},
      ", \"attenuationColor\": [0.9, 0.5, 0.2]"},
+    {"dispersion", {"dispersion", NULL}, {NULL, NULL, NULL}, ""},
     {"specular",
      {"specularFactor", NULL},
      {"specularTexture", "specularColorTexture", NULL},
      ", \"specularColorFactor\": [0.9, 1.5, 0.8]"},
 };
-#define RANDOM_EXTENSIONS 7
+#define RANDOM_EXTENSIONS 8
 
 /* Writes an extension that is missing in most materials, so that each is in
  * some without the others. */

@@ -130,7 +130,7 @@ static void lamps_are_equal(void **state)
                 FEATURE_VERTEX_COLORS | FEATURE_ROUGH_SHEETS |              \
                 FEATURE_THIN_FILM | FEATURE_INSTANCES |                     \
                 FEATURE_TEXTURE_OPTIONS | FEATURE_VERTEX_ALPHAS |           \
-                FEATURE_TANGENTS | FEATURE_COAT_NORMALS))
+                FEATURE_TANGENTS | FEATURE_COAT_NORMALS | FEATURE_DISPERSION))
 
 /* Random files have each feature of glTF, some of them without instances. */
 static void random_files_are_equal(void **state)
