@@ -506,6 +506,8 @@ const struct parameter_row material_parameters[] = {
     {"transmits", MIXED, VALUE_NUMBER, &scale_unit, .get = get_transmission,
      .set = set_transmission},
     {"index", CLEAR | MIXED, VALUE_NUMBER, &scale_ior, STATEMENT(ior, ior)},
+    {"Abbe number", CLEAR | MIXED, VALUE_NUMBER, &scale_abbe,
+     SOURCE_NUMBER(abbe)},
     {"glass is", MIXED, VALUE_CHOICE, NULL, .get = get_body, WRITES(thinness),
      CHOICES(body_names)},
     {"tint depth", GLASS | MIXED, VALUE_NUMBER, &scale_emission,

@@ -25,6 +25,8 @@ const struct value_scale scale_specular =
     SCALE(0, 1, 0, 1, 0.01, 3, .is_positive = true);
 const struct value_scale scale_hue = SCALE(0, 360, 0, 360, 1, 3, .wraps = true);
 const struct value_scale scale_ior = SCALE(1e-6, 1e6, 1, 3, 0.01, 4,);
+const struct value_scale scale_abbe =
+    SCALE(0, 1e6, 10, 100, 0, 4, .zero = "off");
 const struct value_scale scale_film_ior = SCALE(1, 10, 1, 3, 0.01, 4,);
 const struct value_scale scale_film_thickness =
     SCALE(0, 2000, 0, 1000, 10, 4, .zero = "off");

@@ -37,6 +37,7 @@ extern const struct value_scale scale_unit;
 extern const struct value_scale scale_specular; /* 0 is outside */
 extern const struct value_scale scale_hue;
 extern const struct value_scale scale_ior;
+extern const struct value_scale scale_abbe;
 extern const struct value_scale scale_film_ior;
 extern const struct value_scale scale_film_thickness; /* in nanometres */
 extern const struct value_scale scale_emission;       /* and distances */

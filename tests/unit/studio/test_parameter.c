@@ -45,6 +45,7 @@ static struct material_values any_source(void)
     s.transmission = maybe_color();
     s.shininess = maybe(check_random(&seed) * 1200);
     s.ior = maybe(1 + check_random(&seed));
+    s.abbe = maybe(100 * check_random(&seed));
     s.opacity = maybe(check_random(&seed));
     s.transparency = maybe(check_random(&seed));
     s.roughness = maybe(check_random(&seed));
@@ -177,6 +178,12 @@ static void set_values_reach_the_material(void **state)
 
         color.rgb[0] = fmin(color.rgb[0], 1);
         set(&s, "colour", &color);
+        set(&s, "Abbe number", &(struct value){.number = 25});
+        if (get(&s, "Abbe number", &found))
+            check_close(found.number, 25, 0);
+        m = material_of(&s);
+        if (m.kind == MATERIAL_GLASS)
+            check_close((double)m.dispersion, ((double)m.ior - 1) / 25, 1e-7);
         set(&s, "tint", &color);
         check_color(material_of(&s).color, color.rgb);
         set(&s, "roughness", &roughness);
