@@ -8,7 +8,7 @@
 
 #include "kernels/dispersion.h"
 
-enum { GLASS, LAMP };
+enum { GLASS, LAMP, BLACK };
 
 static struct material glass_of(double ior, double abbe)
 {
@@ -141,22 +141,36 @@ static void weights_have_the_mean_of_before(void **state)
     assert_true(mean[0] == 0 && mean[1] == 0 && mean[2] == 0);
 }
 
+/* Steps of integrals over the spectrum. */
+#define SPECTRUM_STEPS (8 * (RESPONSE_NODES - 1))
+
+static float step_nm(int i)
+{
+    return WAVELENGTH_MIN + WAVELENGTH_STEP * ((float)i + 0.5f) / 8;
+}
+
+/* Share of a step in the response of a channel. */
+static double step_share(int i, int k)
+{
+    uint32_t node = (uint32_t)i / 8;
+    float x = ((float)(i % 8) + 0.5f) / 8;
+
+    return channel(v3_lerp(response_node(node), response_node(node + 1), x),
+                   k) /
+           SPECTRUM_STEPS;
+}
+
 /* Integrates the response of a channel times the light that a pane transmits,
  * in whose inside all reflections are summed. */
 static double pane_transmits(const struct material *m, double cosine, int k)
 {
     double sum = 0;
 
-    for (uint32_t i = 0; i + 1 < RESPONSE_NODES; i++)
-        for (int part = 0; part < 8; part++) {
-            float x = ((float)part + 0.5f) / 8;
-            float l = WAVELENGTH_MIN + WAVELENGTH_STEP * ((float)i + x);
-            double f = fresnel_by_angles(cosine, (double)ior_at(m, l));
+    for (int i = 0; i < SPECTRUM_STEPS; i++) {
+        double f = fresnel_by_angles(cosine, (double)ior_at(m, step_nm(i)));
 
-            sum +=
-                channel(v3_lerp(response_node(i), response_node(i + 1), x), k) *
-                (1 - f) / (1 + f) / (8 * (RESPONSE_NODES - 1));
-        }
+        sum += step_share(i, k) * (1 - f) / (1 + f);
+    }
     return sum;
 }
 
@@ -189,6 +203,100 @@ static void panes_transmit_by_wavelength(void **state)
         check_claim(&s, c);
         lit_mesh_free(&s);
     }
+}
+
+/* A lamp behind a rough pane, off the axis, is as bright in each channel with
+ * light samples as without. */
+static void rough_panes_are_lit_at_the_wavelength(void **state)
+{
+    struct claim c = {.eye = {0, 0, 2}, .paths = 1 << 14};
+    struct lit_mesh s = {0};
+    struct estimate by[2];
+
+    (void)state;
+    s.mesh.materials[GLASS] = glass_of(1.5, 2);
+    s.mesh.materials[GLASS].alpha = 0.3f;
+    s.mesh.materials[LAMP] = lamp_material(1);
+    mesh_add_box(&s.mesh, v3(-50, -50, -0.4f), v3(50, 50, 0), GLASS);
+    mesh_add_quad(&s.mesh, v3(0.2f, -1, -1), v3(2, -1, -1), v3(2, 1, -1),
+                  v3(0.2f, 1, -1), LAMP);
+    lit_mesh_finish(&s);
+    for (int i = 0; i < 2; i++) {
+        lit_mesh_lend(&s, i == 0 ? DIRECT_MIS : DIRECT_BSDF);
+        by[i] = claim_estimate(&s.mesh.world, &c);
+    }
+    for (int k = 0; k < 3; k++) {
+        check_at_most(by[0].error[k] + by[1].error[k], 0.02 * by[0].mean[k]);
+        check_close(by[0].mean[k], by[1].mean[k],
+                    T_LIMIT * hypot(by[0].error[k], by[1].error[k]));
+    }
+    lit_mesh_free(&s);
+}
+
+/* ---- a prism, whose section has its apex at the origin ---- */
+
+#define HALF_APEX (25 * M_PI / 180)
+#define INCIDENCE (43.207426 * M_PI / 180)
+#define SCREEN_X  3
+
+/* Returns what goes straight through the prism. *y becomes the height at which
+ * it meets the screen. Light enters the middle of the left face; angles are
+ * those to the x axis. */
+static double prism_transmits(double ior, double *y)
+{
+    double x = -0.5 * sin(HALF_APEX), inside, in, angle, length;
+
+    *y = -0.5 * cos(HALF_APEX);
+    inside = asin(sin(INCIDENCE) / ior) - HALF_APEX;
+    in = HALF_APEX - inside;
+    angle = HALF_APEX - asin(ior * sin(in));
+    /* up to the right face, x = -y tan(HALF_APEX) */
+    length = -(x + *y * tan(HALF_APEX)) /
+             (cos(inside) + sin(inside) * tan(HALF_APEX));
+    x += length * cos(inside);
+    *y += length * sin(inside);
+    *y += (SCREEN_X - x) * tan(angle);
+    return (1 - fresnel_by_angles(cos(INCIDENCE), ior)) *
+           (1 - fresnel_by_angles(cos(in), 1 / ior));
+}
+
+/* A lamp stands where light of less than 560 nm leaves a prism. Its base is
+ * black, so that nothing comes back from it. */
+static void prisms_part_light_by_wavelength(void **state)
+{
+    const float s = (float)sin(HALF_APEX), c = (float)cos(HALF_APEX);
+    const float angle = (float)(INCIDENCE - HALF_APEX);
+    struct material m = glass_of(1.62, 22);
+    struct claim claim = {.paths = 4096};
+    struct lit_mesh l = {0};
+    double edge, y;
+
+    (void)state;
+    prism_transmits((double)ior_at(&m, 560), &edge);
+    claim.at = v3(-0.5f * s, -0.5f * c, 0);
+    claim.eye = v3_sub(claim.at, v3(cosf(angle), sinf(angle), 0));
+    l.mesh.materials[GLASS] = m;
+    l.mesh.materials[LAMP] = lamp_material(1);
+    l.mesh.materials[BLACK] = mesh_material(MATERIAL_DIFFUSE, 0);
+    mesh_add_quad(&l.mesh, v3(0, 0, 1), v3(0, 0, -1), v3(-s, -c, -1),
+                  v3(-s, -c, 1), GLASS);
+    mesh_add_quad(&l.mesh, v3(0, 0, -1), v3(0, 0, 1), v3(s, -c, 1),
+                  v3(s, -c, -1), GLASS);
+    mesh_add_quad(&l.mesh, v3(-s, -c, 1), v3(-s, -c, -1), v3(s, -c, -1),
+                  v3(s, -c, 1), BLACK);
+    mesh_add_quad(&l.mesh, v3(SCREEN_X, (float)edge - 0.4f, -1),
+                  v3(SCREEN_X, (float)edge - 0.4f, 1),
+                  v3(SCREEN_X, (float)edge, 1), v3(SCREEN_X, (float)edge, -1),
+                  LAMP);
+    lit_mesh_finish(&l);
+    for (int i = 0; i < SPECTRUM_STEPS; i++) {
+        double light = prism_transmits((double)ior_at(&m, step_nm(i)), &y);
+
+        for (int k = 0; k < 3; k++)
+            claim.truth[k] += y < edge ? step_share(i, k) * light : 0;
+    }
+    check_claim(&l, claim);
+    lit_mesh_free(&l);
 }
 
 /* A ball of this material at the origin in a white sky. */
@@ -271,6 +379,8 @@ int main(void)
         cmocka_unit_test(responses_are_those_of_the_observer),
         cmocka_unit_test(weights_have_the_mean_of_before),
         cmocka_unit_test(panes_transmit_by_wavelength),
+        cmocka_unit_test(rough_panes_are_lit_at_the_wavelength),
+        cmocka_unit_test(prisms_part_light_by_wavelength),
         cmocka_unit_test(furnaces_are_white),
         cmocka_unit_test(first_surfaces_have_no_wavelength),
     };
