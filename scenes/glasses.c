@@ -218,9 +218,71 @@ static void make_water(const char *folder)
               "res 1024 640\nexposure .8\ntone aces\n");
 }
 
+/* ---- prism ---- */
+
+/* An upright prism with equal sides around the axis through `foot`, one of
+ * which faces +x. */
+static void glass_prism(struct mesh *m, struct point foot, double side,
+                        double height)
+{
+    double reach = side / sqrt(3);
+    struct point low[3], high[3];
+
+    for (int i = 0; i < 3; i++) {
+        double turn = M_PI / 3 + 2 * M_PI * i / 3;
+
+        low[i] =
+            at(foot.x + reach * cos(turn), foot.y, foot.z - reach * sin(turn));
+        high[i] = at(low[i].x, foot.y + height, low[i].z);
+    }
+    for (int i = 0; i < 3; i++) {
+        int next = (i + 1) % 3;
+
+        mesh_quad(m, low[i], low[next], high[next], high[i], 1, 1);
+    }
+    for (int i = 0; i < 3; i++)
+        fprintf(m->file, "v %.6g %.6g %.6g\nv %.6g %.6g %.6g\n", high[i].x,
+                high[i].y, high[i].z, low[i].x, low[i].y, low[i].z);
+    fprintf(m->file, "f -6 -4 -2\nf -1 -3 -5\n");
+    m->v += 6;
+}
+
+/* White light falls through a slit on a prism. In its middle, where the
+ * deviation is least, rays are parallel to the side that they do not meet. */
+static void make_prism(const char *folder)
+{
+    struct mesh m = mesh_open(folder, "prism",
+                              "A prism of dense flint glass parts the light "
+                              "that comes through a slit.");
+
+    mesh_object(&m, "table", "wood");
+    mesh_quad(&m, at(-1, 0, 1), at(1, 0, 1), at(1, 0, -1), at(-1, 0, -1), 1, 1);
+    mesh_object(&m, "wall", "plaster");
+    mesh_quad(&m, at(-1, 0, -.42), at(1, 0, -.42), at(1, 1, -.42),
+              at(-1, 1, -.42), 1, 1);
+    mesh_object(&m, "slit", "black");
+    for (int i = -1; i <= 1; i += 2)
+        mesh_box(&m, at(-.26, 0, .0615 * i), at(.003, .16, .117), 0);
+    mesh_object(&m, "prism", "flint");
+    glass_prism(&m, at(-.007, .0003, -.0225), .09, .12);
+    mesh_close(&m);
+    mesh_text(folder, "prism", "mtl",
+              "newmtl wood\nKd .5 .4 .32\nillum 1\n"
+              "newmtl plaster\nKd .8 .8 .8\nillum 1\n"
+              "newmtl black\nKd .015 .015 .015\nillum 1\n"
+              "newmtl flint\nKd 0 0 0\nillum 7\nNi 1.73\nNi_abbe 25\n");
+    mesh_text(folder, "prism", "view",
+              "eye .2 .26 .5\nat .075 .055 -.1\nup 0 1 0\nfovy 32\n"
+              "background .1 .105 .115\n"
+              "light spot -1.2 .075 0 at 0 .065 0 intensity 90 90 90 inner 2.5 "
+              "outer 3\n"
+              "res 1024 640\nexposure .3\ntone aces\n");
+}
+
 void glasses_write(const char *folder)
 {
     make_globe(folder);
     make_bulb(folder);
     make_water(folder);
+    make_prism(folder);
 }

@@ -8,7 +8,7 @@
 #ifndef SCENES_GLASSES_H
 #define SCENES_GLASSES_H
 
-/* Writes globe, bulb and water. */
+/* Writes globe, bulb, water and prism. */
 void glasses_write(const char *folder);
 
 #endif
