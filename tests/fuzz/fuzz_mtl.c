@@ -34,6 +34,7 @@ static void check_material(const struct scene *scene, const struct material *m)
     require(m->alpha >= 0 && m->alpha <= 1, "roughness");
     require(m->opacity >= 0 && m->opacity <= 1, "opacity");
     require(m->ior > 0 && isfinite(m->ior), "index of refraction");
+    require(m->dispersion >= 0 && m->dispersion <= 1e6f, "dispersion");
     require(isfinite(m->bump_scale), "height of bumps");
     require(m->metalness >= 0 && m->metalness <= 1, "metalness");
     require(m->transmission >= 0 && m->transmission <= 1, "transmission");
