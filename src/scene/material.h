@@ -40,7 +40,8 @@
  * A map multiplies its statement, which material_values_with_factors()
  * completes. Roughness alpha is Pr squared; without Pr it is sqrt(2 / (Ns +
  * 2)), or 0 if Ns is absent, 0, or at least 1000. With Tf_distance, solid glass
- * has no tint of Tf: Tf is what it leaves of light after this distance. Thin
+ * has no tint of Tf: Tf is what it leaves of light after this distance. Glass
+ * with Ni_abbe has the index Ni for yellow light, and more for blue. Thin
  * glass is rough with Pr or map_Pr only. In a mixture, Tf_thin above 0 makes
  * its glass a thin sheet; else, with Tf_distance, the weight of glass is the
  * largest channel of Tf, and absorption has the hue of Tf. Tf_attenuation, if
