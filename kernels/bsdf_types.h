@@ -28,6 +28,7 @@ struct bsdf {
     float film;       /* weight of a thin film on a mixture: thin_film.h */
     float film_ior, film_thickness; /* refractive index; nanometres */
     struct vec3 coat_normal;        /* unit; zero: that of the base */
+    float subsurface; /* share of the base that is a walk: subsurface.h */
 };
 
 /* The widths of a highlight have the ratio 1 - ANISOTROPY_SHARE anisotropy. */

@@ -37,6 +37,7 @@
 #define FEATURE_VERTEX_COLORS FEATURE_BIT(19)
 #define FEATURE_VERTEX_ALPHAS FEATURE_BIT(25)
 #define FEATURE_TANGENTS      FEATURE_BIT(26) /* of vertices */
+#define FEATURE_SUBSURFACE    FEATURE_BIT(32) /* subsurface.h */
 #define FEATURE_INSTANCES     FEATURE_BIT(23) /* instance.h */
 /* Media that scatter, or boundaries of media; with FEATURE_ATTENUATION */
 #define FEATURE_MEDIA FEATURE_BIT(29)
@@ -54,7 +55,7 @@
 #define FEATURE_LIGHT_PATHS    FEATURE_BIT(21) /* settings.has_light_paths */
 #define FEATURE_RADIANCE_CELLS FEATURE_BIT(28) /* radiance_cells.h */
 
-#define FEATURES_ALL (FEATURE_BIT(32) - 1u)
+#define FEATURES_ALL (FEATURE_BIT(33) - 1u)
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

@@ -169,6 +169,17 @@ attenuated(struct vec3 radiance, const struct medium *m, struct ray r, float t)
 
 /* ---- scattering ---- */
 
+/* Returns the albedo of single scattering, of mean cosine g, of a medium whose
+ * half space has this color under a white sky (Kulla and Conty 2017,
+ * "Revisiting physically based shading at Imageworks"). */
+static inline float medium_albedo_of(float color, float g)
+{
+    float s = 4.09712f + 4.20863f * color -
+              sqrtf(9.59217f + 41.6808f * color + 17.7126f * color * color);
+
+    return f_max(f_min((1.0f - s * s) / (1.0f - g * s * s), 1.0f), 0.0f);
+}
+
 static inline bool medium_scatters(const struct medium *m)
 {
     return HAS(FEATURE_MEDIA) && !v3_is_zero(m->scattering);

@@ -26,6 +26,7 @@
 #include "kernels/light_cells.h"
 #include "kernels/path_lights.h"
 #include "kernels/radiance_cells.h"
+#include "kernels/subsurface.h"
 
 /* Samples the next ray from the BSDF, or from the path guide if it has a table
  * here. Returns false if the path is absorbed. */
@@ -100,6 +101,7 @@ static inline void path_open(const struct world *w, struct path *p,
     if (HAS(FEATURE_ATTENUATION))
         p->media = w->settings.camera_media;
     p->crossings = 0;
+    p->below.steps = 0;
     p->wavelength = 0.0f;
     p->drops = false;
     p->is_chain = true;
@@ -240,6 +242,113 @@ static inline void path_disperse(struct path *p, const struct material *m,
     bsdf_disperse(m, v, p->wavelength, b);
 }
 
+/* ---- below surfaces ---- */
+
+/* Returns random numbers of a step of the path's walk; `which` is 0 or 1. */
+static inline struct vec2 path_below_2d(const struct path *p, uint32_t which)
+{
+    struct sampler s = p->sampler;
+
+    s.key = hash_u32(s.key + 2u * p->below.steps + which);
+    return vertex_2d(s, p->vertex, DIMENSION_WALK);
+}
+
+/* Begins a walk below the surface, or leaves the BSDF what does not enter. The
+ * number *choice decides, and is then one for the BSDF. */
+static inline bool path_enters(struct path *p, const struct material *m,
+                               uint32_t material, const struct surface_point *v,
+                               struct bsdf *b, float *choice)
+{
+    struct vec3 entry =
+        subsurface_entry(b, surface_to_local(v, v3_neg(p->ray.d)));
+    float q = subsurface_probability(b, entry);
+    struct surface_point below;
+    struct vec3 d;
+
+    if (!(*choice < q)) {
+        *choice = f_min((*choice - q) / (1.0f - q), UNIT_FLOAT_MAX);
+        p->beta = v3_scale(p->beta, 1.0f / (1.0f - q));
+        b->color = v3_scale(b->color, 1.0f - b->subsurface);
+        return false;
+    }
+    below = surface_turned(surface_of_face(*v));
+    d = cosine_around(below.ng,
+                      vertex_2d(p->sampler, p->vertex, DIMENSION_ENTRY));
+    p->beta = v3_mul(p->beta, v3_scale(entry, b->subsurface / q));
+    p->below.medium = subsurface_medium(m, b->color);
+    p->below.material = material;
+    p->below.steps = 1;
+    p->out.rays++;
+    surface_spawn_ray(&below, d, 1.0f, &p->ray);
+    p->ray.t_max = FLOAT_MAX;
+    return true;
+}
+
+/* Ends a walk at the hit of its ray, where the path leaves. Returns as
+ * path_extend(). */
+static inline bool path_leave(const struct world *w, struct path *p,
+                              const struct hit *h)
+{
+    const struct bsdf white = {.color = {1.0f, 1.0f, 1.0f},
+                               .kind = MATERIAL_DIFFUSE};
+    const struct vec3 wo = v3(0.0f, 0.0f, 1.0f); /* Lambert's needs none */
+    uint32_t material = p->below.material;
+    struct material m = w->materials[material];
+    struct surface_point v;
+    struct vec2 lobe = path_2d(p, DIMENSION_BSDF_LOBE);
+
+    if (!surface_at(w, &m, p->ray, *h, &v))
+        return false;
+    v = surface_turned(v);
+    p->below.steps = 0;
+    p->from.p = v.p;
+    p->from.n = v.n;
+    p->from.transmits = false;
+    p->from.is_free = false;
+    p->cell = guide_cell_none();
+    p->light.is_lit = path_choose_light(w, p, material, &m, &white, &v, wo);
+    return path_scatter(w, p, material, &white, &v, wo,
+                        path_2d(p, DIMENSION_BSDF_DIRECTION), lobe.x) &&
+           path_advance(w, p, lobe.y);
+}
+
+/* Takes a step of a walk, whose ray has this hit. Walks that come to another
+ * material or out of an open mesh end. Returns as path_extend(). */
+APART static bool path_go_below(const struct world *w, struct path *p,
+                                const struct hit *h)
+{
+    struct collision c;
+    struct vec2 u;
+    float q;
+
+    if (h->tri == NO_INDEX)
+        return false;
+    c = medium_collide(&p->below.medium, p->beta, p->ray, h->t,
+                       path_below_2d(p, 0));
+    p->beta = v3_mul(p->beta, c.weight);
+    if (!c.is_there)
+        return tri_material(w, h->tri, instance_of(w, h->tri)) ==
+                   p->below.material &&
+               path_leave(w, p, h);
+    if (p->below.steps == SUBSURFACE_STEPS_MAX) {
+        p->out.cut = 1;
+        return false;
+    }
+    q = f_min(sqrtf(v3_max_component(p->beta)), 1.0f);
+    u = path_below_2d(p, 1);
+    if (!(unit_float(
+              hash_u32(p->sampler.key ^ float_bits(u.x) ^ p->below.steps)) < q))
+        return false;
+    p->beta = v3_scale(p->beta, 1.0f / q);
+    p->ray.o = v3_add(p->ray.o, v3_scale(p->ray.d, c.t));
+    p->ray.d = phase_sample(&p->below.medium, p->ray.d, u);
+    p->ray.from = 0;
+    p->ray.t_max = FLOAT_MAX;
+    p->below.steps++;
+    p->out.rays++;
+    return true;
+}
+
 /* Extends the path by one vertex, the hit *h of the path's ray. The shadow ray
  * of p->light is to be traced next, if there is one, then the path's ray.
  * Returns false if the path ends. */
@@ -257,6 +366,8 @@ static inline bool path_extend(const struct world *w, struct path *p,
     bool has_cells = false;
 
     p->light.is_lit = false;
+    if (HAS(FEATURE_SUBSURFACE) && p->below.steps > 0)
+        return path_go_below(w, p, h);
     /* Add lights before the hit, and the sky and suns of a ray that leaves */
     if (HAS(FEATURE_POINT_LIGHTS))
         path_add_spheres(w, p, h->tri == NO_INDEX ? FLOAT_MAX : h->t);
@@ -315,8 +426,13 @@ static inline bool path_extend(const struct world *w, struct path *p,
                                       surface_to_local(&v, v3_neg(p->ray.d)),
                                       random_2d(p->sampler, DIMENSION_CELL)),
                  1.0f);
-    if (HAS(FEATURE_RADIANCE_CELLS) && w->settings.has_radiance_cells != 0 &&
-        radiance_meet(w, p, &v, &b, h->tri, h->t))
+    lobe = path_2d(p, DIMENSION_BSDF_LOBE);
+    if (HAS(FEATURE_SUBSURFACE) && b.subsurface > 0.0f) {
+        if (path_enters(p, &m, material, &v, &b, &lobe.x))
+            return true;
+    } else if (HAS(FEATURE_RADIANCE_CELLS) &&
+               w->settings.has_radiance_cells != 0 &&
+               radiance_meet(w, p, &v, &b, h->tri, h->t))
         return false;
     if (!bsdf_is_glass(&b))
         surface_lift(w, h->tri, *h, &v);
@@ -331,7 +447,6 @@ static inline bool path_extend(const struct world *w, struct path *p,
     /* Sample a light */
     p->light.is_lit = path_choose_light(w, p, material, &m, &b, &v, wo);
     /* Sample the BSDF for the next direction; Russian roulette */
-    lobe = path_2d(p, DIMENSION_BSDF_LOBE);
     return path_scatter(w, p, material, &b, &v, wo,
                         path_2d(p, DIMENSION_BSDF_DIRECTION), lobe.x) &&
            path_advance(w, p, lobe.y);

@@ -30,6 +30,13 @@ struct path_light {
     struct media media; /* where the shadow ray begins; FEATURE_MEDIA */
 };
 
+/* A walk below a surface: subsurface.h. */
+struct subsurface_walk {
+    struct medium medium;
+    uint32_t material;
+    uint32_t steps; /* 0: there is none */
+};
+
 /* State of a path between two vertices. */
 struct path {
     struct ray ray;
@@ -45,7 +52,8 @@ struct path {
     struct guide_cell cell; /* tables of the path guide at that vertex */
     struct media media;     /* where the ray is; FEATURE_ATTENUATION */
     uint32_t crossings;     /* of boundaries since that vertex; FEATURE_MEDIA */
-    struct path_light light; /* light sample of the last vertex */
+    struct subsurface_walk below; /* FEATURE_SUBSURFACE */
+    struct path_light light;      /* light sample of the last vertex */
     struct path_sample out;
     struct first_surface surface;
     struct cell_estimates *estimates; /* NULL: none; FEATURE_RADIANCE_CELLS */

@@ -53,7 +53,9 @@ enum dimension {
     DIMENSION_BSDF_DIRECTION = 2,
     DIMENSION_BSDF_LOBE = 3, /* and Russian roulette */
     DIMENSION_KINDS = 4,     /* of these, which are computed together */
-    DIMENSION_MEDIUM = 4     /* distance and channel of a collision */
+    DIMENSION_MEDIUM = 4,    /* distance and channel of a collision */
+    DIMENSION_ENTRY = 6,     /* direction below the surface: subsurface.h */
+    DIMENSION_WALK = 7       /* two for each step of a walk */
 };
 
 /* Samples of a pixel in a draft, in one with halves, and the longest side of a

@@ -99,7 +99,8 @@ struct material {
     float anisotropy;  /* 0 to 1; of MATERIAL_PRINCIPLED too */
     struct vec2 grain; /* direction of the wider axis, in units of the tangents
                           along u and v */
-    struct medium medium;  /* inside a solid */
+    float subsurface;  /* weight of subsurface.h */
+    struct medium medium;  /* inside a solid, or below a subsurface */
     uint32_t is_boundary;  /* 1: rays cross it; only its medium is there */
     uint32_t is_thin;      /* 1: glass of MATERIAL_PRINCIPLED is a thin sheet */
     float bump_scale;      /* height of an alpha of 1, in texels */

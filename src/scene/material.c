@@ -10,6 +10,7 @@
 #include "kernels/bump.h"
 #include "kernels/energy.h"
 #include "kernels/light.h"
+#include "kernels/medium.h"
 
 /* ---- materials ---- */
 
@@ -180,17 +181,6 @@ struct medium medium_scaled(struct medium m, float factor)
     return m;
 }
 
-/* Returns the albedo of single scattering of an isotropic medium whose half
- * space has this color under a white sky (Kulla and Conty 2017, "Revisiting
- * physically based shading at Imageworks"), for scattering of mean cosine g. */
-static float single_albedo(float color, float g)
-{
-    float s = 4.09712f + 4.20863f * color -
-              sqrtf(9.59217f + 41.6808f * color + 17.7126f * color * color);
-
-    return fminf(fmaxf((1 - s * s) / (1 - g * s * s), 0), 1);
-}
-
 /* Returns the share of the extinction that is scattered. */
 static struct vec3 medium_albedo(const struct material_values *s, float g,
                                  const struct statement_place *at)
@@ -200,8 +190,8 @@ static struct vec3 medium_albedo(const struct material_values *s, float g,
     if (s->medium_color.line == 0)
         return statement_reflectance(&s->medium_albedo, "Tf_albedo", 0, at);
     c = statement_reflectance(&s->medium_color, "Tf_multiscatter", 0, at);
-    return (struct vec3){single_albedo(c.x, g), single_albedo(c.y, g),
-                         single_albedo(c.z, g)};
+    return (struct vec3){medium_albedo_of(c.x, g), medium_albedo_of(c.y, g),
+                         medium_albedo_of(c.z, g)};
 }
 
 /* Sets the medium of a solid: by its coefficients; or by the color that is left
@@ -469,6 +459,40 @@ static bool make_principled(struct material *m, int illum, bool has_ks,
            (m->metalness > 0 && m->metalness < 1);
 }
 
+/* Sets what is below a diffuse surface, or one of plastic. Sr is the mean free
+ * path in each channel, in units of the file. */
+static void set_subsurface(struct material *m, const struct material_values *s,
+                           const struct statement_place *at)
+{
+    double weight = statement_unit(&s->subsurface, "Sf", at);
+    double g = statement_within(&s->subsurface_anisotropy, "Sg", -1, 1, 0, at);
+    struct vec3 path = statement_radiance(&s->subsurface_path, at);
+
+    if (!(weight > 0))
+        return;
+    if (m->kind != MATERIAL_DIFFUSE && m->kind != MATERIAL_ROUGH_DIFFUSE &&
+        m->kind != MATERIAL_PLASTIC) {
+        warnings_add(at->report, "statements without effect",
+                     "%s:%" PRIu64 ": found Sf, which diffuse surfaces and "
+                     "plastic use: ignored",
+                     at->path, s->subsurface.line);
+        return;
+    }
+    if (!(v3_max_component(path) > 0)) {
+        warnings_add(at->report, "statements without effect",
+                     "%s:%" PRIu64 ": found Sf without Sr, expected a mean "
+                     "free path above 0: ignored",
+                     at->path, s->subsurface.line);
+        return;
+    }
+    m->subsurface = (float)weight;
+    m->medium = (struct medium){
+        .extinction = {1 / path.x, 1 / path.y, 1 / path.z},
+        .anisotropy = medium_anisotropy(g),
+    };
+    m->medium = medium_scaled(m->medium, 1);
+}
+
 static void make_opaque(struct material *m, int illum,
                         const struct material_values *s,
                         const struct statement_place *at)
@@ -506,6 +530,7 @@ static void make_opaque(struct material *m, int illum,
         m->kind = MATERIAL_PRINCIPLED;
         set_index(m, s, at);
     }
+    set_subsurface(m, s, at);
 }
 
 /* Reports a map that this kind of material does not use. */
@@ -545,6 +570,8 @@ static enum material_role role_of(const struct material *m)
     bool is_matte = is_wide(m->alpha, m->alpha_texture) &&
                     is_wide(m->coat_alpha, m->coat_alpha_texture);
 
+    if (m->subsurface > 0)
+        return ROLE_NONE;
     if (m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_ROUGH_DIFFUSE)
         return ROLE_MATTE;
     if (m->is_boundary != 0)
@@ -726,7 +753,9 @@ uint64_t material_features(const struct material *m,
         features |= FEATURE_SHEEN;
     if (m->kind == MATERIAL_PRINCIPLED && m->film > 0)
         features |= FEATURE_THIN_FILM;
-    if (!v3_is_zero(m->medium.extinction))
+    if (m->subsurface > 0)
+        features |= FEATURE_SUBSURFACE;
+    else if (!v3_is_zero(m->medium.extinction))
         features |= FEATURE_ATTENUATION;
     if (!v3_is_zero(m->medium.scattering) || m->is_boundary != 0)
         features |= FEATURE_MEDIA;

@@ -73,6 +73,7 @@ enum mtl_dialect {
     COLOR(medium_absorb, "Tf_absorb")                                          \
     COLOR(medium_albedo, "Tf_albedo")                                          \
     COLOR(medium_color, "Tf_multiscatter")                                     \
+    COLOR(subsurface_path, "Sr")                                               \
     COLOR(sheen_color, "Ps_color")                                             \
     NUMBER(illum, "illum")                                                     \
     NUMBER(shininess, "Ns")                                                    \
@@ -91,6 +92,8 @@ enum mtl_dialect {
     NUMBER(attenuation_distance, "Tf_distance")                                \
     NUMBER(thinness, "Tf_thin")                                                \
     NUMBER(medium_anisotropy, "Tf_anisotropy")                                 \
+    NUMBER(subsurface, "Sf")                                                   \
+    NUMBER(subsurface_anisotropy, "Sg")                                        \
     NUMBER(sheen_roughness, "Ps_roughness")                                    \
     NUMBER(film, "Pf")                                                         \
     NUMBER(film_ior, "Pf_ior")                                                 \

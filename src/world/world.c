@@ -27,6 +27,10 @@
 /* Limit for coordinates in float, whose squares do not overflow. */
 #define EYE_MAX 1e18
 
+/* Inverse of the shortest mean free path for which a walk below a surface is
+ * more than its color. */
+#define SUBSURFACE_MAX 1e4f
+
 static struct vec3 scaled(const double v[3], double scale)
 {
     return (struct vec3){(float)(v[0] * scale), (float)(v[1] * scale),
@@ -102,6 +106,10 @@ static struct material in_world(const struct scene *scene, struct material m)
 {
     m.color_is_opaque = is_one_image(scene, m.color_texture, m.opacity_texture);
     m.medium = medium_scaled(m.medium, (float)(1 / scene->scale));
+    if (f_min(m.medium.extinction.x,
+              f_min(m.medium.extinction.y, m.medium.extinction.z)) >
+        SUBSURFACE_MAX)
+        m.subsurface = 0; /* light leaves where it has entered */
     return m;
 }
 
@@ -437,8 +445,7 @@ static struct medium make_fog(const struct scene *scene, const struct fog *f)
         .falloff = (float)fmin(f->falloff * scene->scale, EYE_MAX),
     };
 
-    m.extinction =
-        v3_add(m.scattering, scaled(f->absorb, 1 / scene->scale));
+    m.extinction = v3_add(m.scattering, scaled(f->absorb, 1 / scene->scale));
     return medium_scaled(m, 1);
 }
 

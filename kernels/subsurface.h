@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+/*
+ * subsurface.h - light that enters a diffuse surface, is scattered below it,
+ * and leaves elsewhere
+ *
+ * The path enters by a cosine lobe, walks through a medium of the material's
+ * mean free path, and leaves by a cosine lobe where it meets a surface of the
+ * same material. The albedo of the medium is such that a thick even body has
+ * the color of the surface (medium.h). A walk is part of the vertex where it
+ * begins: light samples and the next ray are those of its end.
+ *
+ * Units:     normalised scene units
+ */
+#ifndef KERNELS_SUBSURFACE_H
+#define KERNELS_SUBSURFACE_H
+
+#include "kernels/medium.h"
+
+/* Collisions after which a walk is cut. */
+#define SUBSURFACE_STEPS_MAX 65536u
+
+/* Largest color of a channel: a white body would keep paths for ever. */
+#define SUBSURFACE_COLOR_MAX 0.999f
+
+static inline float subsurface_albedo(float color, float g)
+{
+    return medium_albedo_of(f_min(color, SUBSURFACE_COLOR_MAX), g);
+}
+
+/* Returns the medium below a surface of this color. */
+static inline struct medium subsurface_medium(const struct material *m,
+                                              struct vec3 color)
+{
+    struct medium medium = m->medium;
+    float g = medium.anisotropy;
+
+    medium.scattering =
+        v3_mul(medium.extinction,
+               v3(subsurface_albedo(color.x, g), subsurface_albedo(color.y, g),
+                  subsurface_albedo(color.z, g)));
+    return medium;
+}
+
+/* Returns the share of light that comes below the highlight of a surface. */
+static inline struct vec3 subsurface_entry(const struct bsdf *b, struct vec3 wo)
+{
+    const struct vec3 one = v3(1.0f, 1.0f, 1.0f);
+
+    if (HAS(FEATURE_PLASTIC) && b->kind == MATERIAL_PLASTIC)
+        return v3_sub(one, specular_albedo(b, wo, bsdf_albedo(b, wo)));
+    return one;
+}
+
+/* Returns the probability with which a path enters: by the light of both ways.
+ * entry: subsurface_entry(). */
+static inline float subsurface_probability(const struct bsdf *b,
+                                           struct vec3 entry)
+{
+    float base = v3_max_component(v3_mul(b->color, entry));
+    float specular = 1.0f - f_min(entry.x, f_min(entry.y, entry.z));
+
+    return b->subsurface * base / (base + specular);
+}
+
+/* Returns the surface from the other side. */
+static inline struct surface_point surface_turned(struct surface_point v)
+{
+    v.ng = v3_neg(v.ng);
+    v.n = v3_neg(v.n);
+    v.is_outside = !v.is_outside;
+    v.above = offset_ray_origin(v.p, v.p_error, v.ng);
+    frame_around(v.n, &v.t, &v.b);
+    return v;
+}
+
+#endif
