@@ -27,7 +27,7 @@ static inline bool bsdf_is_lambert(const struct bsdf *m)
 /* True if the BSDF scatters nothing, like that of most lamps. */
 static inline bool bsdf_is_black(const struct bsdf *m)
 {
-    return v3_is_zero(m->color) &&
+    return v3_is_zero(base_albedo(m)) &&
            (bsdf_is_lambert(m) || m->kind == MATERIAL_ROUGH_DIFFUSE);
 }
 
@@ -59,11 +59,11 @@ static inline bool bsdf_is_delta(const struct bsdf *m)
     if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS)
         return is_smooth(m) || glass_is_index_matched(m);
     if (HAS(FEATURE_PLASTIC) && m->kind == MATERIAL_PLASTIC)
-        return is_smooth(m) && v3_is_zero(m->color);
+        return is_smooth(m) && v3_is_zero(base_albedo(m));
     return is_thin_glass(m) && (!HAS(FEATURE_ROUGH_SHEETS) || is_smooth(m));
 }
 
-/* True if light goes through the surface. */
+/* True if light goes through the surface, but not by a diffuse base. */
 static inline bool bsdf_is_glass(const struct bsdf *m)
 {
     if (bsdf_is_principled(m))
@@ -74,6 +74,8 @@ static inline bool bsdf_is_glass(const struct bsdf *m)
 /* True if f is not zero for directions below the surface. */
 static inline bool bsdf_transmits(const struct bsdf *m)
 {
+    if (is_translucent(m))
+        return true;
     if (bsdf_is_principled(m))
         return m->transmission > 0.0f && !principled_has_glass_delta(m);
     return bsdf_is_glass(m) && !bsdf_is_delta(m);
@@ -97,13 +99,13 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
         e = bsdf_albedos(m, bsdf_albedo(m, wo), v3_above(wi));
         return thin_terms(m, wo, wi, &e, pdf);
     }
-    if (wi.z < 0.0f)
+    if (wi.z < 0.0f && !is_translucent(m))
         return v3(0.0f, 0.0f, 0.0f);
     if (bsdf_is_lambert(m))
         return lambert_terms(m, wi, pdf);
     if (HAS(FEATURE_ROUGH_DIFFUSE) && m->kind == MATERIAL_ROUGH_DIFFUSE)
         return eon_terms(m, wo, wi, pdf);
-    e = bsdf_albedos(m, bsdf_albedo(m, wo), wi);
+    e = bsdf_albedos(m, bsdf_albedo(m, wo), base_side(m, wi));
     if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
         return metal_terms(m, m->color, wo, wi, &e, pdf);
     return plastic_terms(m, wo, wi, &e, pdf);
@@ -125,11 +127,11 @@ static inline bool bsdf_sample(const struct bsdf *m, struct vec3 wo,
     if (!(wo.z > COSINE_MIN))
         return false;
     if (bsdf_is_lambert(m))
-        return lambert_sample(m, u, s);
+        return lambert_sample(m, u, choice, s);
     if (bsdf_is_principled(m))
         return principled_sample(m, wo, u, choice, s);
     if (HAS(FEATURE_ROUGH_DIFFUSE) && m->kind == MATERIAL_ROUGH_DIFFUSE)
-        return eon_sample(m, wo, u, s);
+        return eon_sample(m, wo, u, choice, s);
     if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
         return metal_sample(m, wo, u, choice, s);
     if (HAS(FEATURE_PLASTIC) && m->kind == MATERIAL_PLASTIC)

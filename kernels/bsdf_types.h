@@ -29,6 +29,8 @@ struct bsdf {
     float film_ior, film_thickness; /* refractive index; nanometres */
     struct vec3 coat_normal;        /* unit; zero: that of the base */
     float subsurface; /* share of the base that is a walk: subsurface.h */
+    struct vec3 back_color; /* albedo of diffuse transmission: diffuse.h */
+    float translucency;     /* its weight in the diffuse base */
 };
 
 /* The widths of a highlight have the ratio 1 - ANISOTROPY_SHARE anisotropy. */
@@ -56,6 +58,12 @@ struct bsdf_sample {
 static inline float mean_channel(struct vec3 c)
 {
     return (c.x + c.y + c.z) * (1.0f / 3.0f);
+}
+
+/* Mirrors directions below the surface to above it. */
+static inline struct vec3 v3_above(struct vec3 w)
+{
+    return v3(w.x, w.y, fabsf(w.z));
 }
 
 /* True if the surface is smooth, so that its specular lobes are deltas. */

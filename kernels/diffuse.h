@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * diffuse.h - smooth and rough diffuse surfaces
+ * diffuse.h - smooth and rough diffuse surfaces, opaque and translucent
  *
  * Lambert's law, and the energy-preserving Oren-Nayar model (EON) of
  * Portsmouth, Kutz and Hill 2024, whose roughness is `alpha`. Directions are
  * drawn by the cosine in both.
+ *
+ * A translucent base, such as paper, is a mixture: with the weight
+ * `translucency` it transmits by Lambert's law with the albedo back_color, and
+ * otherwise it reflects as an opaque base does.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
  */
@@ -23,23 +27,118 @@ static inline float cosine_pdf(struct vec3 wi)
     return f_max(wi.z, 0.0f) * (1.0f / PI);
 }
 
+/* ---- the base: reflection and transmission ---- */
+
+static inline bool is_translucent(const struct bsdf *m)
+{
+    return HAS(FEATURE_TRANSLUCENT) && m->translucency > 0.0f;
+}
+
+/* True if wi is below a translucent base, which transmits its light. */
+static inline bool is_behind(const struct bsdf *m, struct vec3 wi)
+{
+    return is_translucent(m) && wi.z < 0.0f;
+}
+
+/* Mirrors wi to above a translucent base. */
+static inline struct vec3 base_side(const struct bsdf *m, struct vec3 wi)
+{
+    return is_translucent(m) ? v3_above(wi) : wi;
+}
+
+/* Albedo of reflection. */
+static inline struct vec3 base_front(const struct bsdf *m)
+{
+    return is_translucent(m) ? v3_scale(m->color, 1.0f - m->translucency)
+                             : m->color;
+}
+
+/* Albedo of transmission by a translucent base. */
+static inline struct vec3 base_back(const struct bsdf *m)
+{
+    return v3_scale(m->back_color, m->translucency);
+}
+
+/* Albedo of both. */
+static inline struct vec3 base_albedo(const struct bsdf *m)
+{
+    return is_translucent(m) ? v3_add(base_front(m), base_back(m)) : m->color;
+}
+
+/* Albedo of the part that sends light from wi to the eye. */
+static inline struct vec3 base_part(const struct bsdf *m, struct vec3 wi)
+{
+    return is_behind(m, wi) ? base_back(m) : base_front(m);
+}
+
+/* Lambert's f |cosine| of albedo 1. */
+static inline float base_cosine(const struct bsdf *m, struct vec3 wi)
+{
+    return cosine_pdf(base_side(m, wi));
+}
+
+/* Least share of the light by which the transmission is sampled, so that no
+ * quotient of densities overflows. Below, only light samples find it. */
+#define CROSSING_MIN 1e-6f
+
+/* Probability that base_direction() samples the transmission. */
+static inline float base_crossing(const struct bsdf *m)
+{
+    float front = v3_max_component(base_front(m));
+    float back = v3_max_component(base_back(m));
+
+    return back > CROSSING_MIN * (front + back) ? back / (front + back) : 0.0f;
+}
+
+/* Probability that base_direction() samples the part of wi. */
+static inline float base_chance(const struct bsdf *m, struct vec3 wi)
+{
+    if (!is_translucent(m))
+        return 1.0f;
+    return is_behind(m, wi) ? base_crossing(m) : 1.0f - base_crossing(m);
+}
+
+/* Density of base_direction(). */
+static inline float base_pdf(const struct bsdf *m, struct vec3 wi)
+{
+    return base_cosine(m, wi) * base_chance(m, wi);
+}
+
+/* Samples a direction by the cosine. Returns false if it is rejected. */
+static inline bool base_direction(const struct bsdf *m, struct vec2 u,
+                                  float choice, struct vec3 *wi)
+{
+    *wi = cosine_hemisphere(u);
+    if (!(wi->z > COSINE_MIN))
+        return false;
+    if (is_translucent(m) && choice < base_crossing(m))
+        wi->z = -wi->z;
+    return true;
+}
+
+/* ---- Lambert's law ---- */
+
 static inline struct vec3 lambert_terms(const struct bsdf *m, struct vec3 wi,
                                         float *pdf)
 {
-    *pdf = cosine_pdf(wi);
-    return v3_scale(m->color, *pdf);
+    *pdf = base_pdf(m, wi);
+    return v3_scale(base_part(m, wi), base_cosine(m, wi));
 }
 
 static inline bool lambert_sample(const struct bsdf *m, struct vec2 u,
-                                  struct bsdf_sample *s)
+                                  float choice, struct bsdf_sample *s)
 {
-    s->wi = cosine_hemisphere(u);
-    s->weight = m->color; /* f |cosine| / pdf without the division */
-    s->pdf = cosine_pdf(s->wi);
+    if (!base_direction(m, u, choice, &s->wi))
+        return false;
+    /* f |cosine| / pdf without the cosine */
+    s->weight = v3_scale(base_part(m, s->wi), 1.0f / base_chance(m, s->wi));
+    s->pdf = base_pdf(m, s->wi);
     s->eta_scale = 1.0f;
     s->is_delta = false;
-    return s->wi.z > COSINE_MIN;
+    return true;
 }
+
+/* ---- EON ---- */
 
 /* c1 - g(mu), clamped at 0. The single-scattering albedo of EON is (1 + r
  * g(mu)) / (1 + c1 r), and 1 minus that is eon_gap() r / (1 + c1 r). The fit of
@@ -57,7 +156,7 @@ static inline float eon_gap(float mu)
 static inline struct vec3 eon_terms(const struct bsdf *m, struct vec3 wo,
                                     struct vec3 wi, float *pdf)
 {
-    float r = m->alpha;
+    float r = m->alpha, cosine = base_cosine(m, wi);
     float a = 1.0f / (1.0f + EON_C1 * r);
     float s = v3_dot(wo, wi) - wo.z * wi.z;
     float t = s > 0.0f ? f_max(wi.z, wo.z) : 1.0f;
@@ -70,19 +169,26 @@ static inline struct vec3 eon_terms(const struct bsdf *m, struct vec3 wo,
                           rho.y * mean / (1.0f - rho.y * (1.0f - mean)),
                           rho.z * mean / (1.0f - rho.z * (1.0f - mean)));
 
-    *pdf = cosine_pdf(wi);
-    return v3_mul(v3_scale(rho, *pdf),
+    if (is_behind(m, wi))
+        return lambert_terms(m, wi, pdf);
+    *pdf = base_pdf(m, wi);
+    if (is_translucent(m))
+        cosine *= 1.0f - m->translucency;
+    return v3_mul(v3_scale(rho, cosine),
                   v3_add(v3(single, single, single), v3_scale(echo, multiple)));
 }
 
 static inline bool eon_sample(const struct bsdf *m, struct vec3 wo,
-                              struct vec2 u, struct bsdf_sample *s)
+                              struct vec2 u, float choice,
+                              struct bsdf_sample *s)
 {
-    struct vec3 wi = cosine_hemisphere(u);
+    struct vec3 wi, f;
     float pdf;
-    struct vec3 f = eon_terms(m, wo, wi, &pdf);
 
-    return wi.z > COSINE_MIN && sample_density(s, wi, f, pdf);
+    if (!base_direction(m, u, choice, &wi))
+        return false;
+    f = eon_terms(m, wo, wi, &pdf);
+    return sample_density(s, wi, f, pdf);
 }
 
 #endif

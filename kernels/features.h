@@ -29,6 +29,7 @@
 #define FEATURE_THIN_FILM     FEATURE_BIT(22) /* iridescence: thin_film.h */
 #define FEATURE_COAT_NORMALS  FEATURE_BIT(27) /* coats over bumps, or a map */
 #define FEATURE_DISPERSION    FEATURE_BIT(31) /* dispersion.h */
+#define FEATURE_TRANSLUCENT   FEATURE_BIT(30) /* diffuse transmission */
 /* texture_flag beyond TEXTURE_CLAMP, channels, maps of rare parameters */
 #define FEATURE_TEXTURE_OPTIONS FEATURE_BIT(24)
 

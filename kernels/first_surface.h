@@ -90,7 +90,7 @@ static inline void first_surface_meet(struct first_surface *s,
     s->depth += distance;
     if (bsdf_is_delta(b))
         return;
-    s->albedo = b->color;
+    s->albedo = base_albedo(b);
     s->normal = n;
     s->state = SURFACE_MET;
 }

@@ -32,7 +32,7 @@
 static inline bool guide_helps(const struct bsdf *b)
 {
     return b->kind == MATERIAL_DIFFUSE || b->kind == MATERIAL_ROUGH_DIFFUSE ||
-           (b->kind == MATERIAL_PLASTIC && !v3_is_zero(b->color));
+           (b->kind == MATERIAL_PLASTIC && !v3_is_zero(base_albedo(b)));
 }
 
 /* The class of a unit normal, below GUIDE_FACINGS. */

@@ -59,6 +59,11 @@
     /* 0: film_thinnest; 1: film_thickness */                                  \
     MAP(FILM_THICKNESS, film_thickness_texture, true, 0,                       \
         KEYS("map_Pf_thickness"))                                              \
+    /* multiplies back_color */                                                \
+    MAP(BACK_COLOR, back_texture, false, 0, KEYS("map_Td"))                    \
+    /* multiplies translucency */                                              \
+    MAP(TRANSLUCENCY, translucency_texture, true, FACTOR(translucency),        \
+        KEYS("map_Td_weight"))                                                 \
     /* red and green turn the grain from where it is at 1, 1/2; blue is a      \
      * factor of its strength */                                               \
     MAP(GRAIN, grain_texture, true, 0, KEYS("map_grain"))                      \

@@ -434,7 +434,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
                w->settings.has_radiance_cells != 0 &&
                radiance_meet(w, p, &v, &b, h->tri, h->t))
         return false;
-    if (!bsdf_is_glass(&b))
+    if (!bsdf_is_glass(&b) && !is_translucent(&b))
         surface_lift(w, h->tri, *h, &v);
     wo = surface_to_local(&v, v3_neg(p->ray.d));
     p->from.p = v.p;

@@ -5,7 +5,9 @@
  * The base is scaled by what the surface does not reflect on the way in and
  * out, (1 - E(mu_o)) (1 - E(mu_i)) / (1 - E_mean), with E the albedo of the
  * surface itself (Kelemen and Szirmay-Kalos 2001). So a white base reflects all
- * light under any surface, and the BSDF is reciprocal.
+ * light under any surface, and the BSDF is reciprocal. The surface is on both
+ * sides of a translucent base, and light that is transmitted is scaled
+ * likewise.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
  */
@@ -74,9 +76,10 @@ static inline float specular_probability(const struct bsdf *m,
                                          struct vec3 specular_o)
 {
     float specular = specular_o.x + specular_o.y + specular_o.z;
-    float base = m->color.x * (1.0f - specular_o.x) +
-                 m->color.y * (1.0f - specular_o.y) +
-                 m->color.z * (1.0f - specular_o.z);
+    struct vec3 albedo = base_albedo(m);
+    float base = albedo.x * (1.0f - specular_o.x) +
+                 albedo.y * (1.0f - specular_o.y) +
+                 albedo.z * (1.0f - specular_o.z);
 
     return specular + base > 0.0f ? specular / (specular + base) : 1.0f;
 }
@@ -88,18 +91,18 @@ static inline struct vec3 plastic_terms(const struct bsdf *m, struct vec3 wo,
                                         float *pdf)
 {
     struct vec3 specular_o = specular_albedo(m, wo, e->o);
-    struct vec3 specular_i = specular_albedo(m, wi, e->i);
+    struct vec3 specular_i = specular_albedo(m, base_side(m, wi), e->i);
     struct vec3 mean = specular_albedo_mean(m, e->mean);
-    float cosine = cosine_pdf(wi);
     float chance = specular_probability(m, specular_o);
     struct vec3 share = v3(base_scale(specular_o.x, specular_i.x, mean.x),
                            base_scale(specular_o.y, specular_i.y, mean.y),
                            base_scale(specular_o.z, specular_i.z, mean.z));
-    struct vec3 f = v3_scale(v3_mul(m->color, share), cosine);
+    struct vec3 f =
+        v3_scale(v3_mul(base_part(m, wi), share), base_cosine(m, wi));
     struct vec3 h;
 
-    *pdf = (1.0f - chance) * cosine;
-    if (is_smooth(m))
+    *pdf = (1.0f - chance) * base_pdf(m, wi);
+    if (is_smooth(m) || is_behind(m, wi))
         return f;
     h = half_vector(wo, wi);
     *pdf += chance * ggx_reflection_pdf(wo, h, bsdf_facets(m));
@@ -119,12 +122,12 @@ static inline bool plastic_direction(const struct bsdf *m, struct vec3 wo,
     struct vec3 wi;
 
     if (!(choice < chance))
-        wi = cosine_hemisphere(u);
-    else if (is_smooth(m))
+        return base_direction(m, u, (choice - chance) / (1.0f - chance), &wi) &&
+               sample_direction(s, wi, 1.0f);
+    if (is_smooth(m))
         return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
                             v3_scale(specular_o, 1.0f / chance));
-    else
-        wi = ggx_reflect(wo, bsdf_facets(m), u);
+    wi = ggx_reflect(wo, bsdf_facets(m), u);
     return wi.z > COSINE_MIN && sample_direction(s, wi, 1.0f);
 }
 
@@ -141,7 +144,7 @@ static inline bool plastic_sample(const struct bsdf *m, struct vec3 wo,
         return false;
     if (s->is_delta)
         return true;
-    e = bsdf_albedos(m, o, s->wi);
+    e = bsdf_albedos(m, o, base_side(m, s->wi));
     f = plastic_terms(m, wo, s->wi, &e, &pdf);
     return sample_density(s, s->wi, f, pdf);
 }

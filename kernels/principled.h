@@ -11,7 +11,8 @@
  * renderers (Georgiev et al. 2019, "Autodesk Standard Surface"). A thin film
  * between base and coat changes the colours of metal and of plastic's face to
  * those with its reflectance seen from wo. All of this conserves energy, but is
- * not reciprocal.
+ * not reciprocal. Light that the diffuse base transmits into a solid changes
+ * its radiance as that through glass does.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
  */
@@ -154,7 +155,8 @@ static inline float principled_plastic_albedo(const struct bsdf *m,
     struct vec3 e = specular_albedo(m, wo, facets);
 
     return mean_channel(
-        v3_add(e, v3_mul(m->color, v3(1.0f - e.x, 1.0f - e.y, 1.0f - e.z))));
+        v3_add(e,
+               v3_mul(base_albedo(m), v3(1.0f - e.x, 1.0f - e.y, 1.0f - e.z))));
 }
 
 static inline struct lobes principled_lobes(const struct bsdf *m,
@@ -222,7 +224,7 @@ static inline bool principled_is_delta(const struct bsdf *m)
                           !principled_has_glass_delta(m)))
         return false;
     return !(dielectric * (1.0f - m->transmission) > 0.0f) ||
-           v3_is_zero(m->color);
+           v3_is_zero(base_albedo(m));
 }
 
 /* Adds weight * f of a lobe to *sum, and its share of the density to *pdf. */
@@ -266,6 +268,7 @@ static inline struct vec3 principled_terms_of(const struct bsdf *m,
     struct vec3 sum = v3(0.0f, 0.0f, 0.0f), f;
     struct facet_albedos e;
     float lobe_pdf;
+    bool is_above = !is_behind(m, wi);
 
     *pdf = 0.0f;
     if (!principled_is_solid(m))
@@ -277,15 +280,15 @@ static inline struct vec3 principled_terms_of(const struct bsdf *m,
                             : glass_terms(&glass, wo, wi, &lobe_pdf);
         principled_add(l, LOBE_GLASS, f, lobe_pdf, &sum, pdf);
     }
-    if (wi.z < 0.0f)
+    if (wi.z < 0.0f && !is_translucent(m))
         return sum;
-    if (has_sheen(m)) {
+    if (is_above && has_sheen(m)) {
         f = v3_scale(m->sheen, sheen_f(wo, wi, m->sheen_alpha));
         principled_add(l, LOBE_SHEEN, f, SHEEN_PDF, &sum, pdf);
     }
-    if (l->weight[LOBE_COAT] > 0.0f)
+    if (is_above && l->weight[LOBE_COAT] > 0.0f)
         principled_add_coat(m, l, wo, wi, &sum, pdf);
-    if (l->weight[LOBE_METAL] > 0.0f && !is_smooth(m)) {
+    if (is_above && l->weight[LOBE_METAL] > 0.0f && !is_smooth(m)) {
         f = metal_terms(m, l->metal, wo, wi, &e, &lobe_pdf);
         principled_add(l, LOBE_METAL, f, lobe_pdf, &sum, pdf);
     }
@@ -363,8 +366,13 @@ static inline bool principled_direction(const struct bsdf *m,
     if (l->chosen == LOBE_METAL)
         return metal_direction(m, l->metal, wo, u, l->choice < l->facets.loss,
                                s);
-    if (l->chosen == LOBE_PLASTIC)
-        return plastic_direction(m, wo, l->facets, u, l->choice, s);
+    if (l->chosen == LOBE_PLASTIC) {
+        if (!plastic_direction(m, wo, l->facets, u, l->choice, s))
+            return false;
+        if (is_translucent(m) && m->transmission > 0.0f && m->is_thin == 0)
+            s->eta_scale = glass_eta_scale(m, s->wi);
+        return true;
+    }
     if (l->chosen == LOBE_GLASS) {
         glass = principled_glass(m);
         return m->is_thin != 0

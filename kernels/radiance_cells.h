@@ -66,7 +66,8 @@ static inline bool radiance_is_even(const struct bsdf *b)
 /* By which radiance is divided in cells. */
 static inline struct vec3 radiance_color(const struct bsdf *b)
 {
-    return radiance_is_diffuse(b) ? b->color : v3_add(b->color, b->specular);
+    return radiance_is_diffuse(b) ? base_albedo(b)
+                                  : v3_add(base_albedo(b), b->specular);
 }
 
 /* The cell of a point of a surface with unit normal ng on the eye's side. Each

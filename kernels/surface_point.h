@@ -266,6 +266,20 @@ static inline float eta_at(const struct bsdf *b, const struct surface_point *v,
     return bsdf_is_solid(b) && !v->is_outside ? 1.0f / ior : ior;
 }
 
+/* Fills the members of a BSDF that translucent materials have. */
+static inline void translucency_at(const struct world *w,
+                                   const struct material *m,
+                                   const struct surface_point *v,
+                                   struct bsdf *b)
+{
+    b->back_color = m->back_color;
+    if (HAS(FEATURE_TEXTURES) && v->has_uv && m->back_texture != NO_INDEX)
+        b->back_color =
+            v3_mul(b->back_color, surface_texel(w, v, m->back_texture).color);
+    b->translucency =
+        m->translucency * map_number_at(w, v, m->translucency_texture);
+}
+
 static inline struct bsdf bsdf_at(const struct world *w,
                                   const struct material *m,
                                   const struct surface_point *v)
@@ -296,6 +310,8 @@ static inline struct bsdf bsdf_at(const struct world *w,
         b.subsurface = m->subsurface;
     if (bsdf_is_principled(&b))
         principled_at(w, m, v, &b);
+    if (HAS(FEATURE_TRANSLUCENT) && m->translucency > 0.0f)
+        translucency_at(w, m, v, &b);
     b.eta = eta_at(&b, v, m->ior);
     return b;
 }

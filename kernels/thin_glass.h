@@ -36,12 +36,6 @@ static inline float thin_reflectance_mean(float eta)
     return thin_reflectance(f_min(f_max(f, 0.0f), 1.0f));
 }
 
-/* Mirrors directions below the sheet to above it. */
-static inline struct vec3 v3_above(struct vec3 w)
-{
-    return v3(w.x, w.y, fabsf(w.z));
-}
-
 static inline float thin_facet_reflectance(const struct bsdf *m, struct vec3 wo,
                                            struct vec3 h)
 {

@@ -113,6 +113,8 @@ struct material {
     float film_thinnest;
     float cutoff; /* above 0: coverage from here on is 1, below it is 0 */
     float coat_normal_strength; /* as normal_strength */
+    struct vec3 back_color;     /* albedo of diffuse transmission: diffuse.h */
+    float translucency;         /* its weight in the diffuse base */
 #define MATERIAL_MAP_MEMBER(name, member, ...) uint32_t member;
 #define MATERIAL_MAP_NO_MEMBER(...)
     MATERIAL_MAP_LIST(MATERIAL_MAP_MEMBER, MATERIAL_MAP_NO_MEMBER)

@@ -30,12 +30,13 @@
      FEATURE_PLASTIC | FEATURE_ROUGH | FEATURE_ROUGH_DIFFUSE |           \
      FEATURE_PRINCIPLED | FEATURE_BUMPS | FEATURE_LIGHT_PATHS)
 
-/* All of light, with simple geometry and textures. */
+/* All of light, with simple geometry and textures, and neither media nor
+ * sheets. */
 #define FEATURES_light                                                   \
     (FEATURES_ALL &                                                      \
      ~(FEATURE_AOV | FEATURE_TEXTURE_OPTIONS | FEATURE_INSTANCES |       \
        FEATURE_VERTEX_ALPHAS | FEATURE_TANGENTS | FEATURE_COAT_NORMALS | \
-       FEATURE_MEDIA))
+       FEATURE_MEDIA | FEATURE_TRANSLUCENT))
 
 #define FEATURES_lamps_filter  (FEATURES_lamps | FEATURE_FILTER)
 #define FEATURES_images_filter (FEATURES_images | FEATURE_FILTER)

@@ -328,6 +328,21 @@ static void make_diffuse(struct material *m, const struct material_values *s,
     m->alpha = (float)r;
 }
 
+/* Sets the diffuse transmission. */
+static void set_translucency(struct material *m,
+                             const struct material_values *s,
+                             const struct statement_place *at)
+{
+    double weight = statement_unit(&s->translucency, "Td_weight", at);
+
+    if (!(weight > 0))
+        return;
+    m->translucency = (float)weight;
+    m->back_color = statement_reflectance(&s->back_color, "Td", 1, at);
+    m->back_texture = material_values_map(s, MTL_MAP_BACK_COLOR);
+    m->translucency_texture = material_values_map(s, MTL_MAP_TRANSLUCENCY);
+}
+
 /* Returns the weight of transmission, which Blender writes as a grey Tf. With
  * Tf_distance, it is the largest channel, and the rest is absorption. */
 static double transmission(struct material *m, const struct material_values *s,
@@ -530,6 +545,8 @@ static void make_opaque(struct material *m, int illum,
         m->kind = MATERIAL_PRINCIPLED;
         set_index(m, s, at);
     }
+    if (m->kind != MATERIAL_METAL)
+        set_translucency(m, s, at);
     set_subsurface(m, s, at);
 }
 
@@ -549,6 +566,23 @@ static void check_map(const struct material_values *s, enum mtl_map which,
         warnings_add(at->report, "maps that their material does not use",
                      "%s: found %s, which this material does not use: ignored",
                      at->path, mtl_maps[which].keys[0]);
+}
+
+/* Reports Td of a material without a diffuse part. */
+static void check_translucency(const struct material_values *s,
+                               const struct material *m,
+                               const struct statement_place *at)
+{
+    uint64_t line = s->translucency.line;
+
+    if (line == MTL_IMPLIED)
+        line = s->back_color.line;
+    if (s->translucency.value > 0 && m->translucency == 0 &&
+        line != MTL_IMPLIED)
+        warnings_add(at->report, "statements without effect",
+                     "%s:%" PRIu64 ": found Td, which diffuse surfaces, "
+                     "plastic and mixtures use: ignored",
+                     at->path, line);
 }
 
 /* Roughness below which metal and glass cast, above which metal is matte; and
@@ -633,6 +667,7 @@ struct material material_from_source(const struct material_values *source,
                      "%s:%" PRIu64 ": found Tf_distance, which solid glass "
                      "uses: ignored",
                      path, s->attenuation_distance.line);
+    check_translucency(s, &m, &at);
     m.emission = statement_radiance(&light, &at);
     m.is_boundary = is_boundary(&m);
     m.role = role_of(&m);
@@ -718,7 +753,7 @@ static bool needs_options(const struct material *m,
            m->grain_texture != NO_INDEX;
 }
 
-static bool is_translucent(const struct texture *textures, uint32_t texture)
+static bool has_alpha(const struct texture *textures, uint32_t texture)
 {
     return texture != NO_INDEX && textures[texture].has_alpha != 0;
 }
@@ -739,9 +774,8 @@ uint64_t material_features(const struct material *m,
     if (has_coat_bumps(m))
         features |= FEATURE_COAT_NORMALS;
     if (m->opacity < 1 ||
-        (m->color_is_opaque == 0 &&
-         is_translucent(textures, m->color_texture)) ||
-        is_translucent(textures, m->opacity_texture))
+        (m->color_is_opaque == 0 && has_alpha(textures, m->color_texture)) ||
+        has_alpha(textures, m->opacity_texture))
         features |= FEATURE_COVERAGE;
     if (m->kind == MATERIAL_METAL)
         features |= FEATURE_METAL;
@@ -753,6 +787,8 @@ uint64_t material_features(const struct material *m,
         features |= FEATURE_SHEEN;
     if (m->kind == MATERIAL_PRINCIPLED && m->film > 0)
         features |= FEATURE_THIN_FILM;
+    if (m->translucency > 0)
+        features |= FEATURE_TRANSLUCENT;
     if (m->subsurface > 0)
         features |= FEATURE_SUBSURFACE;
     else if (!v3_is_zero(m->medium.extinction))

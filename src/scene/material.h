@@ -31,11 +31,14 @@
  *   plastic      map_Ks, or Ks that is not black: diffuse of colour Kd under a
  *                clear surface of reflectance MATERIAL_SPECULAR times Ks
  *   diffuse      all others; colour Kd, roughness Kd_roughness (default 0)
- * The principled surface is a mixture of metal of colour Kd (weight Pm times
- * map_Pm), glass (mean of Tf) and plastic, under a thin film (weight Pf, index
- * Pf_ior, Pf_thickness nanometres), a coat (weight Pc, roughness Pcr) and grey
- * sheen (weight Ps, roughness Ps_roughness). aniso stretches highlights along
- * u, turned by anisor of a turn. With d_cutoff coverage is 0 or 1.
+ * Diffuse surfaces, also those of plastic and mixtures, transmit light to all
+ * directions with the weight Td_weight (default: 1 beside Td) and the colour
+ * Td; they reflect the rest. The principled surface is a mixture of metal of
+ * colour Kd (weight Pm times map_Pm), glass (mean of Tf) and plastic, under a
+ * thin film (weight Pf, index Pf_ior, Pf_thickness nanometres), a coat (weight
+ * Pc, roughness Pcr) and grey sheen (weight Ps, roughness Ps_roughness). aniso
+ * stretches highlights along u, turned by anisor of a turn. With d_cutoff
+ * coverage is 0 or 1.
  *
  * A map multiplies its statement, which material_values_with_factors()
  * completes. Roughness alpha is Pr squared; without Pr it is sqrt(2 / (Ns +
@@ -50,7 +53,8 @@
  * sheen. map_Ks_weight, map_Ps_roughness and map_Pf multiply Ks, Ps_roughness
  * and Pf; map_Pf_thickness goes from Pf_thinnest to Pf_thickness. map_grain
  * turns the grain and reduces aniso. map_Pc_norm bends the normal of the coat,
- * which norm and map_Bump do not.
+ * which norm and map_Bump do not. map_Td and map_Td_weight multiply Td and
+ * Td_weight.
  *
  * In files of Blender (enum mtl_dialect), Ks never is a colour of metal; Pm is
  * Ka with illum 3 and 6 if there is no Pm; roughness is 1 - sqrt(Ns / 1000);

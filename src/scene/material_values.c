@@ -124,6 +124,10 @@ material_values_with_factors(const struct material_values *source)
         imply_color(&s.specular_color, mtl_color_is_black(&s.specular_color));
     if (material_values_map(&s, MTL_MAP_TRANSMISSION) != NO_INDEX)
         imply_color(&s.transmission, s.transmission.line == 0);
+    if (material_values_map(&s, MTL_MAP_BACK_COLOR) != NO_INDEX)
+        imply_color(&s.back_color, s.back_color.line == 0);
+    if (s.back_color.line != 0)
+        imply_number(&s.translucency, 1);
     if (material_values_map(&s, MTL_MAP_EMISSION) != NO_INDEX &&
         mtl_color_is_black(&light)) {
         s.kelvin = s.luminance = (struct mtl_number){.line = 0};

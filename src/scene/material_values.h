@@ -75,6 +75,7 @@ enum mtl_dialect {
     COLOR(medium_color, "Tf_multiscatter")                                     \
     COLOR(subsurface_path, "Sr")                                               \
     COLOR(sheen_color, "Ps_color")                                             \
+    COLOR(back_color, "Td")                                                    \
     NUMBER(illum, "illum")                                                     \
     NUMBER(shininess, "Ns")                                                    \
     NUMBER(ior, "Ni")                                                          \
@@ -100,7 +101,8 @@ enum mtl_dialect {
     NUMBER(film_thickness, "Pf_thickness")                                     \
     NUMBER(film_thinnest, "Pf_thinnest")                                       \
     NUMBER(cutoff, "d_cutoff")                                                 \
-    NUMBER(specular_scale, "Ks_full")
+    NUMBER(specular_scale, "Ks_full")                                          \
+    NUMBER(translucency, "Td_weight")
 /* clang-format on */
 
 struct material_values {
@@ -147,8 +149,8 @@ uint32_t material_values_map(const struct material_values *source,
 
 /* Returns the statements with the factors that maps multiply. Beside its map an
  * absent factor is 1, and so are Kd, Ks and emission that are black: exporters
- * write black beside maps. Everything that renders or shows a material reads
- * these statements. */
+ * write black beside maps. Beside Td an absent Td_weight is 1. Everything that
+ * renders or shows a material reads these statements. */
 struct material_values
 material_values_with_factors(const struct material_values *source);
 

@@ -160,6 +160,56 @@ static inline void at_mixtures(visit f)
     }
 }
 
+/* Translucent surfaces of each kind: of little transmission, of half, and
+ * without reflection. */
+static inline void at_all_translucents(visit f, struct vec3 front,
+                                       struct vec3 back)
+{
+    const float weights[] = {0.2f, 0.5f, 1};
+    const uint32_t kinds[] = {MATERIAL_DIFFUSE, MATERIAL_ROUGH_DIFFUSE,
+                              MATERIAL_PLASTIC, MATERIAL_PLASTIC};
+    const float widths[] = {0, 0.5f, 0, 0.3f};
+
+    for (size_t w = 0; w < COUNT(weights); w++)
+        for (size_t k = 0; k < COUNT(kinds); k++) {
+            struct bsdf m = {.color = front,
+                             .specular = {0.04f, 0.04f, 0.04f},
+                             .alpha = widths[k],
+                             .eta = 1,
+                             .kind = kinds[k],
+                             .back_color = back,
+                             .translucency = weights[w]};
+
+            at_all_cosines(f, &m);
+        }
+}
+
+/* Returns a mixture with random parameters and a translucent base, which is no
+ * solid. */
+static inline struct bsdf random_translucent_mixture(uint64_t *seed)
+{
+    struct bsdf m = random_mixture(seed);
+
+    if (m.is_thin == 0)
+        m.transmission = 0;
+    m.back_color = gold;
+    m.translucency = (float)check_random(seed);
+    return m;
+}
+
+/* Seen along the normal, a grain would not be as symmetric as tests assume. */
+static inline void at_translucent_mixtures(visit f)
+{
+    uint64_t seed = 12;
+
+    for (int i = 0; i < 20; i++) {
+        struct bsdf m = random_translucent_mixture(&seed);
+
+        f(&m, cosines[1 + i % 4]);
+        f(&m, 0.6f);
+    }
+}
+
 static inline struct vec3 direction(float cosine)
 {
     return v3(sqrtf(1.0f - cosine * cosine), 0.0f, cosine);

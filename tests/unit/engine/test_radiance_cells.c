@@ -175,12 +175,26 @@ static void colors_agree(void **state)
     check_same_means(128);
 }
 
+/* A curtain of other colours on each side divides the room: the lamp lights one
+ * half of it through the curtain. */
+static void curtains_agree(void **state)
+{
+    (void)state;
+    write_closed("newmtl wall\nKd .8 .7 .6\nnewmtl curtain\nKd .3 .5 .7\n"
+                 "Td .9 .8 .5\nTd_weight .6\nnewmtl lamp\nKe 30 30 30\n"
+                 "Kd 0 0 0\n",
+                 "usemtl curtain\nv .2 -1 -1\nv .2 1 -1\nv .2 1 1\nv .2 -1 1\n"
+                 "f -4 -3 -2 -1\nusemtl lamp\nv .4 .9 -.3\nv .8 .9 -.3\n"
+                 "v .8 .9 .3\nv .4 .9 .3\nf -4 -3 -2 -1\n");
+    check_same_means(128);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(boxes_are_even), cmocka_unit_test(rooms_agree),
         cmocka_unit_test(gaps_stay_dark), cmocka_unit_test(mirrors_agree),
-        cmocka_unit_test(colors_agree),
+        cmocka_unit_test(colors_agree),   cmocka_unit_test(curtains_agree),
     };
 
     return cmocka_run_group_tests_name("radiance_cells", tests, enter_folder,

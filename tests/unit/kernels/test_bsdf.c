@@ -167,6 +167,12 @@ static void rough_sheets_are_reciprocal(void **state)
     at_all_sheets(check_reciprocity, white);
 }
 
+static void leaves_are_reciprocal(void **state)
+{
+    (void)state;
+    at_all_translucents(check_reciprocity, brick, gold);
+}
+
 static void mirrors_and_sheets_have_no_density(void **state)
 {
     const uint32_t kinds[] = {MATERIAL_METAL, MATERIAL_GLASS,
@@ -255,6 +261,82 @@ static void white_reflections_lose_nothing(void **state)
     }
     m.alpha = 0;
     at_all_cosines(check_furnace, &m);
+}
+
+/* Directions that are mirrored to below the surface. */
+static double eval_below_z(const void *bsdf, struct vec3 from, struct vec3 wi)
+{
+    return eval_z(bsdf, from, v3(wi.x, wi.y, -wi.z));
+}
+
+/* White paper reflects the rest of what it transmits; below a clear surface,
+ * the rest of what that does not reflect. */
+static void check_paper(const struct bsdf *m, float mu)
+{
+    double w = (double)m->translucency, above = 0, below;
+
+    if (m->kind == MATERIAL_PLASTIC)
+        above = (double)specular_albedo(m, direction(mu),
+                                        bsdf_albedo(m, direction(mu)))
+                    .x;
+    below = hemisphere_integral(eval_below_z, m, mu, 300);
+    check_close(below, w * (1 - above), 3e-3);
+    if (m->kind == MATERIAL_ROUGH_DIFFUSE)
+        check_close(integral_of_eval(m, mu), 1 - w, 3e-3);
+    else
+        check_close(albedo(m, mu), 1, 3e-3);
+}
+
+static void white_paper_loses_nothing(void **state)
+{
+    (void)state;
+    at_all_translucents(check_paper, white, white);
+}
+
+/* f |cosine| of leaves by Lambert's law: a share of the front's colour above,
+ * and the back's colour below. */
+static void leaves_shine_on_both_sides(void **state)
+{
+    const struct bsdf m = {.color = {0.1f, 0.4f, 0.2f},
+                           .kind = MATERIAL_DIFFUSE,
+                           .back_color = {0.5f, 0.8f, 0},
+                           .translucency = 0.25f};
+    struct bsdf_sample s;
+    int crossed = 0;
+
+    (void)state;
+    check_close((double)surface_f(&m, direction(0.3f), direction(0.6f)).y,
+                0.75 * 0.4 * 0.6 / M_PI, 1e-7);
+    check_close((double)surface_f(&m, direction(0.3f), v3(0.8f, 0, -0.6f)).y,
+                0.25 * 0.8 * 0.6 / M_PI, 1e-7);
+    assert_true(bsdf_transmits(&m) && !bsdf_is_delta(&m) && !bsdf_is_black(&m));
+    for (int i = 0; i < 1000; i++) {
+        assert_true(bsdf_sample(&m, direction(0.3f), v2(0.3f, 0.4f),
+                                (float)((i + 0.5) / 1000), &s));
+        crossed += s.wi.z < 0;
+        check_close((double)(s.wi.z < 0 ? s.weight.x : s.weight.z),
+                    s.wi.z < 0 ? 0.25 * 0.5 / 0.4 : 0.75 * 0.2 / 0.6, 1e-6);
+    }
+    assert_int_equal(crossed, 400); /* .25 * .8 beside .75 * .4 */
+}
+
+/* A black front with a back is a surface; without one it is none. */
+static void black_leaves_let_light_through(void **state)
+{
+    struct bsdf m = {.kind = MATERIAL_DIFFUSE,
+                     .back_color = brick,
+                     .translucency = 1};
+
+    (void)state;
+    assert_false(bsdf_is_black(&m));
+    m.back_color = v3(0, 0, 0);
+    assert_true(bsdf_is_black(&m));
+    m.kind = MATERIAL_PLASTIC;
+    assert_true(bsdf_is_delta(&m));
+    m.back_color = brick;
+    assert_false(bsdf_is_delta(&m));
+    m.kind = MATERIAL_PRINCIPLED;
+    assert_true(bsdf_transmits(&m) && !bsdf_is_delta(&m));
 }
 
 static void white_glass_loses_nothing(void **state)
@@ -404,10 +486,17 @@ static void nothing_is_ever_nan_or_negative(void **state)
                          .is_thin = k / 5 % 2,
                          .coat_normal = coat_normals[k / 7 % 3],
                          .coat_alpha = widths[(k / 49 + k / 18) % 5]};
+        bool is_paper = (k & 4) != 0 && (k % 7 <= MATERIAL_ROUGH_DIFFUSE ||
+                                         k % 7 == MATERIAL_PLASTIC ||
+                                         k % 7 == MATERIAL_PRINCIPLED);
         struct vec3 wo = direction(mus[k / 7 % 7]);
         struct vec2 u = v2(edges[i % 4], edges[i / 4 % 4]);
         struct bsdf_sample s;
 
+        if (is_paper) {
+            m.translucency = edges[1 + k / 8 % 3];
+            m.back_color = k & 64 ? white : v3(0, 0, 1e-30f);
+        }
         if (!bsdf_sample(&m, wo, u, edges[i / 16 % 4], &s))
             continue;
         assert_true(s.weight.x >= 0 && s.weight.y >= 0 && s.weight.z >= 0);
@@ -415,7 +504,8 @@ static void nothing_is_ever_nan_or_negative(void **state)
                     s.pdf < FLOAT_MAX);
         assert_true(v3_length(s.wi) < 1.1f);
         assert_true(s.is_delta || s.pdf > 0);
-        assert_true(s.wi.z > 0 || m.kind >= MATERIAL_GLASS);
+        assert_true(s.wi.z > 0 || is_paper || m.kind >= MATERIAL_GLASS);
+        check_close((double)s.eta_scale, (double)bsdf_eta_scale(&m, s.wi), 0);
     }
 }
 
@@ -436,6 +526,10 @@ int main(void)
         cmocka_unit_test(weak_faces_stay_weak_at_grazing_angles),
         cmocka_unit_test(white_reflections_lose_nothing),
         cmocka_unit_test(white_glass_loses_nothing),
+        cmocka_unit_test(white_paper_loses_nothing),
+        cmocka_unit_test(leaves_shine_on_both_sides),
+        cmocka_unit_test(black_leaves_let_light_through),
+        cmocka_unit_test(leaves_are_reciprocal),
         cmocka_unit_test(coloured_metal_has_its_albedo),
         cmocka_unit_test(rough_diffuse_has_its_albedo),
         cmocka_unit_test(nothing_is_ever_nan_or_negative),

@@ -170,6 +170,14 @@ static void rare_maps_multiply(void **state)
     check_close((double)b.film, 0.2, 1e-6);
     check_close((double)b.film_thickness, 100 + 0.4 * 300, 1e-3);
     unload(&l);
+    load(&l, "Kd .5\nTd 1 .5 .25\nmap_Td two.tga\nTd_weight .5\n"
+             "map_Td_weight -imfchan r two.tga");
+    b = surface(&l, 0.3f, 0.3f);
+    check_close((double)b.back_color.y, 0.5 * linear(102), 1e-6);
+    check_close((double)b.translucency, 0.5 * 0.2, 1e-6);
+    check_close((double)b.color.y, 0.5, 0);
+    assert_int_equal(l.world.settings.features & FEATURE_COVERAGE, 0);
+    unload(&l);
 }
 
 /* A map of the grain gives the direction x + i y times that of anisor, and

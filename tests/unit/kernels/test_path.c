@@ -70,6 +70,16 @@ static void white_diffuse_vanishes(void **state)
                 0);
 }
 
+static void white_paper_vanishes(void **state)
+{
+    struct material paper = mesh_material(MATERIAL_DIFFUSE, 1.0f);
+
+    (void)state;
+    paper.back_color = v3(1, 1, 1);
+    paper.translucency = 0.3f;
+    check_at_most(furnace_error(paper, 50000), 1e-5);
+}
+
 static void smooth_glass_vanishes(void **state)
 {
     (void)state;
@@ -370,6 +380,7 @@ int main(void)
         cmocka_unit_test(leaning_normals_leak_nothing),
         cmocka_unit_test(faces_of_boxes_stay),
         cmocka_unit_test(white_diffuse_vanishes),
+        cmocka_unit_test(white_paper_vanishes),
         cmocka_unit_test(smooth_glass_vanishes),
         cmocka_unit_test(thin_glass_vanishes),
         cmocka_unit_test(white_mirrors_vanish),

@@ -220,11 +220,14 @@ static void all_surfaces_shine_as_they_scatter(void **state)
 {
     const struct {
         uint32_t kind;
-        float alpha;
-    } kinds[] = {{MATERIAL_DIFFUSE, 0},    {MATERIAL_ROUGH_DIFFUSE, 0.7f},
-                 {MATERIAL_METAL, 0.5f},   {MATERIAL_PLASTIC, 0},
-                 {MATERIAL_PLASTIC, 0.4f}, {MATERIAL_GLASS, 0.7f},
-                 {MATERIAL_GLASS, 1},      {MATERIAL_THIN_GLASS, 0.5f}};
+        float alpha, translucency;
+    } kinds[] = {
+        {MATERIAL_DIFFUSE, 0, 0},       {MATERIAL_ROUGH_DIFFUSE, 0.7f, 0},
+        {MATERIAL_METAL, 0.5f, 0},      {MATERIAL_PLASTIC, 0, 0},
+        {MATERIAL_PLASTIC, 0.4f, 0},    {MATERIAL_GLASS, 0.7f, 0},
+        {MATERIAL_GLASS, 1, 0},         {MATERIAL_THIN_GLASS, 0.5f, 0},
+        {MATERIAL_DIFFUSE, 0, 0.4f},    {MATERIAL_PLASTIC, 0, 0.4f},
+        {MATERIAL_PLASTIC, 0.4f, 0.6f}, {MATERIAL_ROUGH_DIFFUSE, 1, 0.5f}};
     const struct sheet lamps[2] = {{-0.7f, 0.3f, 0.05f, 0.7f, 0.5f},
                                    {-0.5f, 0.2f, 0.05f, 0.4f, -0.4f}};
 
@@ -239,6 +242,8 @@ static void all_surfaces_shine_as_they_scatter(void **state)
         floor.color = v3(0.9f, 0.6f, 0.3f);
         floor.specular = v3(0.04f, 0.04f, 0.04f);
         floor.alpha = kinds[k / 2].alpha;
+        floor.back_color = v3(0.2f, 0.5f, 0.9f);
+        floor.translucency = kinds[k / 2].translucency;
         s.mesh.materials[FLOOR] = floor;
         s.mesh.materials[LAMP] = lamp_material(1);
         mesh_add_quad(&s.mesh, v3(-0.01f, 0, 0.01f), v3(0.01f, 0, 0.01f),
@@ -247,6 +252,8 @@ static void all_surfaces_shine_as_they_scatter(void **state)
                           .specular = floor.specular,
                           .alpha = floor.alpha,
                           .kind = floor.kind,
+                          .back_color = floor.back_color,
+                          .translucency = floor.translucency,
                           .eta = wo.z > 0 || floor.kind == MATERIAL_THIN_GLASS
                                      ? 1.5f
                                      : 1 / 1.5f};

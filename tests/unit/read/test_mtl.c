@@ -507,6 +507,59 @@ static void abbe_numbers_disperse_glass(void **state)
     check_close(dispersion_of("Ni 1e6\nNi_abbe 1e-300\nillum 7", 0), 1e6, 0);
 }
 
+/* Td is all of the light unless a weight says otherwise, and white if absent.
+ */
+static void leaves_let_light_through(void **state)
+{
+    struct material m = only_material("Kd .5\nTd .9 .6 .3", 0);
+
+    (void)state;
+    assert_int_equal(m.kind, MATERIAL_DIFFUSE);
+    check_close((double)m.translucency, 1, 0);
+    check_color(m.back_color, .9, .6, .3);
+    m = only_material("Kd .5\nKs .5\nTd .9\nTd_weight .25", 0);
+    assert_int_equal(m.kind, MATERIAL_PLASTIC);
+    check_close((double)m.translucency, .25, 0);
+    m = only_material("Pm .5\nTd_weight .5", 0);
+    assert_int_equal(m.kind, MATERIAL_PRINCIPLED);
+    check_color(m.back_color, 1, 1, 1);
+    m = only_material("Kd_roughness .5\nTd .5\nTd_weight 0", 0);
+    check_close((double)m.translucency, 0, 0);
+    assert_int_equal(material_features(&m, NULL) & FEATURE_TRANSLUCENT, 0);
+    m = only_material("Kd_roughness .5\nTd 2 .5 -1\nTd_weight 7", 2);
+    check_close((double)m.translucency, 1, 0);
+    check_color(m.back_color, 1, .5, 0);
+    assert_int_not_equal(material_features(&m, NULL) & FEATURE_TRANSLUCENT, 0);
+    check_close((double)only_material("Td_weight nan", 1).translucency, 0, 0);
+    /* metal and glass have no diffuse part */
+    m = only_material("Pm 1\nTd .5", 1);
+    check_close((double)m.translucency, 0, 0);
+    m = only_material("illum 7\nTd_weight .5", 1);
+    check_close((double)m.translucency, 0, 0);
+    only_material("Pm 1\nTd .5\nTd_weight 0", 0);
+}
+
+static void maps_of_leaves_imply_their_factors(void **state)
+{
+    struct loaded l = load("newmtl a\nmap_Td c.png\n"
+                           "newmtl b\nmap_Td_weight w.png\nTd .5\n"
+                           "newmtl c\nmap_Td c.png\nTd_weight 0\n");
+    const struct material *m = l.scene.materials;
+
+    (void)state;
+    assert_true(l.ok);
+    assert_int_equal(m[1].back_texture, 0);
+    check_close((double)m[1].translucency, 1, 0);
+    check_color(m[1].back_color, 1, 1, 1);
+    assert_int_equal(l.scene.textures[0].is_data, 0);
+    assert_int_equal(m[2].translucency_texture, 1);
+    check_close((double)m[2].translucency, 1, 0);
+    assert_int_equal(l.scene.textures[1].is_data, 1);
+    assert_int_equal(m[3].back_texture, NO_INDEX);
+    assert_int_equal(l.report.entry_count, 1);
+    unload(&l);
+}
+
 /* Absorption per unit of length of the file. */
 static void solids_absorb_their_colour(void **state)
 {
@@ -522,7 +575,8 @@ static void solids_absorb_their_colour(void **state)
     check_color(m.color, .7, .7, .7);
     check_color(m.medium.extinction, 0, log(2.0) / d, log(4.0) / d);
     m = only_material("Tf 0 1 1\nTf_distance 1e-30\nillum 7", 0);
-    assert_true(m.medium.extinction.x >= 1e30f && isfinite(m.medium.extinction.x));
+    assert_true(m.medium.extinction.x >= 1e30f &&
+                isfinite(m.medium.extinction.x));
     m = only_material("Tf .5\nTf_distance 0\nillum 7", 0);
     check_color(m.color, .5, .5, .5);
     check_color(m.medium.extinction, 0, 0, 0);
@@ -688,6 +742,8 @@ int main(void)
         cmocka_unit_test(sheen_has_the_roughness_of_the_file),
         cmocka_unit_test(films_are_on_surfaces_that_reflect),
         cmocka_unit_test(abbe_numbers_disperse_glass),
+        cmocka_unit_test(leaves_let_light_through),
+        cmocka_unit_test(maps_of_leaves_imply_their_factors),
         cmocka_unit_test(solids_absorb_their_colour),
         cmocka_unit_test(sheets_are_rough_if_the_file_says_so),
         cmocka_unit_test(maps_weigh_the_layers),

@@ -73,6 +73,13 @@ static void layer(struct material_values *s)
     s->cutoff = number(0.5);
 }
 
+static void shine_through(struct material_values *s)
+{
+    s->back_color = (struct mtl_color){{0.5, 0.75, 0.25}, 1};
+    s->translucency = number(0.5);
+    s->maps_off ^= 1u << MTL_MAP_BACK_COLOR;
+}
+
 static void keep(struct material_values *s)
 {
     (void)s;
@@ -113,6 +120,8 @@ static void only_changed_statements_are_written(void **state)
         {"newmtl m\nPs 1\nPf 0\n", layer,
          "newmtl m\nPs 1\nPf 1\nPs_roughness 0.25\nPf_ior 1.5\n"
          "Pf_thickness 300\nd_cutoff 0.5\n"},
+        {"newmtl m\nTd_weight .25 # leaf\nmap_Td a.png\n", shine_through,
+         "newmtl m\nTd_weight 0.5 # leaf\n#map_Td a.png\nTd 0.5 0.75 0.25\n"},
         {"newmtl m\nd -halo 0.5\n", fade, "newmtl m\nd -halo 0.25\n"},
         {"newmtl m\nTr 0.5\n", fade, "newmtl m\nTr 0.5\nd 0.25\n"},
         /* Either statement gives light. */
