@@ -60,14 +60,14 @@ static inline uint64_t light_cell_above(uint64_t key, uint32_t level)
     return (uint64_t)level << 62 | (key & ~place) | (key & place) >> 3u * level;
 }
 
-/* Chooses the level of a half's cell at a point: the finest at which the other
- * half has enough deposits there. By its own it would take the finer the
- * brighter they are by chance. */
+/* Chooses the level of a half's cell at a point, as light_place() has it: the
+ * finest at which the other half has enough deposits there. By its own it would
+ * take the finer the brighter they are by chance. */
 static inline uint32_t light_level(const struct world *w, uint32_t half_number,
-                                   const struct surface_point *v)
+                                   struct vec3 p, struct vec3 ng)
 {
     struct light_grid g = w->light_grids[1u - half_number];
-    uint64_t key = light_place(&g, v->p, v->ng, cell_octave(&g, v->p)).key;
+    uint64_t key = light_place(&g, p, ng, cell_octave(&g, p)).key;
     struct light_cell cell;
     uint32_t level = 0;
 
@@ -101,6 +101,64 @@ static inline float light_cell_area(struct vec3 n)
     return (1.0f - mean + tail) / a;
 }
 
+/* The light of a cell, as if all of it came from one direction. */
+struct cell_light {
+    struct vec3 flux;
+    struct vec3 from; /* unit */
+    float area;       /* of the surface in the cell; 0: no light */
+};
+
+/* Looks up the light of a half that comes to the side ng of a surface. u
+ * chooses a place around the point. */
+static inline struct cell_light light_cells_at(const struct world *w,
+                                               uint32_t half_number,
+                                               const struct surface_point *v,
+                                               struct vec3 ng, struct vec2 u)
+{
+    struct cell_light l;
+    struct vec3 tangent, bitangent;
+    struct light_grid g = w->light_grids[half_number];
+    uint32_t octave = cell_octave(&g, v->p);
+    uint32_t level = light_level(w, half_number, v->p, ng);
+    float width = cell_width(&g, octave) * (float)(1u << level);
+    struct cell_place at;
+    struct light_cell cell;
+
+    l.area = 0.0f;
+    frame_around(ng, &tangent, &bitangent);
+    at = light_place(&g,
+                     v3_add(v->p,
+                            v3_add(v3_scale(tangent, width * (u.x - 0.5f)),
+                                   v3_scale(bitangent, width * (u.y - 0.5f)))),
+                     ng, octave);
+    if (at.key == 0 ||
+        !cell_find(w, &g, light_cell_above(at.key, level), &cell))
+        return l;
+    l.flux = cell.light;
+    l.from = v3_unit(cell.d);
+    l.area = light_cell_area(ng) * width * width;
+    return l;
+}
+
+/* Returns the radiance that a surface sends to wo of the light of a cell. */
+static inline struct vec3 cell_light_scattered(const struct cell_light *l,
+                                               const struct surface_point *v,
+                                               const struct bsdf *b,
+                                               struct vec3 wo)
+{
+    struct vec3 wi, f;
+    float pdf;
+
+    if (!(l->area > 0.0f))
+        return v3(0.0f, 0.0f, 0.0f);
+    wi = surface_to_local(v, l->from);
+    if (!surface_sides_agree(v, l->from, wi.z))
+        return v3(0.0f, 0.0f, 0.0f);
+    f = bsdf_terms(b, wo, wi, &pdf);
+    return v3_scale(v3_mul(l->flux, f),
+                    bsdf_eta_scale(b, wi) / (fabsf(wi.z) * l->area));
+}
+
 /* Returns the radiance that a matte surface sends to wo of the light of light
  * paths of a half. u chooses a place around the point. */
 static inline struct vec3 light_cells_radiance(const struct world *w,
@@ -109,31 +167,14 @@ static inline struct vec3 light_cells_radiance(const struct world *w,
                                                const struct bsdf *b,
                                                struct vec3 wo, struct vec2 u)
 {
-    struct vec3 none = v3(0.0f, 0.0f, 0.0f), tangent, bitangent, from, wi, f;
-    struct light_grid g = w->light_grids[half_number];
-    uint32_t octave = cell_octave(&g, v->p);
-    uint32_t level = light_level(w, half_number, v);
-    float width = cell_width(&g, octave) * (float)(1u << level), pdf, area;
-    struct cell_place at;
-    struct light_cell cell;
+    struct cell_light l = light_cells_at(w, half_number, v, v->ng, u);
+    struct vec3 sum = cell_light_scattered(&l, v, b, wo);
 
-    frame_around(v->ng, &tangent, &bitangent);
-    at = light_place(&g,
-                     v3_add(v->p,
-                            v3_add(v3_scale(tangent, width * (u.x - 0.5f)),
-                                   v3_scale(bitangent, width * (u.y - 0.5f)))),
-                     v->ng, octave);
-    if (at.key == 0 ||
-        !cell_find(w, &g, light_cell_above(at.key, level), &cell))
-        return none;
-    from = v3_unit(cell.d);
-    wi = surface_to_local(v, from);
-    if (!surface_sides_agree(v, from, wi.z))
-        return none;
-    f = bsdf_terms(b, wo, wi, &pdf);
-    area = light_cell_area(v->ng) * width * width;
-    return v3_scale(v3_mul(cell.light, f),
-                    bsdf_eta_scale(b, wi) / (fabsf(wi.z) * area));
+    if (is_translucent(b)) {
+        l = light_cells_at(w, half_number, v, v3_neg(v->ng), u);
+        sum = v3_add(sum, cell_light_scattered(&l, v, b, wo));
+    }
+    return sum;
 }
 
 #endif

@@ -325,6 +325,37 @@ static void paths_from_the_eye_agree_behind_glass(void **state)
     }
 }
 
+/* The floor is of paper, and the eye is below it, or also behind a sheet. */
+static void paper_shows_what_shines_through_it(void **state)
+{
+    double pass = 1 - sheet_reflectance(1);
+
+    (void)state;
+    write_floor(SHEET, 0, .2, "light point 0 2 0 intensity 10 10 10");
+    put("s.mtl", "newmtl grey\nKd 0 0 0\nTd .1 .1 .1\nTd_weight .5\n"
+                 "newmtl pane\n" SHEET "\n");
+    append("s.view", "eye 0 -.4 0\nmax_bounces 40\n");
+    check_close(render(false, SPP_CLOSED, 3).all[0],
+                .5 * .1 / M_PI * 10 / 4 * pass, 1e-4);
+    append("s.obj", "usemtl pane\nv -.2 -.1 -.2\nv -.2 -.1 .2\n"
+                    "v .2 -.1 .2\nv .2 -.1 -.2\nf -4 -3 -2 -1\n");
+    check_close(render(false, 2 * SPP_CLOSED, 3).all[0],
+                .5 * .1 / M_PI * 10 / 4 * pass * pass, 1e-4);
+}
+
+/* A curtain hides the globe and its room, without and with a pane before it. */
+static void paths_from_the_eye_agree_behind_curtains(void **state)
+{
+    (void)state;
+    write_globe("illum 7\nNi 1.5\nTf 1 1 1", "newmtl curtain\nKd .4 .5 .6\n"
+                                             "Td .9 .7 .5\nTd_weight .7");
+    append("s.obj", "usemtl curtain\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\n"
+                    "v -1 1 1\nf -4 -3 -2 -1\n");
+    check_same_means();
+    add_pane();
+    check_same_means();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -337,6 +368,8 @@ int main(void)
         cmocka_unit_test(bright_skies_shine_through_sheets),
         cmocka_unit_test(sheets_show_what_shines_through_them),
         cmocka_unit_test(paths_from_the_eye_agree_behind_glass),
+        cmocka_unit_test(paper_shows_what_shines_through_it),
+        cmocka_unit_test(paths_from_the_eye_agree_behind_curtains),
     };
 
     return cmocka_run_group_tests_name("light_paths", tests, enter_folder,
