@@ -294,6 +294,27 @@ static bool read_transmission(struct reader *r)
     return read_map(r, &v, "transmissionTexture", of_red, MTL_MAP_TRANSMISSION);
 }
 
+static bool read_diffuse_transmission(struct reader *r)
+{
+    struct material_values *s = &r->source;
+    double weight = 0, color[3] = {1, 1, 1};
+    struct gltf_value v;
+
+    if (!gltf_extension(&r->v, "KHR_materials_diffuse_transmission", &v,
+                        r->err) ||
+        !read_number(r, &v, "diffuseTransmissionFactor", &weight) ||
+        !gltf_numbers(&v, "diffuseTransmissionColorFactor", 3, color, r->err))
+        return false;
+    if (!(weight > 0))
+        return true;
+    set_unit(&s->translucency, weight);
+    set_color(&s->back_color, color);
+    return read_map(r, &v, "diffuseTransmissionTexture", of_alpha,
+                    MTL_MAP_TRANSLUCENCY) &&
+           read_map(r, &v, "diffuseTransmissionColorTexture", of_color,
+                    MTL_MAP_BACK_COLOR);
+}
+
 static bool read_coat(struct reader *r)
 {
     struct material_values *s = &r->source;
@@ -410,8 +431,8 @@ static bool make_unlit(struct reader *r, uint32_t alpha_flag)
 
 static bool read_layers(struct reader *r)
 {
-    return read_transmission(r) && read_coat(r) && read_sheen(r) &&
-           read_anisotropy(r) && read_film(r);
+    return read_transmission(r) && read_diffuse_transmission(r) &&
+           read_coat(r) && read_sheen(r) && read_anisotropy(r) && read_film(r);
 }
 
 static bool read_statements(struct reader *r)

@@ -413,6 +413,41 @@ static void factors_become_values(void **state)
     unload(&l);
 }
 
+/* The weight is in the alpha of its texture. */
+static void leaves_have_two_textures(void **state)
+{
+    const struct material *m;
+    struct loaded l;
+
+    (void)state;
+    load_text(&l, "{\"pbrMetallicRoughness\":{\"metallicFactor\":0},"
+                  "\"extensions\":{\"KHR_materials_diffuse_transmission\":{"
+                  "\"diffuseTransmissionFactor\":0.25,"
+                  "\"diffuseTransmissionTexture\":{\"index\":0},"
+                  "\"diffuseTransmissionColorFactor\":[0.9,0.6,0.3],"
+                  "\"diffuseTransmissionColorTexture\":{\"index\":0}}}},"
+                  "{\"pbrMetallicRoughness\":{\"metallicFactor\":0},"
+                  "\"extensions\":{\"KHR_materials_diffuse_transmission\":{"
+                  "\"diffuseTransmissionColorTexture\":{\"index\":0}}}},"
+                  "{\"pbrMetallicRoughness\":{\"metallicFactor\":0},"
+                  "\"extensions\":{\"KHR_materials_diffuse_transmission\":{"
+                  "\"diffuseTransmissionFactor\":1}}}");
+    assert_true(l.ok);
+    assert_int_equal(l.report.entry_count, 0);
+    m = &l.scene.materials[1];
+    assert_int_equal(m->kind, MATERIAL_PLASTIC);
+    check_close((double)m->translucency, 0.25, 0);
+    check_close((double)m->back_color.y, 0.6, 1e-6);
+    assert_int_equal(texture_of(&l, m->translucency_texture)->channel,
+                     CHANNEL_ALPHA);
+    assert_int_equal(texture_of(&l, m->translucency_texture)->is_data, 1);
+    assert_int_equal(texture_of(&l, m->back_texture)->is_data, 0);
+    check_close((double)l.scene.materials[2].translucency, 0, 0);
+    check_close((double)l.scene.materials[3].translucency, 1, 0);
+    check_close((double)l.scene.materials[3].back_color.z, 1, 0);
+    unload(&l);
+}
+
 #define TRANSFORMED                                                           \
     "{\"index\":1,\"texCoord\":1,\"extensions\":{\"KHR_texture_transform\":{" \
     "\"offset\":[0.1,0.7],\"rotation\":1.3,\"scale\":[2,-3]}}}"
@@ -430,6 +465,10 @@ static const char all_of_it[] =
     "\"specularColorFactor\":[1,0.5,0.3],\"specularTexture\":" TRANSFORMED
     ",\"specularColorTexture\":{\"index\":0}},\"KHR_materials_transmission\":"
     "{\"transmissionFactor\":0.6,\"transmissionTexture\":{\"index\":1}},"
+    "\"KHR_materials_diffuse_transmission\":{\"diffuseTransmissionFactor\":0.4,"
+    "\"diffuseTransmissionColorFactor\":[0.9,0.5,0.1],"
+    "\"diffuseTransmissionTexture\":{\"index\":1},"
+    "\"diffuseTransmissionColorTexture\":{\"index\":0}},"
     "\"KHR_materials_volume\":{\"thicknessFactor\":1,"
     "\"attenuationDistance\":0.3,\"attenuationColor\":[0.3,0.6,0.9]},"
     "\"KHR_materials_dispersion\":{\"dispersion\":0.3},"
@@ -516,6 +555,7 @@ int main(void)
         cmocka_unit_test(transforms_are_those_of_the_extension),
         cmocka_unit_test(images_are_listed_once),
         cmocka_unit_test(factors_become_values),
+        cmocka_unit_test(leaves_have_two_textures),
         cmocka_unit_test(saved_materials_are_the_same),
         cmocka_unit_test(wrong_values_have_messages),
     };

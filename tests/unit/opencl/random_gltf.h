@@ -219,12 +219,16 @@ static const struct {
      {"thicknessTexture", NULL, NULL},
      ", \"attenuationColor\": [0.9, 0.5, 0.2]"},
     {"dispersion", {"dispersion", NULL}, {NULL, NULL, NULL}, ""},
+    {"diffuse_transmission",
+     {"diffuseTransmissionFactor", NULL},
+     {"diffuseTransmissionTexture", "diffuseTransmissionColorTexture", NULL},
+     ", \"diffuseTransmissionColorFactor\": [0.9, 0.6, 0.3]"},
     {"specular",
      {"specularFactor", NULL},
      {"specularTexture", "specularColorTexture", NULL},
      ", \"specularColorFactor\": [0.9, 1.5, 0.8]"},
 };
-#define RANDOM_EXTENSIONS 8
+#define RANDOM_EXTENSIONS 9
 
 /* Writes an extension that is missing in most materials, so that each is in
  * some without the others. */
