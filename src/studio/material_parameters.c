@@ -298,6 +298,27 @@ static bool get_attenuation(const struct owner *o, struct value *v)
            v->number > 0;
 }
 
+/* Sets the weight of diffuse transmission. Its colour begins as that of the
+ * surface. */
+static void set_translucency(struct owner *o, const struct value *v)
+{
+    struct value color;
+
+    get_color(o, &color);
+    put_number(&o->source.translucency, v->number);
+    if (o->factors.back_color.line == 0)
+        put_color(&o->source.back_color, color.rgb);
+}
+
+static bool get_back_color(const struct owner *o, struct value *v)
+{
+    const struct mtl_color *color = &o->factors.back_color;
+
+    for (int i = 0; i < 3; i++)
+        v->rgb[i] = color->line != 0 ? color->rgb[i] : 1;
+    return o->material.translucency > 0;
+}
+
 /* Reads the weight of sheen, which is multiplied by its colour. */
 static bool get_sheen(const struct owner *o, struct value *v)
 {
@@ -514,6 +535,11 @@ const struct parameter_row material_parameters[] = {
      .get = get_distance, WRITES(attenuation_distance)},
     {"then", GLASS | MIXED, VALUE_COLOR, &scale_unit, .get = get_attenuation,
      WRITES_COLOR(attenuation)},
+    {"translucent", DIFFUSE | PLASTIC | MIXED, VALUE_NUMBER, &scale_unit,
+     .get = get_statement, .set = set_translucency,
+     .result = offsetof(struct material, translucency)},
+    {"back colour", DIFFUSE | PLASTIC | MIXED, VALUE_COLOR, &scale_unit,
+     .get = get_back_color, WRITES_COLOR(back_color)},
     {"coat", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      .get = get_coat, .set = set_coat},
     {"coat rough", MIXED, VALUE_NUMBER, &scale_unit,

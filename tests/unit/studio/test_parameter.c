@@ -58,6 +58,8 @@ static struct material_values any_source(void)
     s.diffuse_roughness = maybe(check_random(&seed));
     s.sheen_roughness = maybe(check_random(&seed));
     s.film = maybe(check_random(&seed));
+    s.back_color = maybe_color();
+    s.translucency = maybe(check_random(&seed));
     s.film_ior = maybe(1 + check_random(&seed));
     s.film_thickness = maybe(1000 * check_random(&seed));
     s.cutoff = maybe(check_random(&seed));
@@ -206,7 +208,14 @@ static void set_values_reach_the_material(void **state)
         set(&s, "film nm", &(struct value){.number = 350});
         set(&s, "grain", &(struct value){.number = .5});
         set(&s, "grain turn", &(struct value){.number = .25});
+        set(&s, "translucent", &(struct value){.number = .375});
+        set(&s, "back colour", &color);
         m = material_of(&s);
+        if (m.kind != MATERIAL_METAL && m.kind != MATERIAL_GLASS &&
+            m.kind != MATERIAL_THIN_GLASS) {
+            check_close((double)m.translucency, .375, 0);
+            check_color(m.back_color, color.rgb);
+        }
         if (m.kind == MATERIAL_PRINCIPLED) {
             check_close((double)m.coat, .5, 0);
             check_close((double)m.transmission, .25, 1e-7);
@@ -269,6 +278,26 @@ static void values_of_gltf_are_edited(void **state)
     check_close(material_of(&s).medium.extinction.y, -log(.2) / 2, 1e-5);
 }
 
+/* Leaves begin to let light through in their own colour. */
+static void leaves_keep_their_color(void **state)
+{
+    struct material_values s = material_values_empty();
+    struct value found;
+
+    (void)state;
+    s.base_color = (struct mtl_color){{.1, .4, .2}, 1};
+    assert_true(get(&s, "translucent", &found) && found.number == 0);
+    assert_false(get(&s, "back colour", &found));
+    set(&s, "translucent", &(struct value){.number = .5});
+    assert_true(get(&s, "back colour", &found));
+    check_color(material_of(&s).back_color, s.base_color.rgb);
+    set(&s, "translucent", &(struct value){.number = 0});
+    assert_true(material_of(&s).translucency == 0);
+    /* Td alone is all of the light */
+    s.translucency = (struct mtl_number){.line = 0};
+    assert_true(get(&s, "translucent", &found) && found.number == 1);
+}
+
 /* The tint of a solid stays what it is if it begins to count after a distance,
  * and the weight of transmission keeps its hue. */
 static void tints_take_a_distance(void **state)
@@ -316,16 +345,17 @@ static void absent_factors_are_1(void **state)
     check_color(m.emission, (double[]){1, 1, 1});
     check_close((double)m.specular.x, (double)MATERIAL_SPECULAR, 0);
     assert_true(get(&s, "of colour", &v) && v.rgb[0] == 1 && v.rgb[2] == 1);
-    for (int i = 0; i < 9; i++) {
+    for (int i = 0; i < 10; i++) {
         static const char *const labels[] = {"roughness", "metal",
                                              "coat",      "coat rough",
                                              "sheen",     "sheen rough",
                                              "film",      "light",
-                                             "specular"};
+                                             "specular",  "translucent"};
         const float made[] = {
-            m.alpha,      m.metalness,  m.coat,
-            m.coat_alpha, m.sheen.x,    m.sheen_alpha,
-            m.film,       m.emission.x, m.specular.x / MATERIAL_SPECULAR};
+            m.alpha,       m.metalness,  m.coat,
+            m.coat_alpha,  m.sheen.x,    m.sheen_alpha,
+            m.film,        m.emission.x, m.specular.x / MATERIAL_SPECULAR,
+            m.translucency};
 
         assert_true(get(&s, labels[i], &v));
         check_close(v.number, 1, 0);
@@ -898,6 +928,7 @@ int main(void)
         cmocka_unit_test(kinds_keep_the_color),
         cmocka_unit_test(set_values_reach_the_material),
         cmocka_unit_test(values_of_gltf_are_edited),
+        cmocka_unit_test(leaves_keep_their_color),
         cmocka_unit_test(tints_take_a_distance),
         cmocka_unit_test(absent_factors_are_1),
         cmocka_unit_test(factors_go_down_to_black),
