@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Statements about sheen, films and coverage that are out of range are named,
-# and the picture is made; a word in place of a number is an error.
+# Statements about sheen, films, coverage and translucency that are out of range
+# are named, and the picture is made; a word in place of a number is an error.
 printf 'mtllib a.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nusemtl m\nf 1 2 3\n' >a.obj
 try() # STATEMENTS
 {
@@ -15,3 +15,6 @@ try 'Pm 1\nPf 1\nPf_thickness thick\n'
 try 'Ps .5\nPs_roughness -1\n'
 try 'd .5\nd_cutoff 1.5\n'
 try 'd .5\nd_cutoff half\n'
+try 'Td .5\nTd_weight 2\n'
+try 'Td_weight half\n'
+try 'Pm 1\nTd .5\n'
