@@ -56,7 +56,7 @@ static inline struct vec3 preview_color(const struct world *w,
     struct vec3 glow = preview_glow(emission_at(w, m, v));
     float shade = PREVIEW_AMBIENT + (1.0f - PREVIEW_AMBIENT) * v3_dot(v->n, wo);
 
-    return v3_add(v3_scale(b->color, shade), glow);
+    return v3_add(v3_scale(base_albedo(b), shade), glow);
 }
 
 /* Maps components from [-1, 1] to [0, 1]. */

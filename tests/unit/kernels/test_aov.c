@@ -207,6 +207,11 @@ static void previews_show_colours_times_the_cosine(void **state)
     }
     check_vector(sample_of(SAMPLE_PREVIEW, SIDE / 2, SIDE / 2, 0),
                  (double[3]){1, 0.5, 0.25}, 1e-6);
+    mesh.materials[1].emission = v3(0, 0, 0);
+    mesh.materials[1].back_color = v3(1, 0.5f, 0.25f);
+    mesh.materials[1].translucency = 1;
+    check_vector(sample_of(SAMPLE_PREVIEW, SIDE / 2, SIDE / 2, 0),
+                 (double[3]){1, 0.5, 0.25}, 1e-3);
     assert_true(sample_of(SAMPLE_PREVIEW, 0, 0, 0).z == 7.0f);
     assert_true(v3_is_zero(sample_of(SAMPLE_DEPTH, 0, 0, 0)));
     assert_true(v3_is_zero(sample_of(SAMPLE_MATERIAL, 0, 0, 0)));
