@@ -161,6 +161,89 @@ static void make_bulb(const char *folder)
               "res 1024 640\nexposure 1.1\ntone aces\n");
 }
 
+/* ---- lantern ---- */
+
+#define LANTERN_ROWS 41
+
+/* A ball of paper with ribs, a lamp in it, and the cord that both hang from. */
+static void paper_lantern(struct mesh *m, struct point middle)
+{
+    double profile[LANTERN_ROWS][2];
+
+    for (int i = 0; i < LANTERN_ROWS; i++) {
+        double turn = M_PI * i / (LANTERN_ROWS - 1);
+        double radius = i % 4 == 0 ? .197 : .2;
+
+        profile[i][0] = radius * sin(turn);
+        profile[i][1] = -.9 * radius * cos(turn);
+    }
+    profile[0][0] = profile[LANTERN_ROWS - 1][0] = 0;
+    mesh_object(m, "lantern", "paper");
+    mesh_lathe(m, middle, (const double(*)[2])profile, LANTERN_ROWS, 64);
+    mesh_object(m, "lamp", "lamp");
+    mesh_sphere(m, middle, .03, 8);
+    mesh_object(m, "cord", "dark");
+    mesh_box(m, at(middle.x, middle.y + .18, middle.z), at(.006, 1.2, .006), 0);
+}
+
+/* Leaves that rise from a place and bend outwards, each of three quads, the
+ * last one with a tip. */
+static void leaves(struct mesh *m, struct point foot, int count)
+{
+    static const double side[][3] = {{.01, .01, 0},
+                                     {.05, .028, .1},
+                                     {.11, .026, .14},
+                                     {.17, 0, .13}};
+
+    mesh_object(m, "leaves", "leaf");
+    for (int i = 0; i < count; i++) {
+        double turn = 2.4 * i, size = .7 + .3 * sin(5. * i);
+        double c = size * cos(turn), s = size * sin(turn);
+        struct point ends[8];
+
+        for (int k = 0; k < 8; k++) {
+            const double *p = side[k / 2];
+            double across = k % 2 ? p[1] : -p[1];
+
+            ends[k] = at(foot.x + p[0] * c - across * s,
+                         foot.y + (size + .5 * (i % 3)) * p[2],
+                         foot.z + p[0] * s + across * c);
+        }
+        for (int k = 0; k < 3; k++)
+            mesh_quad(m, ends[2 * k], ends[2 * k + 1], ends[2 * k + 3],
+                      ends[2 * k + 2], 1, 1);
+    }
+}
+
+static void make_lantern(const char *folder)
+{
+    static const double pot[][2] = {{0, 0},      {.045, 0},   {.06, .09},
+                                    {.054, .09}, {.05, .075}, {0, .075}};
+    struct mesh m =
+        mesh_open(folder, "lantern", "A lamp in a ball of paper, and leaves.");
+
+    table_room(&m);
+    paper_lantern(&m, at(-.12, 1.25, -.15));
+    mesh_object(&m, "pot", "china");
+    mesh_lathe(&m, at(.22, .7601, .05), pot, COUNT(pot), 48);
+    leaves(&m, at(.22, .832, .05), 13);
+    mesh_object(&m, "book", "blue");
+    mesh_box(&m, at(-.42, .7601, .18), at(.24, .03, .17), 25);
+    mesh_close(&m);
+    mesh_text(folder, "lantern", "mtl",
+              ROOM_MATERIALS
+              "newmtl paper\nKd .8 .76 .7\nTd .9 .84 .7\nTd_weight .5\n"
+              "newmtl leaf\nKd .1 .3 .06\nTd .35 .6 .1\nTd_weight .45\n"
+              "newmtl lamp\nKd 0 0 0\nKe 70 52 32\nillum 1\n"
+              "newmtl dark\nKd .03 .03 .03\nillum 1\n"
+              "newmtl china\nKd .8 .8 .78\nillum 1\n"
+              "newmtl blue\nKd .1 .18 .4\nillum 1\n");
+    mesh_text(folder, "lantern", "view",
+              "eye .5 1.25 1.5\nat 0 1.06 0\nup 0 1 0\nfovy 36\n"
+              "background .08 .1 .14\n"
+              "res 1024 640\nexposure 1.5\ntone aces\n");
+}
+
 /* ---- water ---- */
 
 /* A tumbler that is partly full. Where glass meets water, its index is that of
@@ -283,6 +366,7 @@ void glasses_write(const char *folder)
 {
     make_globe(folder);
     make_bulb(folder);
+    make_lantern(folder);
     make_water(folder);
     make_prism(folder);
 }

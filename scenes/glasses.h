@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * glasses.h - scenes in which light comes through glass
+ * glasses.h - scenes in which light comes through glass or paper
  *
  * Threads:   one
  * Errors:    stop the program with a message
@@ -8,7 +8,7 @@
 #ifndef SCENES_GLASSES_H
 #define SCENES_GLASSES_H
 
-/* Writes globe, bulb, water and prism. */
+/* Writes globe, bulb, lantern, water and prism. */
 void glasses_write(const char *folder);
 
 #endif

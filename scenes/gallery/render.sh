@@ -22,7 +22,7 @@ render interior 320 700
 render skylit 320 300
 render lights200 320 500
 render principled 480 400
-for glass in globe bulb water prism; do
+for glass in globe bulb lantern water prism; do
     "$glim" -b -w 480 -s 128 --denoise -o "scenes/gallery/$glass.png" \
         "scenes/$glass.obj"
     echo "scenes/gallery/$glass.png"

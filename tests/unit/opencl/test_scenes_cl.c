@@ -15,7 +15,7 @@ static const char *const scenes[] = {
     "scenes/interior.obj",   "scenes/skylit.obj",    "scenes/lights200.obj",
     "scenes/principled.obj", "scenes/bottles.glb",   "scenes/bubbles.glb",
     "scenes/chess.glb",      "scenes/forest.glb",    "scenes/jellyfish.glb",
-    "scenes/knot.glb",       "scenes/prism.obj",
+    "scenes/knot.glb",       "scenes/prism.obj",     "scenes/lantern.obj",
 };
 
 static void shipped_scenes_are_equal(void **state)
