@@ -269,6 +269,7 @@ static inline bool path_enters(struct path *p, const struct material *m,
         *choice = f_min((*choice - q) / (1.0f - q), UNIT_FLOAT_MAX);
         p->beta = v3_scale(p->beta, 1.0f / (1.0f - q));
         b->color = v3_scale(b->color, 1.0f - b->subsurface);
+        b->back_color = v3_scale(b->back_color, 1.0f - b->subsurface);
         return false;
     }
     below = surface_turned(surface_of_face(*v));
