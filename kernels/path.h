@@ -97,12 +97,16 @@ static inline void path_open(const struct world *w, struct path *p,
     p->from.p = start.ray.o;
     p->from.n = start.ray.d;
     p->from.transmits = true;
-    p->from.is_free = false;
     if (HAS(FEATURE_ATTENUATION))
         p->media = w->settings.camera_media;
-    p->crossings = 0;
-    p->below.steps = 0;
-    p->wavelength = 0.0f;
+    if (HAS(FEATURE_MEDIA))
+        p->from.is_free = false;
+    if (HAS(FEATURE_MEDIA))
+        p->crossings = 0;
+    if (HAS(FEATURE_SUBSURFACE))
+        p->below.steps = 0;
+    if (HAS(FEATURE_DISPERSION))
+        p->wavelength = 0.0f;
     p->drops = false;
     p->is_chain = true;
     p->casts = false;
@@ -148,7 +152,8 @@ static inline bool path_advance(const struct world *w, struct path *p, float u)
     if (!path_survives(p, u))
         return false;
     p->vertex++;
-    p->crossings = 0;
+    if (HAS(FEATURE_MEDIA))
+        p->crossings = 0;
     p->out.rays++;
     p->ray.t_max = FLOAT_MAX;
     path_set_key(w, p->sampler, p->vertex, &p->ray);
@@ -244,7 +249,8 @@ static inline void path_disperse(struct path *p, const struct material *m,
 
 /* ---- below surfaces ---- */
 
-/* Returns random numbers of a step of the path's walk; `which` is 0 or 1. */
+/* Returns random numbers of a step of the path's walk; `which` is 0 or 1. Step
+ * 0 decides whether there is a walk. */
 static inline struct vec2 path_below_2d(const struct path *p, uint32_t which)
 {
     struct sampler s = p->sampler;
@@ -253,11 +259,11 @@ static inline struct vec2 path_below_2d(const struct path *p, uint32_t which)
     return vertex_2d(s, p->vertex, DIMENSION_WALK);
 }
 
-/* Begins a walk below the surface, or leaves the BSDF what does not enter. The
- * number *choice decides, and is then one for the BSDF. */
-static inline bool path_enters(struct path *p, const struct material *m,
-                               uint32_t material, const struct surface_point *v,
-                               struct bsdf *b, float *choice)
+/* Begins a walk below the surface, or leaves the BSDF what does not enter.
+ * Returns false if the path does not enter. */
+APART static bool path_enters(struct path *p, const struct material *m,
+                              uint32_t material, const struct surface_point *v,
+                              struct bsdf *b)
 {
     struct vec3 entry =
         subsurface_entry(b, surface_to_local(v, v3_neg(p->ray.d)));
@@ -265,8 +271,7 @@ static inline bool path_enters(struct path *p, const struct material *m,
     struct surface_point below;
     struct vec3 d;
 
-    if (!(*choice < q)) {
-        *choice = f_min((*choice - q) / (1.0f - q), UNIT_FLOAT_MAX);
+    if (!(path_below_2d(p, 0).x < q)) {
         p->beta = v3_scale(p->beta, 1.0f / (1.0f - q));
         b->color = v3_scale(b->color, 1.0f - b->subsurface);
         b->back_color = v3_scale(b->back_color, 1.0f - b->subsurface);
@@ -427,9 +432,8 @@ static inline bool path_extend(const struct world *w, struct path *p,
                                       surface_to_local(&v, v3_neg(p->ray.d)),
                                       random_2d(p->sampler, DIMENSION_CELL)),
                  1.0f);
-    lobe = path_2d(p, DIMENSION_BSDF_LOBE);
     if (HAS(FEATURE_SUBSURFACE) && b.subsurface > 0.0f) {
-        if (path_enters(p, &m, material, &v, &b, &lobe.x))
+        if (path_enters(p, &m, material, &v, &b))
             return true;
     } else if (HAS(FEATURE_RADIANCE_CELLS) &&
                w->settings.has_radiance_cells != 0 &&
@@ -441,13 +445,15 @@ static inline bool path_extend(const struct world *w, struct path *p,
     p->from.p = v.p;
     p->from.n = v.n;
     p->from.transmits = bsdf_transmits(&b);
-    p->from.is_free = false;
+    if (HAS(FEATURE_MEDIA))
+        p->from.is_free = false;
     p->cell = guide_cell_none();
     if (HAS(FEATURE_GUIDE) && guide_helps(&b))
         p->cell = guide_at(w, v.p, v.ng);
     /* Sample a light */
     p->light.is_lit = path_choose_light(w, p, material, &m, &b, &v, wo);
     /* Sample the BSDF for the next direction; Russian roulette */
+    lobe = path_2d(p, DIMENSION_BSDF_LOBE);
     return path_scatter(w, p, material, &b, &v, wo,
                         path_2d(p, DIMENSION_BSDF_DIRECTION), lobe.x) &&
            path_advance(w, p, lobe.y);

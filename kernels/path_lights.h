@@ -208,7 +208,7 @@ static inline struct vec3 path_light_attenuated(const struct world *w,
     struct medium medium;
 
     if (HAS(FEATURE_MEDIA) && w->settings.has_boundaries != 0) {
-        p->light.media = *media;
+        p->light_media = *media;
         return radiance;
     }
     medium = medium_of(w, media);
@@ -341,7 +341,7 @@ static inline struct vec3 shadow_transmittance(const struct world *w,
                                                struct path *p)
 {
     struct ray r = p->light.shadow;
-    struct media media = p->light.media;
+    struct media media = p->light_media;
     struct vec3 left = v3(1.0f, 1.0f, 1.0f);
     float length = v3_length(r.d);
 

@@ -27,7 +27,6 @@ struct path_light {
     struct vec3 radiance;
     uint32_t tri; /* NO_INDEX: none; the light is not a triangle */
     bool is_lit;  /* there is a sample, whose shadow ray is to be traced */
-    struct media media; /* where the shadow ray begins; FEATURE_MEDIA */
 };
 
 /* A walk below a surface: subsurface.h. */
@@ -48,21 +47,23 @@ struct path {
     float scale;      /* factor of the throughput that roulette ignores */
     float pdf;        /* density of the ray's direction; 0 for the camera and
                          delta lobes, with which light samples do not compete */
-    struct receiver from;   /* vertex that the ray left, if pdf is above 0 */
-    struct guide_cell cell; /* tables of the path guide at that vertex */
-    struct media media;     /* where the ray is; FEATURE_ATTENUATION */
-    uint32_t crossings;     /* of boundaries since that vertex; FEATURE_MEDIA */
-    struct subsurface_walk below; /* FEATURE_SUBSURFACE */
-    struct path_light light;      /* light sample of the last vertex */
+    struct receiver from;    /* vertex that the ray left, if pdf is above 0 */
+    struct guide_cell cell;  /* tables of the path guide at that vertex */
+    struct path_light light; /* light sample of the last vertex */
     struct path_sample out;
     struct first_surface surface;
     struct cell_estimates *estimates; /* NULL: none; FEATURE_RADIANCE_CELLS */
-    float wavelength;     /* in nanometres; 0: none yet. FEATURE_DISPERSION */
     uint32_t half_number; /* as in struct camera_sample; of these two: */
     /* FEATURE_LIGHT_PATHS: */
     bool drops;    /* light paths bring light of lamps to surfaces that cast */
     bool is_chain; /* all vertices so far cast */
     bool casts;    /* the last one does */
+    float wavelength;   /* in nanometres; 0: none yet. FEATURE_DISPERSION */
+    struct media media; /* where the ray is; FEATURE_ATTENUATION */
+    /* FEATURE_MEDIA: */
+    struct media light_media;     /* where the shadow ray begins */
+    uint32_t crossings;           /* of boundaries since that vertex */
+    struct subsurface_walk below; /* FEATURE_SUBSURFACE */
 };
 
 /* Caps a factor at the largest float, because an infinite factor times a black

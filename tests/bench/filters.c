@@ -71,7 +71,8 @@ static bool time_size(struct session *s, int width, int height,
     if (!frame_init(&frame, width, height, err))
         return false;
     printf("  %dx%d\n", width, height);
-    screen_filter_draft_size(width, height, &s->draft_width, &s->draft_height);
+    screen_filter_draft_size(width, height, SCREEN_FILTER_PIXELS,
+                             &s->draft_width, &s->draft_height);
     if (!session_restart(s, (struct render_limits){0}, err))
         return false;
     while (render_progress(s->engine.render).samples == 0)

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_subsurface.c - walks below surfaces: thick bodies have the color of
+ * their surface, white ones keep the light, and open meshes lose it
+ */
+#include "tests/unit/files.h"
+#include "tests/unit/lambert.h"
+#include "tests/unit/truth.h"
+
+static double channel(struct vec3 v, int k)
+{
+    return (double)(k == 0 ? v.x : k == 1 ? v.y : v.z);
+}
+
+static struct material skin(struct vec3 color, float path, float g)
+{
+    struct material m = mesh_material(MATERIAL_DIFFUSE, 0);
+
+    m.color = color;
+    m.subsurface = 1;
+    m.medium.extinction = v3(1 / path, 2 / path, 0.5f / path);
+    m.medium.anisotropy = g;
+    return m;
+}
+
+/* The albedo of scattering gives a half space its color: by Chandrasekhar's
+ * solution, A = 1 - 2 sqrt(1 - w) times the integral of H(mu) mu. H is found by
+ * the iteration of its equation, 1 / H = sqrt(1 - w) + w / 2 times the integral
+ * of x H(x) / (mu + x). */
+static void albedos_give_the_color(void **state)
+{
+    enum { N = 400 };
+    static const double colors[] = {0.05, 0.2, 0.5, 0.8, 0.95};
+
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        double w = (double)medium_albedo_of((float)colors[i], 0);
+        double h[N], sum = 0;
+
+        for (int k = 0; k < N; k++)
+            h[k] = 1;
+        for (int round = 0; round < 200; round++)
+            for (int k = 0; k < N; k++) {
+                double mu = (k + 0.5) / N, integral = 0;
+
+                for (int j = 0; j < N; j++)
+                    integral += (j + 0.5) / N * h[j] / (mu + (j + 0.5) / N) / N;
+                h[k] = 1 / (sqrt(1 - w) + w / 2 * integral);
+            }
+        for (int k = 0; k < N; k++)
+            sum += h[k] * (k + 0.5) / N / N;
+        check_close(1 - 2 * sqrt(1 - w) * sum, colors[i], 0.003);
+    }
+}
+
+/* A thick body under a white sky has its color, whatever the mean free paths,
+ * seen from any direction. */
+static void thick_bodies_have_their_color(void **state)
+{
+    static const struct vec3 color = {0.8f, 0.5f, 0.2f};
+
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        struct lit_mesh s = {0};
+        struct claim c = {.eye = {0, i == 0 ? 2 : 0.7f, 0.5f * (float)i},
+                          .truth = {0.8, 0.5, 0.2},
+                          .systematic = 0.006,
+                          .paths = 2000};
+
+        s.mesh.materials[0] = skin(color, 0.01f, i == 2 ? 0.5f : 0);
+        s.mesh.world.settings.sky.color = v3(1, 1, 1);
+        mesh_add_box(&s.mesh, v3(-3, -2, -3), v3(3, 0, 3), 0);
+        lit_mesh_finish(&s);
+        check_claim(&s, c);
+        lit_mesh_free(&s);
+    }
+}
+
+/* A body that absorbs next to nothing is as bright as the sky. Its color is
+ * kept below 1, and its walks are cut after very many steps. */
+static void white_bodies_keep_the_light(void **state)
+{
+    struct lit_mesh s = {0};
+    struct claim c = {.eye = {0.1f, 0.2f, 2},
+                      .truth = GREY(1),
+                      .systematic = 0.004,
+                      .paths = 1000};
+
+    (void)state;
+    s.mesh.materials[0] = skin(v3(1, 1, 1), 0.2f, 0);
+    s.mesh.world.settings.sky.color = v3(1, 1, 1);
+    mesh_add_sphere(&s.mesh, v3(0, 0, 0), 0.5f, 20, 30, 0);
+    lit_mesh_finish(&s);
+    check_claim(&s, c);
+    lit_mesh_free(&s);
+}
+
+/* What does not enter is that of the surface: half of the weight each. */
+static void weights_mix(void **state)
+{
+    struct lit_mesh s = {0};
+    struct claim c = {.eye = {0, 2, 0},
+                      .truth = {0.8, 0.5, 0.2},
+                      .systematic = 0.005,
+                      .paths = 2000};
+
+    (void)state;
+    s.mesh.materials[0] = skin(v3(0.8f, 0.5f, 0.2f), 0.01f, 0);
+    s.mesh.materials[0].subsurface = 0.5f;
+    s.mesh.world.settings.sky.color = v3(1, 1, 1);
+    mesh_add_box(&s.mesh, v3(-3, -2, -3), v3(3, 0, 3), 0);
+    lit_mesh_finish(&s);
+    check_claim(&s, c);
+    lit_mesh_free(&s);
+}
+
+/* Below a highlight the body has what the highlight leaves: a white body is
+ * white. */
+static void highlights_take_their_share(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        struct lit_mesh s = {0};
+        struct claim c = {.eye = {0, 1, 1},
+                          .truth = GREY(1),
+                          .systematic = 0.006,
+                          .paths = 3000,
+                          .without = 1 << DIRECT_LIGHTS};
+
+        s.mesh.materials[0] = skin(v3(1, 1, 1), 0.05f, 0);
+        s.mesh.materials[0].kind = MATERIAL_PLASTIC;
+        s.mesh.materials[0].specular = v3(0.04f, 0.04f, 0.04f);
+        s.mesh.materials[0].alpha = i == 0 ? 0.3f : 0;
+        s.mesh.world.settings.sky.color = v3(1, 1, 1);
+        mesh_add_sphere(&s.mesh, v3(0, 0, 0), 0.5f, 40, 60, 0);
+        lit_mesh_finish(&s);
+        check_claim(&s, c);
+        lit_mesh_free(&s);
+    }
+}
+
+/* Light that walks out of an open mesh, or into another material, is lost. */
+static void open_meshes_lose_the_light(void **state)
+{
+    struct ray r = {{0.01f, 1, 0.02f}, {0, -1, 0}, FLOAT_MAX, 0, 0};
+    struct mesh m = {0};
+
+    (void)state;
+    m.materials[0] = skin(v3(0.8f, 0.5f, 0.2f), 0.01f, 0);
+    m.world.settings.sky.color = v3(1, 1, 1);
+    mesh_add_quad(&m, v3(-1, 0, -1), v3(-1, 0, 1), v3(1, 0, 1), v3(1, 0, -1),
+                  0);
+    mesh_finish(&m);
+    for (uint32_t i = 0; i < 100; i++) {
+        struct path_sample s =
+            trace_path(&m.world, r, sampler_start(1, 1, i, 5), NULL);
+
+        for (int k = 0; k < 3; k++)
+            assert_true(isfinite(channel(s.radiance, k)));
+        assert_int_equal(s.cut, 0);
+    }
+    mesh_free(&m);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(albedos_give_the_color),
+        cmocka_unit_test(thick_bodies_have_their_color),
+        cmocka_unit_test(white_bodies_keep_the_light),
+        cmocka_unit_test(weights_mix),
+        cmocka_unit_test(highlights_take_their_share),
+        cmocka_unit_test(open_meshes_lose_the_light),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
