@@ -33,9 +33,13 @@ enum { BALL, FLOOR_LIGHT, FLOOR_DARK };
 #define SKY_ROWS    24
 #define SKY_COLUMNS 48
 
-#define VERTICES_MAX 12
+/* Vertices of a path, and of one in a medium, where all vertices but a few are
+ * collisions. */
+#define VERTICES_MAX   12
+#define COLLISIONS_MAX 256
 
-/* Samples of each pixel that are added together: some 2000 paths. */
+/* Samples of each pixel that are added together: some 2000 paths. Those in a
+ * medium take ten times as long. */
 #define SPP_TOGETHER 4
 
 /* Radiance of a white ball where the studio lights it most. */
@@ -250,10 +254,17 @@ bool material_ball_is_done(const struct material_ball *b)
     return b->spp >= BALL_SPP;
 }
 
+static bool is_medium(const struct material *m)
+{
+    return !v3_is_zero(m->medium.scattering);
+}
+
 bool material_ball_add(struct material_ball *b, const struct world *world,
                        uint64_t textures, const struct material *material,
                        bool *is_new, struct error *err)
 {
+    int together = is_medium(material) ? 1 : SPP_TOGETHER;
+
     *is_new = false;
     if (!b->kernel && !open_studio(b, err)) {
         material_ball_free(b);
@@ -262,6 +273,9 @@ bool material_ball_add(struct material_ball *b, const struct world *world,
     if (memcmp(&b->materials[BALL], material, sizeof *material) != 0 ||
         b->textures != textures) {
         b->materials[BALL] = *material;
+        b->studio.settings.has_boundaries = material->is_boundary;
+        b->studio.settings.max_vertices =
+            is_medium(material) ? COLLISIONS_MAX : VERTICES_MAX;
         b->textures = textures;
         b->spp = 0;
         memset(b->sums, 0, sizeof b->sums);
@@ -269,7 +283,7 @@ bool material_ball_add(struct material_ball *b, const struct world *world,
     if (material_ball_is_done(b))
         return true;
     lend_textures(&b->studio, world);
-    for (int i = 0; i < SPP_TOGETHER; i++)
+    for (int i = 0; i < together; i++)
         add_sample(b);
     *is_new = b->spp == SPP_TOGETHER || material_ball_is_done(b);
     return true;

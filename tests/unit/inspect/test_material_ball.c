@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
  * test_material_ball.c - a ball that only glows has its radiance in every pixel
- * of its disc; white and lamps are exposed so that neither is a white disc; a
- * change begins the picture anew; samples end
+ * of its disc; white and lamps are exposed so that neither is a white disc;
+ * smoke is lit; a change begins the picture anew; samples end
  */
 #include <math.h>
 
@@ -85,6 +85,40 @@ static void white_is_brighter_than_black(void **state)
     material_ball_free(&ball);
 }
 
+/* Returns the mean of green over the lower half of the picture. */
+static double floor_light(const struct material *m)
+{
+    struct material_ball ball = {.kernel = NULL};
+    double sum = 0;
+
+    finish(&ball, m);
+    for (int y = BALL_PIXELS / 2; y < BALL_PIXELS; y++)
+        for (int x = 0; x < BALL_PIXELS; x++)
+            sum += (double)mean_at(&ball, x, y).y;
+    material_ball_free(&ball);
+    return sum / (BALL_PIXELS * BALL_PIXELS / 2.);
+}
+
+/* A ball of hardly any smoke lets the light of the sky through, as none does,
+ * and one of much smoke does not. */
+static void smoke_is_lit(void **state)
+{
+    struct material none = material_default(), smoke = none;
+    double light;
+
+    (void)state;
+    none.opacity = 0.0f;
+    smoke.kind = MATERIAL_GLASS;
+    smoke.color = v3(1.0f, 1.0f, 1.0f);
+    smoke.ior = 1.0f;
+    smoke.is_boundary = 1;
+    smoke.medium.extinction = v3(1e-6f, 1e-6f, 1e-6f);
+    light = floor_light(&none);
+    check_close(floor_light(&smoke), light, 0.03 * light);
+    smoke.medium.extinction = v3(1e3f, 1e3f, 1e3f);
+    assert_true(floor_light(&smoke) < 0.7 * light);
+}
+
 /* Least and largest green of the painted disc. */
 struct range {
     int least, most;
@@ -152,6 +186,7 @@ int main(void)
         cmocka_unit_test(glow_is_the_radiance),
         cmocka_unit_test(white_is_brighter_than_black),
         cmocka_unit_test(white_and_lamps_are_exposed),
+        cmocka_unit_test(smoke_is_lit),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
