@@ -181,6 +181,16 @@ struct medium medium_scaled(struct medium m, float factor)
     return m;
 }
 
+/* The square of the root in medium_albedo_of() is linear in the color after its own terms
+ * of second order are gone: 17.7126 is 4.20863 squared. */
+float seen_color(float albedo, float g)
+{
+    float a = 4.09712f - sqrtf((1 - albedo) / (1 - g * albedo));
+    float color = (a * a - 9.59217f) / (41.6808f - 2 * 4.20863f * a);
+
+    return fminf(fmaxf(color, 0), 1);
+}
+
 /* Returns the share of the extinction that is scattered. */
 static struct vec3 medium_albedo(const struct material_values *s, float g,
                                  const struct statement_place *at)

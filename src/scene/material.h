@@ -106,6 +106,10 @@ struct material_values
 material_values_needed(const struct material_values *file,
                        const struct material_values *wanted);
 
+/* Returns the color of a half space of a medium, the inverse of
+ * medium_albedo_of(). */
+float seen_color(float albedo, float g);
+
 /* Returns a mean cosine of scattering that the kernels can sample. */
 float medium_anisotropy(double cosine);
 

@@ -7,6 +7,8 @@
 #include "base/decimal.h"
 #include "base/file.h"
 #include "image/color.h"
+#include "studio/medium_parameters.h"
+#include "studio/presets.h"
 #include "world/textures.h"
 
 /* Ks that a material gets when it becomes plastic; see MATERIAL_SPECULAR. */
@@ -204,9 +206,8 @@ static void keep_sheet(struct material_values *s)
 
 /* Changes the kind of the material and keeps its colour. Maps that would make
  * it another kind are switched off. */
-static void set_kind(struct owner *o, const struct value *v)
+static void change_kind(struct owner *o, uint32_t bits)
 {
-    uint32_t bits = kind_bits[(size_t)v->number];
     static const enum mtl_map kind_maps[] = {
         MTL_MAP_SPECULAR, MTL_MAP_METALNESS, MTL_MAP_TRANSMISSION,
         MTL_MAP_COAT,     MTL_MAP_SHEEN,     MTL_MAP_SHEEN_COLOR,
@@ -226,6 +227,11 @@ static void set_kind(struct owner *o, const struct value *v)
     put_color(&s->transmission, color.rgb);
     if (bits == THIN)
         keep_sheet(s);
+}
+
+static void set_kind(struct owner *o, const struct value *v)
+{
+    change_kind(o, kind_bits[(size_t)v->number]);
 }
 
 /* ---- surface of a material ---- */
@@ -282,12 +288,96 @@ static bool get_body(const struct owner *o, struct value *v)
     return o->material.transmission > 0;
 }
 
+/* ---- medium in a solid ---- */
+
+static bool is_solid(const struct owner *o)
+{
+    return is_kind(o, GLASS) ||
+           (o->material.transmission > 0 && o->material.is_thin == 0);
+}
+
+/* True if the coefficients of the medium are given, not a distance. */
+static bool has_coefficients(const struct owner *o)
+{
+    return o->source.medium_scatter.line != 0 ||
+           o->source.medium_absorb.line != 0;
+}
+
+static double coefficient(double value)
+{
+    return value > 0 ? fmin(value, RADIANCE_MAX) : 0;
+}
+
+static struct fog get_coefficients(const struct owner *o)
+{
+    const struct medium *m = &o->material.medium;
+    const struct vec3 absorbs = v3_sub(m->extinction, m->scattering);
+    const struct material_values *s = &o->source;
+    struct fog f = {.scatter = {(double)m->scattering.x,
+                                (double)m->scattering.y,
+                                (double)m->scattering.z},
+                    .absorb = {(double)absorbs.x, (double)absorbs.y,
+                               (double)absorbs.z},
+                    .anisotropy = (double)m->anisotropy};
+
+    for (int c = 0; c < 3 && has_coefficients(o); c++) {
+        f.scatter[c] = coefficient(s->medium_scatter.rgb[c]);
+        f.absorb[c] = coefficient(s->medium_absorb.rgb[c]);
+    }
+    return f;
+}
+
+static void set_coefficients(struct material_values *s, const struct fog *f)
+{
+    put_color(&s->medium_scatter, f->scatter);
+    put_color(&s->medium_absorb, f->absorb);
+    if (!(medium_density(f) > 0))
+        s->medium_scatter = s->medium_absorb = (struct mtl_color){.line = 0};
+}
+
+/* Reads a value of the medium. Without coefficients, a distance decides about
+ * all but the colour. */
+static bool get_medium(const struct owner *o, struct value *v)
+{
+    const struct fog f = get_coefficients(o);
+
+    return is_solid(o) && medium_read(&f, o->row->member, v) &&
+           (has_coefficients(o) || o->row->member == MEDIUM_DENSITY ||
+            o->row->member == MEDIUM_COLOR);
+}
+
+/* Changes the coefficients, or the distance and the colour beside it. */
+static void set_medium(struct owner *o, const struct value *v)
+{
+    struct material_values *s = &o->source;
+    struct fog f = get_coefficients(o);
+    double density = medium_density(&f);
+
+    if (has_coefficients(o) || !(density > 0)) {
+        medium_change(&f, o->row->member, v);
+        set_coefficients(s, &f);
+    } else if (o->row->member == MEDIUM_COLOR) {
+        s->medium_albedo = (struct mtl_color){.line = 0};
+        put_color(&s->medium_color, v->rgb);
+    } else {
+        put_number(&s->attenuation_distance,
+                   v->number > 0
+                       ? s->attenuation_distance.value * density / v->number
+                       : 0);
+    }
+}
+
+/* Reads the mean cosine of scattering, if there is any. */
+static bool get_anisotropy(const struct owner *o, struct value *v)
+{
+    return get_statement(o, v) && !v3_is_zero(o->material.medium.scattering);
+}
+
 /* Reads the distance after which light in a solid has the tint. */
 static bool get_distance(const struct owner *o, struct value *v)
 {
     v->number = o->source.attenuation_distance.value;
-    return is_kind(o, GLASS) ||
-           (o->material.transmission > 0 && o->material.is_thin == 0);
+    return is_solid(o) && !has_coefficients(o);
 }
 
 /* Reads the colour of a solid after the distance, if it is not the tint. */
@@ -479,6 +569,59 @@ static void set_emission_color(struct owner *o, const struct value *v)
     put_factor(o, &s->emission, MTL_MAP_EMISSION, rgb);
 }
 
+/* ---- presets ---- */
+
+/* True for glass with the index and the medium of the substance. Its surface
+ * may be another. */
+static bool is_of_substance(const struct owner *o, const struct substance *p)
+{
+    const struct fog f = get_coefficients(o);
+
+    return is_kind(o, GLASS) && o->factors.ior.value == p->ior &&
+           o->factors.abbe.value == p->abbe && medium_is_alike(f, p->medium);
+}
+
+static bool get_preset(const struct owner *o, struct value *v)
+{
+    const struct substance *p;
+
+    for (uint32_t i = 1; (p = substance_at(i)) != NULL; i++)
+        if (is_of_substance(o, p))
+            v->number = i;
+    return true;
+}
+
+static const char *preset_name(const struct owner *o, uint32_t i)
+{
+    const struct substance *p = substance_at(i);
+    struct value v = {.number = 0};
+
+    if (i > 0)
+        return p != NULL ? p->name : NULL;
+    get_preset(o, &v);
+    return v.number > 0 ? "" : "none";
+}
+
+static void set_preset(struct owner *o, const struct value *v)
+{
+    const struct substance *p = substance_at((uint32_t)v->number);
+    struct material_values *s = &o->source;
+    struct fog f;
+
+    if (p == NULL)
+        return;
+    change_kind(o, GLASS);
+    s->maps_off |= 1u << MTL_MAP_COLOR;
+    put_grey(&s->transmission, 1);
+    put_number(&s->ior, p->ior);
+    put_number(&s->abbe, p->abbe);
+    put_number(&s->roughness, p->roughness);
+    put_number(&s->medium_anisotropy, p->medium.anisotropy);
+    s->attenuation_distance = (struct mtl_number){.line = 0};
+    f = substance_medium(p, o->selection);
+    set_coefficients(s, &f);
+}
+
 /* ---- table ---- */
 
 #define WRITES(name) \
@@ -512,6 +655,8 @@ const struct parameter_row new_map_parameter = {"add image",
 const struct parameter_row material_parameters[] = {
     {"type", ALL, VALUE_CHOICE, NULL, .get = get_kind, .set = set_kind,
      CHOICES(kind_names)},
+    {"preset", ALL, VALUE_CHOICE, NULL, .get = get_preset, .set = set_preset,
+     .name = preset_name, .expected = "a name such as marble"},
     {"colour", OPAQUE, VALUE_COLOR, &scale_unit, .get = get_color,
      .set = set_color},
     {"tint", CLEAR, VALUE_COLOR, &scale_unit, .get = get_color,
@@ -531,10 +676,20 @@ const struct parameter_row material_parameters[] = {
      SOURCE_NUMBER(abbe)},
     {"glass is", MIXED, VALUE_CHOICE, NULL, .get = get_body, WRITES(thinness),
      CHOICES(body_names)},
+    {"density", GLASS | MIXED, VALUE_NUMBER, &scale_density, .get = get_medium,
+     .set = set_medium, .member = MEDIUM_DENSITY},
+    {"scatters", GLASS | MIXED, VALUE_TRIPLE, &scale_density, .get = get_medium,
+     .set = set_medium, .member = MEDIUM_SCATTER},
+    {"absorbs", GLASS | MIXED, VALUE_TRIPLE, &scale_density, .get = get_medium,
+     .set = set_medium, .member = MEDIUM_ABSORB},
     {"tint depth", GLASS | MIXED, VALUE_NUMBER, &scale_emission,
      .get = get_distance, WRITES(attenuation_distance)},
     {"then", GLASS | MIXED, VALUE_COLOR, &scale_unit, .get = get_attenuation,
      WRITES_COLOR(attenuation)},
+    {"inside", GLASS | MIXED, VALUE_COLOR, &scale_unit, .get = get_medium,
+     .set = set_medium, .member = MEDIUM_COLOR},
+    {"anisotropy", GLASS | MIXED, VALUE_NUMBER, &scale_anisotropy,
+     .get = get_anisotropy, WRITES(medium_anisotropy)},
     {"translucent", DIFFUSE | PLASTIC | MIXED, VALUE_NUMBER, &scale_unit,
      .get = get_statement, .set = set_translucency,
      .result = offsetof(struct material, translucency)},

@@ -181,6 +181,12 @@ static double grown(const struct value_scale *s, double value, int steps)
     return fmin(round(next / digit) * digit, fmax(s->to, value));
 }
 
+static void grow_triple(const struct value_scale *s, double rgb[3], int steps)
+{
+    for (int i = 0; i < 3; i++)
+        rgb[i] = rgb[i] > 0 ? grown(s, rgb[i], steps) : 0;
+}
+
 static double stepped(const struct value_scale *s, double value, int steps)
 {
     double next;
@@ -345,6 +351,10 @@ static struct parameter describe(const struct owner *o, const struct value *v,
         p.texture = o->source.maps[o->map];
         snprintf(p.text + strlen(p.text), sizeof p.text - strlen(p.text),
                  " %.50s", v->note);
+    } else if (row->type == VALUE_TRIPLE) {
+        snprintf(p.takes, sizeof p.takes, "r g b, or one number");
+        snprintf(p.text, sizeof p.text, "%.3g %.3g %.3g", v->rgb[0], v->rgb[1],
+                 v->rgb[2]);
     } else {
         p.has_color = true;
         p.has_steps = row->type == VALUE_LIGHT_COLOR;
@@ -436,6 +446,8 @@ void parameter_step(struct selection *t, int id, int steps)
     if (part > 0 || o.row->type == VALUE_NUMBER)
         set_number(&o, &v, part,
                    stepped(scale_of(&o, part), number_of(&o, &v, part), steps));
+    else if (o.row->type == VALUE_TRIPLE)
+        grow_triple(o.row->scale, v.rgb, steps);
     else if (o.row->type == VALUE_CHOICE)
         v.number = next_choice(&o, (uint32_t)v.number, steps > 0);
     else if (o.row->type == VALUE_LIGHT_COLOR)
@@ -490,6 +502,25 @@ static bool parse_color(const char *text, double most, struct value *v,
                 text);
 }
 
+/* Parses three numbers, or one for all channels. */
+static bool parse_triple(const struct value_scale *s, const char *text,
+                         struct value *v, struct error *err)
+{
+    struct error ignored;
+    double number;
+
+    if (!parse_number(s, text, &number, &ignored)) {
+        if (*text != '#' && color_parse(text, v->rgb, &number) && number <= 0 &&
+            color_largest(v->rgb) <= s->most)
+            return true;
+        return fail(err, "found '%s', expected one number or three from 0 on",
+                    text);
+    }
+    for (int i = 0; i < 3; i++)
+        v->rgb[i] = number;
+    return true;
+}
+
 static bool parse_choice(const struct owner *o, const char *text,
                          struct value *v, struct error *err)
 {
@@ -518,6 +549,8 @@ static bool parse(const struct owner *o, const char *text, int part,
 
     if (row->type == VALUE_CHOICE)
         return parse_choice(o, text, v, err);
+    if (row->type == VALUE_TRIPLE)
+        return parse_triple(row->scale, text, v, err);
     if (row->type == VALUE_LIGHT_COLOR) /* a single number is a temperature */
         return parse_number(row->scale, text, &v->number, &ignored) ||
                parse_color(text, RADIANCE_MAX, v, err);

@@ -8,6 +8,8 @@
 #include "base/file.h"
 #include "image/color.h"
 #include "studio/material_parameters.h"
+#include "studio/medium_parameters.h"
+#include "studio/presets.h"
 #include "world/light/daylight.h"
 
 /* ---- scales ---- */
@@ -35,6 +37,9 @@ const struct value_scale scale_emission =
 const struct value_scale scale_kelvin =
     SCALE(BLACKBODY_MIN, BLACKBODY_MAX, 1000, 20000, 100, 6,
           .suffix = "K");
+const struct value_scale scale_density =
+    SCALE(0, RADIANCE_MAX, 1e-5, 1e4, 0, 4, .zero = "off");
+const struct value_scale scale_anisotropy = SCALE(-1, 1, -1, 1, 0.01, 3,);
 static const struct value_scale scale_radiance =
     SCALE(0, RADIANCE_MAX, 0, 1, 0.01, 3,);
 static const struct value_scale scale_sky =
@@ -168,6 +173,42 @@ static void set_background(struct owner *o, const struct value *v)
     o->lighting.has_background = true;
 }
 
+/* ---- fog ---- */
+
+static bool get_preset(const struct owner *o, struct value *v)
+{
+    v->number = fog_find(&o->lighting.fog);
+    return true;
+}
+
+static void set_preset(struct owner *o, const struct value *v)
+{
+    struct fog *f = &o->lighting.fog;
+
+    if (v->number != fog_find(f))
+        *f = fog_preset((uint32_t)v->number, o->selection);
+}
+
+static bool get_medium(const struct owner *o, struct value *v)
+{
+    return medium_read(&o->lighting.fog, o->row->member, v);
+}
+
+static void set_medium(struct owner *o, const struct value *v)
+{
+    medium_change(&o->lighting.fog, o->row->member, v);
+}
+
+static bool get_fog(const struct owner *o, struct value *v)
+{
+    return get_lighting(o, v) && fog_is_there(&o->lighting.fog);
+}
+
+static bool get_fog_height(const struct owner *o, struct value *v)
+{
+    return get_fog(o, v) && o->lighting.fog.falloff > 0;
+}
+
 /* ---- lamps ---- */
 
 static bool get_strength(const struct owner *o, struct value *v)
@@ -286,9 +327,12 @@ static struct value_scale place_scale(const struct scene *scene)
 #define LAMP(name) \
     .get = get_lamp, .set = set_lamp, .member = offsetof(struct lamp, name)
 
-#define LIGHTING(name)                        \
-    .get = get_lighting, .set = set_lighting, \
+#define LIGHTING_BY(reader, name)       \
+    .get = reader, .set = set_lighting, \
     .member = offsetof(struct lighting, name)
+#define LIGHTING(name) LIGHTING_BY(get_lighting, name)
+
+#define MEDIUM(value) .get = get_medium, .set = set_medium, .member = value
 
 static const struct parameter_row object_rows[] = {
     {"material", ALL, VALUE_CHOICE, NULL, .get = get_assigned,
@@ -318,6 +362,17 @@ static const struct parameter_row light_rows[] = {
     {"exposure", ALL, VALUE_NUMBER, &scale_exposure, LIGHTING(exposure)},
     {"tone", ALL, VALUE_CHOICE, NULL, LIGHTING(tone), CHOICES(view_tones),
      .expected = "linear, reinhard or aces"},
+    {"fog", ALL, VALUE_CHOICE, NULL, .get = get_preset, .set = set_preset,
+     .name = fog_name, .expected = "off, fog, haze or smoke"},
+    {"density", ALL, VALUE_NUMBER, &scale_density, MEDIUM(MEDIUM_DENSITY)},
+    {"scatters", ALL, VALUE_TRIPLE, &scale_density, MEDIUM(MEDIUM_SCATTER)},
+    {"absorbs", ALL, VALUE_TRIPLE, &scale_density, MEDIUM(MEDIUM_ABSORB)},
+    {"fog colour", ALL, VALUE_COLOR, &scale_unit, MEDIUM(MEDIUM_COLOR)},
+    {"anisotropy", ALL, VALUE_NUMBER, &scale_anisotropy,
+     LIGHTING_BY(get_fog, fog.anisotropy)},
+    {"falloff", ALL, VALUE_NUMBER, &scale_radius,
+     LIGHTING_BY(get_fog, fog.falloff)},
+    {"height", ALL, VALUE_NUMBER, NULL, LIGHTING_BY(get_fog_height, fog.base)},
     {.label = NULL},
 };
 

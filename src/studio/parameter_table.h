@@ -42,6 +42,8 @@ extern const struct value_scale scale_film_ior;
 extern const struct value_scale scale_film_thickness; /* in nanometres */
 extern const struct value_scale scale_emission;       /* and distances */
 extern const struct value_scale scale_kelvin;
+extern const struct value_scale scale_density;
+extern const struct value_scale scale_anisotropy;
 
 struct parameter_row;
 
@@ -69,6 +71,7 @@ struct owner {
 enum value_type {
     VALUE_NUMBER,
     VALUE_CHOICE,
+    VALUE_TRIPLE,     /* three numbers, one for each channel */
     VALUE_COLOR,      /* the three channels are listed as parameters, too */
     VALUE_LIGHT_COLOR /* colour with largest channel 1, or a temperature */
 };
@@ -76,7 +79,7 @@ enum value_type {
 struct value {
     double number;    /* number, index of a choice, or kelvins of a colour (0 if
                          none) */
-    double rgb[3];    /* linear */
+    double rgb[3];    /* linear, or of a triple */
     const char *note; /* text after that of a choice, or NULL */
 };
 
@@ -95,7 +98,8 @@ struct parameter_row {
     /* Returns false if the owner has no such parameter now. */
     bool (*get)(const struct owner *owner, struct value *value);
     void (*set)(struct owner *owner, const struct value *value);
-    size_t member; /* offset in material_values, lighting or lamp */
+    /* offset in material_values, lighting or lamp, or enum medium_value */
+    size_t member;
     size_t result; /* offset of a float in struct material, for get */
     double absent; /* value of a statement that the file does not have */
 

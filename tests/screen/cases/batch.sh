@@ -59,7 +59,7 @@ wait_for_rows 20 "$YELLOW"
 # a number is for the question, not for the value
 keys Tab Enter
 wait_for "│>....type"
-keys Down k 5
+keys Down Down k 5
 wait_for "stored as view 5"
 expect "│>....colour     #000000$"
 # Esc is Esc

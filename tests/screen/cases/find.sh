@@ -34,7 +34,7 @@ wait_for "no name has 'T19x'"
 keys BSpace Escape
 wait_until_gone "find:"
 expect "part191 .* 191 of 203"
-keys Enter Down Down 0
+keys Enter Down Down Down 0
 wait_for "│ 0 to 1$"
 keys Escape Up 0
 wait_for "#rrggbb, r g b"

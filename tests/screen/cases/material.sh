@@ -11,7 +11,7 @@ start bare.obj
 wait_for LIVE
 keys Tab
 wait_for "│>▕  ▏material          diffuse"
-keys Enter Down
+keys Enter Down Down
 wait_for "│>▕  ▏colour     #e7e7e7"
 raw_keys '#ff0000'
 keys Enter

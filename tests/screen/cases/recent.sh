@@ -87,7 +87,7 @@ start lamp.obj
 wait_for "LIVE .* spp"
 keys Tab Enter
 wait_for "│>    type"
-keys Down Down Right Right Right
+keys Down Down Down Right Right Right
 keys Escape Escape
 wait_until_gone "Materials"
 keys Escape # the menu says where they would be written

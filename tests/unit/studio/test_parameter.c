@@ -311,15 +311,120 @@ static void tints_take_a_distance(void **state)
     set(&s, "tint depth", &(struct value){.number = 2});
     set(&s, "tint", &red);
     assert_true(get_color(&s).rgb[1] == .4);
-    check_close((double)material_of(&s).medium.extinction.y, -log(.4) / 2, 1e-6);
+    check_close((double)material_of(&s).medium.extinction.y, -log(.4) / 2,
+                1e-6);
     s.illum.value = 2;
     set(&s, "type", &(struct value){.number = 5});
     set(&s, "transmits", &(struct value){.number = .5});
     s.transmission = (struct mtl_color){{.8, .4, .2}, 1};
     set(&s, "transmits", &(struct value){.number = .4});
     check_close((double)material_of(&s).transmission, .4, 1e-7);
-    check_close((double)material_of(&s).medium.extinction.y, -log(.5) / 2, 1e-6);
+    check_close((double)material_of(&s).medium.extinction.y, -log(.5) / 2,
+                1e-6);
     set(&s, "tint depth", &(struct value){.number = 0});
+    assert_true(v3_is_zero(material_of(&s).medium.extinction));
+}
+
+static void set_number(struct material_values *source, const char *label,
+                       double number)
+{
+    set(source, label, &(struct value){.number = number});
+}
+
+static void check_triple(const struct mtl_color *got, double r, double g,
+                         double b)
+{
+    check_close(got->rgb[0], r, 1e-6);
+    check_close(got->rgb[1], g, 1e-6);
+    check_close(got->rgb[2], b, 1e-6);
+}
+
+/* A medium begins white. Density and colour are changed apart from each other,
+ * and without density the distance counts again. */
+static void solids_have_a_medium(void **state)
+{
+    const struct value coefficients = {.rgb = {1, 2, .5}};
+    struct material_values s = material_values_empty();
+    struct material m;
+    struct value v;
+
+    (void)state;
+    assert_false(get(&s, "density", &v));
+    s.illum = (struct mtl_number){7, 1};
+    assert_true(get(&s, "density", &v) && v.number == 0);
+    assert_false(get(&s, "scatters", &v) || get(&s, "inside", &v) ||
+                 get(&s, "anisotropy", &v));
+    set_number(&s, "density", 2);
+    check_triple(&s.medium_scatter, 2, 2, 2);
+    check_triple(&s.medium_absorb, 0, 0, 0);
+    assert_true(get(&s, "inside", &v));
+    check_close(v.rgb[0], 1, 1e-4);
+    assert_false(get(&s, "tint depth", &v));
+
+    set(&s, "scatters", &coefficients);
+    set(&s, "absorbs", &(struct value){.rgb = {1, 0, .5}});
+    set_number(&s, "anisotropy", -.5);
+    m = material_of(&s);
+    check_color(m.medium.scattering, coefficients.rgb);
+    check_color(m.medium.extinction, (double[]){2, 2, 1});
+    check_close((double)m.medium.anisotropy, -.5, 0);
+    set_number(&s, "density", 6);
+    check_triple(&s.medium_scatter, 3, 6, 1.5);
+    check_triple(&s.medium_absorb, 3, 0, 1.5);
+
+    set_number(&s, "density", 0);
+    assert_int_equal(s.medium_scatter.line + s.medium_absorb.line, 0);
+    assert_true(get(&s, "tint depth", &v));
+    assert_false(get(&s, "anisotropy", &v));
+}
+
+/* The color that is read is the one that was set, at any anisotropy, and the
+ * extinction stays. */
+static void media_have_the_color_that_is_set(void **state)
+{
+    (void)state;
+    for (int round = 0; round < 500; round++) {
+        struct material_values s = material_values_empty();
+        struct value color = {
+            .rgb = {check_random(&seed), check_random(&seed), round % 2}};
+        struct value v;
+
+        s.illum = (struct mtl_number){7, 1};
+        set_number(&s, "density", 5);
+        set_number(&s, "anisotropy", 1.8 * check_random(&seed) - .9);
+        set(&s, "inside", &color);
+        assert_true(get(&s, "inside", &v));
+        for (int c = 0; c < 3; c++) {
+            check_close(v.rgb[c], color.rgb[c], 1e-3);
+            check_close(s.medium_scatter.rgb[c] + s.medium_absorb.rgb[c], 5,
+                        1e-5);
+        }
+    }
+}
+
+/* Without coefficients, density is a distance, and the colour of the medium a
+ * statement beside it. */
+static void distances_have_a_density(void **state)
+{
+    struct material_values s = material_values_empty();
+    struct value v;
+
+    (void)state;
+    s.illum = (struct mtl_number){7, 1};
+    s.transmission = (struct mtl_color){{.5, .5, .5}, 1};
+    s.attenuation_distance = (struct mtl_number){2, 1};
+    s.medium_albedo = (struct mtl_color){{.9, .9, .9}, 1};
+    assert_true(get(&s, "density", &v));
+    check_close(v.number, log(2) / 2, 1e-6);
+    assert_false(get(&s, "scatters", &v));
+    set_number(&s, "density", log(2));
+    check_close(s.attenuation_distance.value, 1, 1e-6);
+    set(&s, "inside", &(struct value){.rgb = {.25, .5, 1}});
+    check_triple(&s.medium_color, .25, .5, 1);
+    assert_int_equal(s.medium_albedo.line, 0);
+    assert_true(get(&s, "inside", &v));
+    check_close(v.rgb[0], .25, 1e-5);
+    set_number(&s, "density", 0);
     assert_true(v3_is_zero(material_of(&s).medium.extinction));
 }
 
@@ -816,6 +921,141 @@ static void many_lamps_fit_the_list(void **state)
     close_fixture(&s);
 }
 
+/* Returns the parameter with this label. */
+static struct parameter labelled(const struct selection *target,
+                                 const char *label)
+{
+    struct parameter list[PARAMETERS_MAX];
+    int count = parameters_list(target, list);
+
+    return *find(list, count, label);
+}
+
+/* A substance is one step of the history. Its density is that of a body as
+ * large as the object, whose longest side is 1. */
+static void presets_are_one_step(void **state)
+{
+    static const struct {
+        const char *name, *index, *abbe, *density;
+    } cases[] = {
+        {"milk", "1.34", "off", "40"},
+        {"skin", "1.4", "off", "40"},
+        {"marble", "1.5", "off", "30"},
+        {"wax", "1.44", "off", "20"},
+        {"jade", "1.61", "off", "12"},
+        {"water", "1.333", "55.7", "off"},
+        {"crown glass", "1.52", "64", "off"},
+        {"flint glass", "1.62", "36", "off"},
+        {"diamond", "2.42", "44.3", "off"},
+    };
+    struct selection target;
+    struct fixture s;
+    struct error err;
+
+    (void)state;
+    open_fixture(&s);
+    target = target_of(&s, PAGE_MATERIALS, 1, false);
+    assert_string_equal(labelled(&target, "preset").text, "none");
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        int id = labelled(&target, "preset").id;
+
+        check_or_say(parameter_set_text(&target, id, cases[i].name, &err),
+                     err.text);
+        edit_end_step(&s.edit);
+        assert_string_equal(labelled(&target, "preset").text, cases[i].name);
+        assert_string_equal(labelled(&target, "type").text, "glass");
+        assert_string_equal(labelled(&target, "tint").text, "#ffffff");
+        assert_string_equal(labelled(&target, "index").text, cases[i].index);
+        assert_string_equal(labelled(&target, "Abbe number").text,
+                            cases[i].abbe);
+        assert_string_equal(labelled(&target, "density").text,
+                            cases[i].density);
+    }
+    parameter_step(&target, labelled(&target, "preset").id, 1);
+    edit_end_step(&s.edit);
+    assert_string_equal(labelled(&target, "preset").text, "milk");
+    /* a density of one's own is the same substance, another colour is not */
+    check_or_say(parameter_set_text(&target, labelled(&target, "density").id,
+                                    "7", &err),
+                 err.text);
+    assert_string_equal(labelled(&target, "preset").text, "milk");
+    edit_end_step(&s.edit);
+    parameter_set_text(&target, labelled(&target, "inside").id, "#804020",
+                       &err);
+    assert_string_equal(labelled(&target, "preset").text, "none");
+    edit_end_step(&s.edit);
+    assert_int_equal(s.edit.history.done_count,
+                     sizeof cases / sizeof cases[0] + 3);
+    while (edit_undo(&s.edit) != NULL)
+        continue;
+    assert_string_equal(labelled(&target, "type").text, "diffuse");
+    assert_true(material_values_equal(&s.edit.now.sources[1],
+                                      &s.edit.saved.sources[1]));
+    close_fixture(&s);
+}
+
+/* The rows of fog appear with it. What is typed reaches the view and is undone.
+ */
+static void fog_is_edited(void **state)
+{
+    struct fixture s;
+    const struct fog *f = &s.edit.now.view.lighting.fog;
+    struct selection target;
+
+    (void)state;
+    open_fixture(&s);
+    target = target_of(&s, PAGE_LIGHT, 0, false);
+    assert_string_equal(labelled(&target, "fog").text, "off");
+    type(&s, "density", ".5");
+    check_rgb(f->scatter, .5, .5, .5);
+    assert_string_equal(labelled(&target, "fog").text, "fog");
+    type(&s, "scatters", ".1 .2 .3");
+    type(&s, "absorbs", ".1");
+    check_rgb(f->scatter, .1, .2, .3);
+    check_rgb(f->absorb, .1, .1, .1);
+    assert_string_equal(labelled(&target, "scatters").text, "0.1 0.2 0.3");
+    assert_string_equal(labelled(&target, "fog").text, "other");
+    type(&s, "anisotropy", ".7");
+    type(&s, "falloff", "2");
+    type(&s, "height", "-1");
+    check_close(f->anisotropy, .7, 0);
+    check_close(f->falloff, 2, 0);
+    check_close(f->base, -1, 0);
+    parameter_step(&target, labelled(&target, "scatters").id, 1);
+    check_rgb(f->scatter, .11, .22, .33);
+    type(&s, "fog", "haze");
+    assert_string_equal(labelled(&target, "fog").text, "haze");
+    assert_true(f->scatter[2] > f->scatter[0] && f->falloff > 0);
+    assert_true(edit_has_unsaved_view(&s.edit));
+    type(&s, "fog", "off");
+    assert_false(fog_is_there(f));
+    while (edit_undo(&s.edit) != NULL)
+        continue;
+    assert_true(lighting_equal(&s.edit.now.view.lighting, &s.view.lighting));
+    close_fixture(&s);
+}
+
+static void triples_are_checked(void **state)
+{
+    static const char *const wrong[] = {"1 2",   "-1 2 3",   "#ffffff",
+                                        "3000K", "1 1 1e31", "-1"};
+    struct selection target;
+    struct fixture s;
+    struct error err;
+
+    (void)state;
+    open_fixture(&s);
+    target = target_of(&s, PAGE_LIGHT, 0, false);
+    type(&s, "density", "1");
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        assert_false(parameter_set_text(&target,
+                                        labelled(&target, "absorbs").id,
+                                        wrong[i], &err));
+        check_has(err.text, "expected one number or three from 0 on");
+    }
+    close_fixture(&s);
+}
+
 /* Returns the parameter with this id as it is now. */
 static struct parameter parameter_now(const struct selection *target, int id)
 {
@@ -930,6 +1170,12 @@ int main(void)
         cmocka_unit_test(values_of_gltf_are_edited),
         cmocka_unit_test(leaves_keep_their_color),
         cmocka_unit_test(tints_take_a_distance),
+        cmocka_unit_test(solids_have_a_medium),
+        cmocka_unit_test(media_have_the_color_that_is_set),
+        cmocka_unit_test(distances_have_a_density),
+        cmocka_unit_test(presets_are_one_step),
+        cmocka_unit_test(fog_is_edited),
+        cmocka_unit_test(triples_are_checked),
         cmocka_unit_test(absent_factors_are_1),
         cmocka_unit_test(factors_go_down_to_black),
         cmocka_unit_test(panels_show_what_is_rendered),
