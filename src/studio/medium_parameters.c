@@ -6,6 +6,7 @@
 
 #include "base/decimal.h"
 #include "scene/material.h"
+#include "kernels/medium.h"
 
 double medium_density(const struct fog *m)
 {
