@@ -255,6 +255,13 @@ static void set_roughness(struct owner *o, const struct value *v)
                v->number);
 }
 
+/* True if the coefficients of the medium are given, not a distance. */
+static bool has_coefficients(const struct owner *o)
+{
+    return o->source.medium_scatter.line != 0 ||
+           o->source.medium_absorb.line != 0;
+}
+
 /* Reads the weight of transmission, the mean or the largest channel of Tf. It
  * counts beside Pr only. */
 static bool get_transmission(const struct owner *o, struct value *v)
@@ -272,7 +279,7 @@ static void set_transmission(struct owner *o, const struct value *v)
         put_number(&s->roughness, sqrt((double)o->material.alpha));
     if (s->dialect == MTL_CLASSIC && s->illum.line != 0 && s->illum.value != 3)
         put_number(&s->illum, 2);
-    if (s->attenuation_distance.value > 0 && top > 0)
+    if (s->attenuation_distance.value > 0 && top > 0 && !has_coefficients(o))
         for (int i = 0; i < 3; i++)
             s->transmission.rgb[i] =
                 decimal_shortened(s->transmission.rgb[i] / top * v->number);
@@ -294,13 +301,6 @@ static bool is_solid(const struct owner *o)
 {
     return is_kind(o, GLASS) ||
            (o->material.transmission > 0 && o->material.is_thin == 0);
-}
-
-/* True if the coefficients of the medium are given, not a distance. */
-static bool has_coefficients(const struct owner *o)
-{
-    return o->source.medium_scatter.line != 0 ||
-           o->source.medium_absorb.line != 0;
 }
 
 static double coefficient(double value)

@@ -378,6 +378,26 @@ static void solids_have_a_medium(void **state)
     assert_false(get(&s, "anisotropy", &v));
 }
 
+/* The solid glass of a mixture has a medium, its sheet has none. */
+static void mixtures_have_a_medium(void **state)
+{
+    struct material_values s = material_values_empty();
+    struct value v;
+
+    (void)state;
+    s.roughness = (struct mtl_number){.5, 1};
+    s.transmission = (struct mtl_color){{.6, .5, .1}, 1};
+    s.attenuation_distance = (struct mtl_number){2, 1};
+    s.medium_absorb = (struct mtl_color){{1, 2, 3}, 1};
+    assert_true(get(&s, "absorbs", &v) && v.rgb[2] == 3);
+    set_number(&s, "density", 1.5);
+    check_triple(&s.medium_absorb, .5, 1, 1.5);
+    set_number(&s, "transmits", .25);
+    check_close((double)material_of(&s).transmission, .25, 1e-7);
+    set_number(&s, "glass is", 1);
+    assert_false(get(&s, "density", &v) || get(&s, "absorbs", &v));
+}
+
 /* The color that is read is the one that was set, at any anisotropy, and the
  * extinction stays. */
 static void media_have_the_color_that_is_set(void **state)
@@ -1171,6 +1191,7 @@ int main(void)
         cmocka_unit_test(leaves_keep_their_color),
         cmocka_unit_test(tints_take_a_distance),
         cmocka_unit_test(solids_have_a_medium),
+        cmocka_unit_test(mixtures_have_a_medium),
         cmocka_unit_test(media_have_the_color_that_is_set),
         cmocka_unit_test(distances_have_a_density),
         cmocka_unit_test(presets_are_one_step),
