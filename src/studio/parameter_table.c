@@ -327,8 +327,8 @@ static struct value_scale place_scale(const struct scene *scene)
 #define LAMP(name) \
     .get = get_lamp, .set = set_lamp, .member = offsetof(struct lamp, name)
 
-#define LIGHTING_BY(reader, name)       \
-    .get = reader, .set = set_lighting, \
+#define LIGHTING_BY(reader, name)         \
+    .get = (reader), .set = set_lighting, \
     .member = offsetof(struct lighting, name)
 #define LIGHTING(name) LIGHTING_BY(get_lighting, name)
 
