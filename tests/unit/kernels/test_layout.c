@@ -46,7 +46,9 @@
       M(material, coat_alpha_texture) M(material, sheen_texture)              \
       M(material, film) M(material, film_ior) M(material, film_thickness)     \
       M(material, cutoff) M(material, role) M(material, dispersion)           \
-      M(material, subsurface)                                                 \
+      M(material, subsurface) M(material, back_color)                         \
+      M(material, translucency) M(material, back_texture)                     \
+      M(material, translucency_texture)                                       \
     S(media) M(media, count) M(media, at)                                     \
     S(medium) M(medium, extinction) M(medium, scattering)                     \
       M(medium, anisotropy) M(medium, base) M(medium, falloff)                \
