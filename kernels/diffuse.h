@@ -108,12 +108,13 @@ static inline float base_pdf(const struct bsdf *m, struct vec3 wi)
 static inline bool base_direction(const struct bsdf *m, struct vec2 u,
                                   float choice, struct vec3 *wi)
 {
+    bool is_high;
+
     *wi = cosine_hemisphere(u);
-    if (!(wi->z > COSINE_MIN))
-        return false;
+    is_high = wi->z > COSINE_MIN;
     if (is_translucent(m) && choice < base_crossing(m))
         wi->z = -wi->z;
-    return true;
+    return is_high;
 }
 
 /* ---- Lambert's law ---- */
@@ -128,14 +129,14 @@ static inline struct vec3 lambert_terms(const struct bsdf *m, struct vec3 wi,
 static inline bool lambert_sample(const struct bsdf *m, struct vec2 u,
                                   float choice, struct bsdf_sample *s)
 {
-    if (!base_direction(m, u, choice, &s->wi))
-        return false;
+    bool is_high = base_direction(m, u, choice, &s->wi);
+
     /* f |cosine| / pdf without the cosine */
     s->weight = v3_scale(base_part(m, s->wi), 1.0f / base_chance(m, s->wi));
     s->pdf = base_pdf(m, s->wi);
     s->eta_scale = 1.0f;
     s->is_delta = false;
-    return true;
+    return is_high;
 }
 
 /* ---- EON ---- */
