@@ -318,21 +318,34 @@ uint64_t file_bytes_read(void)
     return atomic_load(&bytes_read);
 }
 
-static bool read_open_file(int fd, const char *path, char **text,
-                           size_t *size_bytes, struct error *err)
+/* Opens a regular file. Returns -1 after an error. */
+static int open_regular(const char *path, int64_t *size_bytes,
+                        struct error *err)
 {
+    /* without O_NONBLOCK, opening a named pipe would wait for a writer */
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     struct stat st;
 
-    if (fstat(fd, &st) != 0)
-        return fail_errno(err, path);
-    if (!expect_regular(path, &st, err) || !expect_size(path, st.st_size, err))
-        return false;
+    if (fd < 0 || fstat(fd, &st) != 0) {
+        fail_errno(err, path);
+    } else if (expect_regular(path, &st, err) &&
+               expect_size(path, st.st_size, err)) {
+        *size_bytes = st.st_size;
+        return fd;
+    }
+    if (fd >= 0)
+        close(fd);
+    return -1;
+}
 
-    char *memory = alloc_aligned((size_t)st.st_size + 1, 1);
+static bool read_open_file(int fd, int64_t size, const char *path, char **text,
+                           size_t *size_bytes, struct error *err)
+{
+    char *memory = alloc_aligned((size_t)size + 1, 1);
     if (!memory)
         return fail(err, "%s: out of memory for its %.1f MiB", path,
-                    (double)st.st_size / (1 << 20));
-    int64_t found = read_all(fd, memory, st.st_size);
+                    (double)size / (1 << 20));
+    int64_t found = read_all(fd, memory, size);
     if (found < 0) {
         fail_errno(err, path);
         free(memory);
@@ -347,14 +360,26 @@ static bool read_open_file(int fd, const char *path, char **text,
 bool file_read(const char *path, char **text, size_t *size_bytes,
                struct error *err)
 {
-    /* without O_NONBLOCK, opening a named pipe would wait for a writer */
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    int64_t size;
+    int fd = open_regular(path, &size, err);
 
     if (fd < 0)
-        return fail_errno(err, path);
-    bool ok = read_open_file(fd, path, text, size_bytes, err);
+        return false;
+    bool ok = read_open_file(fd, size, path, text, size_bytes, err);
     close(fd);
     return ok;
+}
+
+bool file_measure(const char *path, size_t *size_bytes, struct error *err)
+{
+    int64_t size;
+    int fd = open_regular(path, &size, err);
+
+    if (fd < 0)
+        return false;
+    *size_bytes = (size_t)size;
+    close(fd);
+    return true;
 }
 
 bool file_read_stdin(char **text, size_t *size_bytes, struct error *err)

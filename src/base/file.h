@@ -64,6 +64,9 @@ void temp_file_sweep(const char *folder);
 bool file_read(const char *path, char **text, size_t *size_bytes,
                struct error *err);
 
+/* Fails where file_read() would; otherwise tells how much it would read. */
+bool file_measure(const char *path, size_t *size_bytes, struct error *err);
+
 /* Returns the bytes of all files that the program has read so far. Any thread
  * may call it. */
 uint64_t file_bytes_read(void);

@@ -102,11 +102,15 @@ bool library_child_run(const struct library_task *task,
         .program = task->program,
         .arguments = arguments,
         .input = task->input,
-        .input_bytes = task->path == NULL ? task->size_bytes : 0,
+        .input_bytes = task->size_bytes,
         .time_ns = UINT64_C(1000000000) * limits.time_s,
         .size_bytes = limits.memory_bytes,
     };
 
+    if (task->path != NULL) {
+        child.input = task->words;
+        child.input_bytes = task->words != NULL ? strlen(task->words) : 0;
+    }
     snprintf(text, sizeof text, "%u,%" PRIu64, limits.time_s,
              limits.memory_bytes);
     switch (child_run(&child, result)) {

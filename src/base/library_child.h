@@ -47,11 +47,12 @@ struct library_limits {
 };
 
 struct library_task {
-    const char *library; /* its name, for messages */
-    const char *program; /* NULL: there is no program to copy */
-    const char *option;  /* of the program, whose value are the limits */
-    const char *path;    /* NULL: the copy reads standard input */
-    const void *input;
+    const char *library;       /* its name, for messages */
+    const char *program;       /* NULL: there is no program to copy */
+    const char *option;        /* of the program, whose value are the limits */
+    const char *path;          /* NULL: the copy reads standard input */
+    const void *input;         /* without a path */
+    const char *words;         /* standard input beside a path; NULL: none */
     size_t size_bytes;         /* of the file or the input */
     unsigned bytes_a_second;   /* at least, beyond the start */
     unsigned memory_of_a_byte; /* at most, beyond the start */
