@@ -108,6 +108,7 @@ look()
         test)
             need_header cmocka.h libcmocka-dev
             need_library libOpenCL.so.1 ocl-icd-libopencl1
+            need_library libblosc.so.1 libblosc1
             need_driver pocl.icd pocl-opencl-icd
             need_program tmux tmux
             need_program pgrep procps
