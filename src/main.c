@@ -28,6 +28,7 @@
 #include "glim/version.h"
 #include "read/child/draco_child.h"
 #include "read/child/import_child.h"
+#include "read/child/vdb_read.h"
 #include "render/cluster/cluster.h"
 #include "render/cpu_dispatch.h"
 #include "render/opencl/cl_api.h"
@@ -159,8 +160,9 @@ static int probe(const struct options *o)
     return ok ? print_out("") : complain(EXIT_FAILED, &err);
 }
 
-/* Runs this program as the copy in which a library reads a scene (import.h) or
- * unpacks meshes (gltf_draco.h). The library's own output is lost. */
+/* Runs this program as the copy in which a library reads a scene (import.h),
+ * unpacks meshes (gltf_draco.h) or voxels (vdb_read.h). The library's own
+ * output is lost. */
 static int run_library(const struct options *o)
 {
     bool ok;
@@ -169,8 +171,9 @@ static int run_library(const struct options *o)
 
     if (to == NULL || nowhere < 0 || dup2(nowhere, 1) < 0)
         return EXIT_FAILED;
-    ok = o->is_unpack ? draco_child(o->library_limits, to)
-                      : import_child(o->scene_path, o->library_limits, to);
+    ok = o->is_unpack   ? draco_child(o->library_limits, to)
+         : o->is_voxels ? vdb_child(o->scene_path, o->library_limits, to)
+                        : import_child(o->scene_path, o->library_limits, to);
     /* the destructors of a library may crash, too */
     _Exit(ok ? EXIT_DONE : EXIT_FAILED);
 }
@@ -387,7 +390,7 @@ int main(int argc, char **argv)
                                                  : complain(EXIT_FAILED, &err);
     if (options.probe)
         return probe(&options);
-    if (options.is_import || options.is_unpack)
+    if (options.is_import || options.is_unpack || options.is_voxels)
         return run_library(&options);
     if (!options.is_worker && cluster_rank() == 0 &&
         !check_terminal(&options, &err))

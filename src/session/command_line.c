@@ -527,7 +527,7 @@ static bool check_show(const struct options *o, struct error *err)
 static bool needs_no_scene(const struct options *o)
 {
     return o->list_devices || o->list_formats || o->list_sessions || o->probe ||
-           o->is_import || o->is_unpack || o->is_worker;
+           o->is_import || o->is_unpack || o->is_voxels || o->is_worker;
 }
 
 static bool check_options(const struct options *o, struct error *err)

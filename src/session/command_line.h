@@ -149,7 +149,8 @@ struct options {
     bool probe;         /* test a device, see cl_probe.h; no scene is needed */
     uint64_t features;  /* features for the test */
     bool is_import;     /* send a scene, see import.h; or */
-    bool is_unpack;     /* meshes, see gltf_draco.h, with these limits */
+    bool is_unpack;     /* meshes, see gltf_draco.h; or */
+    bool is_voxels;     /* a grid, see vdb_read.h, with these limits */
     struct library_limits library_limits;
 };
 

@@ -695,6 +695,9 @@ static const struct option_rule rules[] = {
     /* internal, see gltf_draco.h */
     {"unpack", NULL, "limits of time and memory", NULL, MAIN,
      OWN(set_library_limits), GIVEN(is_unpack)},
+    /* internal, see vdb_read.h */
+    {"voxels", NULL, "limits of time and memory", NULL, MAIN,
+     OWN(set_library_limits), GIVEN(is_voxels)},
     {.kind = OPTION_TITLE,
      .help = "clusters, in a program that is built with make MPI=1"},
     {"ranks", "N", "a number of processes",
