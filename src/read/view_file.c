@@ -57,6 +57,34 @@ static void write_fog(FILE *to, const struct fog *f)
     fputc('\n', to);
 }
 
+/* Writes a line for each medium; `path` is that of the file. */
+static void write_smokes(FILE *to, const struct smokes *smokes,
+                         const char *path)
+{
+    static const double zero[3] = {0, 0, 0};
+
+    for (uint32_t i = 0; i < smokes->count; i++) {
+        const struct smoke *s = &smokes->items[i];
+        char *name = view_name(s->path, path);
+
+        fputs("medium ", to);
+        quoted_name_write(to, name != NULL ? name : s->path);
+        free(name);
+        if (s->grid[0] != '\0') {
+            fputs(" grid ", to);
+            quoted_name_write(to, s->grid);
+        }
+        write_numbers(to, " scatter", s->scatter, 3);
+        write_numbers(to, " absorb", s->absorb, 3);
+        write_numbers(to, " anisotropy", &s->anisotropy, 1);
+        if (memcmp(s->at, zero, sizeof zero) != 0)
+            write_numbers(to, " at", s->at, 3);
+        if (s->scale < 1 || s->scale > 1)
+            write_numbers(to, " scale", &s->scale, 1);
+        fputc('\n', to);
+    }
+}
+
 static void write_shots(FILE *to, const struct view *v)
 {
     for (int i = 0; i < VIEW_SHOTS; i++) {
@@ -130,6 +158,7 @@ static void write_key(FILE *to, const struct view *v, enum view_key_id id,
             write_line(to, "turbidity", &v->lighting.sun.turbidity, 1);
         break;
     case KEY_FOG: write_fog(to, &v->lighting.fog); break;
+    case KEY_MEDIUM: write_smokes(to, &v->smokes, path); break;
     case KEY_APERTURE:
         if (v->pose.aperture > 0)
             write_line(to, "aperture", &v->pose.aperture, 1);
@@ -281,16 +310,25 @@ static void find_same(struct writer *w, const struct file_bytes *old)
     warnings_free(&ignored);
 }
 
-/* Refuses names that a line cannot hold: with a line end inside or a blank at
- * the end. `of` is what they are names of. */
+/* Refuses names with a line end inside, which no line can hold. `of` is what
+ * they are names of. */
+static bool check_quoted_name(const char *name, const char *of,
+                              const char *path, struct error *err)
+{
+    return strpbrk(name, "\r\n") == NULL ||
+           fail(err, "%s: found a line end in the %s name, expected none", path,
+                of);
+}
+
+/* Refuses names that a line without quotes cannot hold: also those with a blank
+ * at the end. */
 static bool check_name(const char *name, const char *of, const char *path,
                        struct error *err)
 {
     size_t length = strlen(name);
 
-    if (strpbrk(name, "\r\n"))
-        return fail(err, "%s: found a line end in the %s name, expected none",
-                    path, of);
+    if (!check_quoted_name(name, of, path, err))
+        return false;
     if (length > 0 && lexer_is_blank(name[length - 1]))
         return fail(
             err, "%s: found a blank at the end of the %s name, expected none",
@@ -310,6 +348,10 @@ static bool check_names(const struct view *view, const char *path,
         ok = profile == NULL ||
              check_name(profile->path, "light's IES", path, err);
     }
+    for (uint32_t i = 0; i < view->smokes.count && ok; i++)
+        ok = check_quoted_name(view->smokes.items[i].path, "medium's", path,
+                               err) &&
+             check_quoted_name(view->smokes.items[i].grid, "grid's", path, err);
     return ok;
 }
 

@@ -22,6 +22,9 @@
 #define FOVY_MIN 1e-6
 #define FOVY_MAX 179.999999
 
+/* Least scale of smoke: its inverse stays finite. */
+#define SMOKE_SCALE_MIN 1e-30
+
 const struct view_key view_keys[VIEW_KEYS] = {
     {"eye", KEY_EYE, 3, false, -VIEW_NUMBER_MAX, VIEW_NUMBER_MAX,
      "3 numbers from -1e30 to 1e30"},
@@ -48,6 +51,8 @@ const struct view_key view_keys[VIEW_KEYS] = {
      "a number from 1.7 to 10"},
     {"fog", KEY_FOG, 0, false, 0, 0,
      "scatter, absorb, anisotropy, height or falloff"},
+    {"medium", KEY_MEDIUM, 0, false, 0, 0,
+     "grid, scatter, absorb, anisotropy, at or scale"},
     {"aperture", KEY_APERTURE, 1, false, 0, VIEW_NUMBER_MAX,
      "a number from 0 to 1e30"},
     {"focus", KEY_FOCUS, 1, false, 0, VIEW_NUMBER_MAX,
@@ -141,6 +146,7 @@ static void store(struct view *view, enum view_key_id id, const double *v)
     case KEY_FOCUS: view->pose.focus = v[0]; break;
     case KEY_EXPOSURE: view->lighting.exposure = v[0]; break;
     case KEY_FOG:
+    case KEY_MEDIUM:
     case KEY_SKY:
     case KEY_TONE:
     case KEY_ASSIGN:
@@ -232,13 +238,15 @@ static bool read_shot(struct view_reader *r, const struct view_key *view_key,
     return true;
 }
 
-/* ---- fog ---- */
+/* ---- fog and smoke ---- */
 
-/* Keys of a line of fog, and where struct fog has their numbers. */
-static const struct {
+/* Key within a line, and where the line's struct has its numbers. */
+struct part_key {
     struct view_key key;
     size_t member;
-} fog_keys[] = {
+};
+
+static const struct part_key fog_keys[] = {
     {{"scatter", KEY_FOG, 3, false, 0, VIEW_NUMBER_MAX,
       "3 numbers from 0 to 1e30"},
      offsetof(struct fog, scatter)},
@@ -255,28 +263,66 @@ static const struct {
      offsetof(struct fog, falloff)},
 };
 
-#define FOG_KEYS (sizeof fog_keys / sizeof fog_keys[0])
+static const struct part_key smoke_keys[] = {
+    {{"scatter", KEY_MEDIUM, 3, false, 0, VIEW_NUMBER_MAX,
+      "3 numbers from 0 to 1e30"},
+     offsetof(struct smoke, scatter)},
+    {{"absorb", KEY_MEDIUM, 3, false, 0, VIEW_NUMBER_MAX,
+      "3 numbers from 0 to 1e30"},
+     offsetof(struct smoke, absorb)},
+    {{"anisotropy", KEY_MEDIUM, 1, false, -1, 1, "a number from -1 to 1"},
+     offsetof(struct smoke, anisotropy)},
+    {{"at", KEY_MEDIUM, 3, false, -VIEW_NUMBER_MAX, VIEW_NUMBER_MAX,
+      "3 numbers from -1e30 to 1e30"},
+     offsetof(struct smoke, at)},
+    {{"scale", KEY_MEDIUM, 1, false, SMOKE_SCALE_MIN, VIEW_NUMBER_MAX,
+      "a number from 1e-30 to 1e30"},
+     offsetof(struct smoke, scale)},
+};
+
+/* Keys within a line. */
+struct part_list {
+    enum view_key_id line;
+    const struct part_key *keys;
+    size_t count;
+};
+
+static const struct part_list fog_list = {KEY_FOG, fog_keys,
+                                          sizeof fog_keys / sizeof fog_keys[0]};
+static const struct part_list smoke_list = {KEY_MEDIUM, smoke_keys,
+                                            sizeof smoke_keys /
+                                                sizeof smoke_keys[0]};
+
+/* Reads the numbers of the key of this name into the line's struct. */
+static bool read_part(struct view_reader *r, const struct part_list *list,
+                      struct word name, void *to, struct error *err)
+{
+    const struct view_key *line = view_key(list->line);
+    const struct part_key *part = list->keys;
+
+    while (part < list->keys + list->count && !word_is(name, part->key.name))
+        part++;
+    if (part == list->keys + list->count)
+        return view_fail_at(r, name, line->expected, line->name, err);
+    for (int k = 0; k < part->key.count; k++) {
+        double *numbers = (void *)((char *)to + part->member);
+
+        if (!view_read_number(r, &part->key, k, &numbers[k], err))
+            return false;
+    }
+    return true;
+}
 
 /* Reads fog scatter R G B absorb R G B ...; what is left out is 0. */
-static bool read_fog(struct view_reader *r, const struct view_key *key,
-                     struct error *err)
+static bool read_fog(struct view_reader *r, struct error *err)
 {
     struct fog fog = {.falloff = 0};
 
     while (!lexer_at_line_end(r->lex)) {
         struct word name = lexer_word(r->lex);
-        size_t i = 0;
 
-        while (i < FOG_KEYS && !word_is(name, fog_keys[i].key.name))
-            i++;
-        if (i == FOG_KEYS)
-            return view_fail_at(r, name, key->expected, key->name, err);
-        for (int k = 0; k < fog_keys[i].key.count; k++) {
-            double *to = (void *)((char *)&fog + fog_keys[i].member);
-
-            if (!view_read_number(r, &fog_keys[i].key, k, &to[k], err))
-                return false;
-        }
+        if (!read_part(r, &fog_list, name, &fog, err))
+            return false;
     }
     r->view->lighting.fog = fog;
     return true;
@@ -285,6 +331,56 @@ static bool read_fog(struct view_reader *r, const struct view_key *key,
 static bool fail_memory(const struct view_reader *r, struct error *err)
 {
     return fail(err, "%s: out of memory", r->path);
+}
+
+/* Reads a name of a line of smoke, for free(). */
+static bool read_smoke_name(struct view_reader *r, const char *expected,
+                            char **name, struct error *err)
+{
+    free(*name);
+    if (!quoted_name_read(r->lex, name))
+        return fail_memory(r, err);
+    return (*name != NULL && **name != '\0') ||
+           view_fail_at(r, (struct word){.length = 0}, expected, "medium", err);
+}
+
+static bool read_smoke_keys(struct view_reader *r, struct smoke *smoke,
+                            struct error *err)
+{
+    while (!lexer_at_line_end(r->lex)) {
+        struct word name = lexer_word(r->lex);
+
+        if (!(word_is(name, "grid")
+                  ? read_smoke_name(r, "a name behind grid", &smoke->grid, err)
+                  : read_part(r, &smoke_list, name, smoke, err)))
+            return false;
+    }
+    return true;
+}
+
+/* Reads medium FILE grid NAME scatter R G B ...; coefficients that are left out
+ * are 0. */
+static bool read_smoke(struct view_reader *r, struct error *err)
+{
+    struct smoke smoke = {.grid = strdup(""), .scale = 1};
+    char *file = NULL;
+    bool ok = read_smoke_name(r, "a file", &file, err) &&
+              read_smoke_keys(r, &smoke, err);
+
+    if (ok) {
+        smoke.path = path_beside(r->path, file);
+        ok = (smoke.path != NULL && smoke.grid != NULL &&
+              smokes_add(&r->view->smokes, &smoke)) ||
+             fail_memory(r, err);
+        warnings_add(r->report, "media of files",
+                     "%s:%" PRIu64 ": found a medium of a file: it is kept, "
+                     "but not rendered yet",
+                     r->path, r->lex->line);
+    }
+    free(file);
+    free(smoke.path);
+    free(smoke.grid);
+    return ok;
 }
 
 char *view_name(const char *file, const char *path)
@@ -416,7 +512,9 @@ bool view_parse_line(void *context, struct lexer *lex, struct error *err)
     if (key && key->id == KEY_VIEW)
         return read_shot(r, key, err);
     if (key && key->id == KEY_FOG)
-        return read_fog(r, key, err);
+        return read_fog(r, err);
+    if (key && key->id == KEY_MEDIUM)
+        return read_smoke(r, err);
     if (key)
         return read_key(r, key, err);
     warnings_add(r->report, "lines with an unknown key",

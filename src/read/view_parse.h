@@ -41,6 +41,7 @@ enum view_key_id {
     KEY_FOCUS,
     KEY_EXPOSURE,
     KEY_FOG,        /* takes other keys */
+    KEY_MEDIUM,     /* takes a name and other keys */
     KEY_SKY,        /* takes a name */
     KEY_TONE,       /* takes a name */
     KEY_ASSIGN,     /* takes two names */

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "world/light/daylight.h"
 
-/* ---- assignments ---- */
+/* ---- names ---- */
 
 /* Copies the text inside the quotes to `name`, which has room for the rest of
  * the file. Returns false if the closing quote is missing. */
@@ -29,9 +29,7 @@ static bool read_quoted(struct lexer *lex, char *name)
     return false;
 }
 
-/* Reads the next name of the line. *name is for free(), or NULL if there is
- * none or its closing quote is missing. Returns false when memory is out. */
-static bool read_name(struct lexer *lex, char **name)
+bool quoted_name_read(struct lexer *lex, char **name)
 {
     struct word word;
 
@@ -53,21 +51,7 @@ static bool read_name(struct lexer *lex, char **name)
     return true;
 }
 
-bool assigns_read(struct assigns *a, struct lexer *lex, bool *has_names)
-{
-    char *object, *material = NULL;
-    bool ok = read_name(lex, &object) &&
-              (object == NULL || read_name(lex, &material));
-
-    *has_names = ok && material != NULL && lexer_at_line_end(lex);
-    if (*has_names)
-        ok = assigns_set(a, object, material);
-    free(object);
-    free(material);
-    return ok;
-}
-
-static void write_name(FILE *to, const char *name)
+void quoted_name_write(FILE *to, const char *name)
 {
     if (*name != '\0' && strpbrk(name, " \t\v\f\"#\\") == NULL) {
         fputs(name, to);
@@ -82,13 +66,29 @@ static void write_name(FILE *to, const char *name)
     fputc('"', to);
 }
 
+/* ---- assignments ---- */
+
+bool assigns_read(struct assigns *a, struct lexer *lex, bool *has_names)
+{
+    char *object, *material = NULL;
+    bool ok = quoted_name_read(lex, &object) &&
+              (object == NULL || quoted_name_read(lex, &material));
+
+    *has_names = ok && material != NULL && lexer_at_line_end(lex);
+    if (*has_names)
+        ok = assigns_set(a, object, material);
+    free(object);
+    free(material);
+    return ok;
+}
+
 void assigns_write(const struct assigns *a, FILE *to)
 {
     for (size_t i = 0; i < a->count; i++) {
         fputs("assign ", to);
-        write_name(to, a->items[i].object);
+        quoted_name_write(to, a->items[i].object);
         fputc(' ', to);
-        write_name(to, a->items[i].material);
+        quoted_name_write(to, a->items[i].material);
         fputc('\n', to);
     }
 }
@@ -299,9 +299,11 @@ bool view_copy(struct view *to, const struct view *from)
     copy.lighting.sky_path = NULL;
     copy.assigns = (struct assigns){0};
     copy.lamps = (struct lamps){0};
+    copy.smokes = (struct smokes){.count = 0};
     if (!lighting_copy(&copy.lighting, &from->lighting) ||
         !assigns_copy(&copy.assigns, &from->assigns) ||
-        !lamps_copy(&copy.lamps, &from->lamps)) {
+        !lamps_copy(&copy.lamps, &from->lamps) ||
+        !smokes_copy(&copy.smokes, &from->smokes)) {
         view_free(&copy);
         return false;
     }
@@ -334,5 +336,6 @@ void view_free(struct view *view)
     free(view->lighting.sky_path);
     assigns_free(&view->assigns);
     lamps_free(&view->lamps);
+    smokes_free(&view->smokes);
     *view = (struct view){0};
 }

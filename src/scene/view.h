@@ -23,14 +23,22 @@
 #include "base/lexer.h"
 #include "scene/lamp.h"
 #include "scene/pose.h"
+#include "scene/smoke.h"
 #include "kernels/tone.h"
 
-/* ---- assignments ---- */
+/* ---- names ---- */
 
 /*
  * A name that is empty or contains blanks, quotes, # or \ is written in double
  * quotes; a quote inside them is doubled.
  */
+
+/* Reads the next name of the line. *name is for free(), or NULL if there is
+ * none or its closing quote is missing. */
+bool quoted_name_read(struct lexer *lex, char **name);
+void quoted_name_write(FILE *to, const char *name);
+
+/* ---- assignments ---- */
 
 struct assign {
     char *object, *material;
@@ -94,7 +102,7 @@ struct lighting {
     char *sky_path;
     double sky_strength; /* factor for the image or the sun with its sky */
     double sky_rotation_deg;
-    struct sun sun;  /* replaces the image and the background if it is on */
+    struct sun sun; /* replaces the image and the background if it is on */
     struct fog fog;
     double exposure; /* in stops: radiance is multiplied by 2^exposure */
     uint32_t tone;   /* enum tone */
@@ -113,6 +121,7 @@ struct view {
     bool has_shot[VIEW_SHOTS];
     struct assigns assigns;
     struct lamps lamps;
+    struct smokes smokes;
     uint32_t light_unit; /* enum light_unit, of the scene's lamps */
 };
 

@@ -43,7 +43,7 @@ static void check_assigns(const struct assigns *a, const struct assigns *b)
     }
 }
 
-/* Compares files, which may have different paths. */
+/* Compares names of files, which may have different paths. */
 static void check_sky(const char *a, const char *b)
 {
     char *names[2];
@@ -56,6 +56,22 @@ static void check_sky(const char *a, const char *b)
     require(is_same_text(names[0], names[1]), names[0]);
     free(names[0]);
     free(names[1]);
+}
+
+static void check_smokes(const struct smokes *a, const struct smokes *b)
+{
+    require(a->count == b->count, "media");
+    for (uint32_t i = 0; i < a->count; i++) {
+        const struct smoke *x = &a->items[i], *y = &b->items[i];
+
+        check_sky(x->path, y->path);
+        require(is_same_text(x->grid, y->grid), x->grid);
+        require(is_same3(x->scatter, y->scatter) &&
+                    is_same3(x->absorb, y->absorb) &&
+                    x->anisotropy == y->anisotropy && is_same3(x->at, y->at) &&
+                    x->scale == y->scale,
+                "numbers of a medium");
+    }
 }
 
 static void check_same(const struct view *a, const struct view *b)
@@ -81,6 +97,7 @@ static void check_same(const struct view *a, const struct view *b)
     check_shots(a, b);
     check_assigns(&a->assigns, &b->assigns);
     require(lamps_equal(&a->lamps, &b->lamps), "lamps");
+    check_smokes(&a->smokes, &b->smokes);
 }
 
 /* Returns whether the file could be read. Its warnings must be valid

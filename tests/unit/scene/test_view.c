@@ -174,6 +174,8 @@ static void wrong_lines_have_their_message(void **state)
     static const char light[] = "3 numbers from 0 to 1e30";
     static const char point[] = "3 numbers from -1e30 to 1e30";
     static const char kinds[] = "point, spot or directional";
+    static const char smoke[] =
+        "grid, scatter, absorb, anisotropy, at or scale";
     static const char sun[] = "an azimuth from -360 to 360 and an elevation "
                               "from -90 to 90 degrees";
     static const char number[] = "a number from 1 to 9";
@@ -240,6 +242,18 @@ static void wrong_lines_have_their_message(void **state)
          "irradiance or angle", "directional"},
         {"light directional 1 2 angle 181", "'181'",
          "an angle from 0 to 180 degrees", "angle"},
+        {"medium", "the end of the line", "a file", "medium"},
+        {"medium \"\"", "the end of the line", "a file", "medium"},
+        {"medium \"a", "the end of the line", "a file", "medium"},
+        {"medium a.vdb grid", "the end of the line", "a name behind grid",
+         "medium"},
+        {"medium a.vdb density", "'density'", smoke, "medium"},
+        {"medium a.vdb scatter 1 1", "the end of the line", light, "scatter"},
+        {"medium a.vdb absorb 1 1 -1", "'-1'", light, "absorb"},
+        {"medium a.vdb anisotropy 1.5", "'1.5'", "a number from -1 to 1",
+         "anisotropy"},
+        {"medium a.vdb at 1 2 x", "'x'", point, "at"},
+        {"medium a.vdb scale 0", "'0'", "a number from 1e-30 to 1e30", "scale"},
         {"view", "the end of the line", number, "view"},
         {"view 0 eye 0 0 1 at 0 0 0", "'0'", number, "view"},
         {"view 10 eye 0 0 1 at 0 0 0", "'10'", number, "view"},
@@ -532,6 +546,76 @@ static void lights_are_written_in_this_form(void **state)
     view_free(&view);
 }
 
+static const char smoke_lines[] =
+    "medium smoke.vdb scatter 1 2 3\n"
+    "medium \"a b.vdb\" grid \"my \"\"grid\"\"\" scatter 1 1 1 absorb "
+    ".5 .25 .125 anisotropy -.5 at 1 -2 3 scale .01 # small\n";
+
+static void smokes_are_read(void **state)
+{
+    struct warnings report = {0};
+    struct error err = {""};
+    struct view view, copy;
+    const struct smoke *s;
+
+    (void)state;
+    view_init(&view);
+    view_init(&copy);
+    check_or_say(view_read(&view, put(smoke_lines), &report, &err), err.text);
+    assert_int_equal(report.entry_count, 1);
+    assert_int_equal(report.entries[0].count, 2);
+    warnings_free(&report);
+    assert_int_equal(view.smokes.count, 2);
+    s = view.smokes.items;
+    assert_string_equal(s[0].path, file("smoke.vdb"));
+    assert_string_equal(s[0].grid, "");
+    is3(s[0].scatter, 1, 2, 3);
+    is3(s[0].absorb, 0, 0, 0);
+    is3(s[0].at, 0, 0, 0);
+    assert_true(s[0].anisotropy == 0 && s[0].scale == 1);
+    assert_string_equal(s[1].path, file("a b.vdb"));
+    assert_string_equal(s[1].grid, "my \"grid\"");
+    is3(s[1].absorb, .5, .25, .125);
+    is3(s[1].at, 1, -2, 3);
+    assert_true(s[1].anisotropy == -.5 && s[1].scale == .01);
+    assert_true(view_copy(&copy, &view));
+    assert_true(smokes_equal(&copy.smokes, &view.smokes));
+    copy.smokes.items[1].grid[0] = 'M';
+    assert_false(smokes_equal(&copy.smokes, &view.smokes));
+    view_free(&copy);
+    view_free(&view);
+}
+
+/* Lines that did not change stay as they were; others are written in full, at
+ * the place of the first one. */
+static void smokes_are_written_in_this_form(void **state)
+{
+    struct warnings report = {0};
+    struct error err;
+    struct view view;
+    const char *path = put(smoke_lines);
+
+    (void)state;
+    view_init(&view);
+    assert_true(view_read(&view, path, &report, &err));
+    assert_true(view_write(&view, path, &change, &err));
+    is_file(path, smoke_lines);
+    view.smokes.items[0].scatter[2] = .75;
+    assert_true(view_write(&view, path, &change, &err));
+    is_file(path, "medium smoke.vdb scatter 1 2 0.75 absorb 0 0 0 "
+                  "anisotropy 0\n"
+                  "medium \"a b.vdb\" grid \"my \"\"grid\"\"\" scatter "
+                  "1 1 1 absorb 0.5 0.25 0.125 anisotropy -0.5 at 1 -2 3 "
+                  "scale 0.01\n");
+    view.smokes.items[0].grid[0] = '\0';
+    free(view.smokes.items[0].path);
+    view.smokes.items[0].path = strdup("a\nb");
+    assert_false(view_write(&view, path, &change, &err));
+    assert_non_null(strstr(err.text, "found a line end in the medium's name"));
+    warnings_free(&report);
+    view_free(&view);
+}
+
 /* Comments, order and unknown lines are kept with a new camera. */
 static void lines_of_others_are_kept(void **state)
 {
@@ -704,6 +788,8 @@ int main(void)
         cmocka_unit_test(unchanged_lines_are_kept),
         cmocka_unit_test(lights_are_read),
         cmocka_unit_test(lights_are_written_in_this_form),
+        cmocka_unit_test(smokes_are_read),
+        cmocka_unit_test(smokes_are_written_in_this_form),
     };
 
     return cmocka_run_group_tests_name("view", tests, make_folder,
