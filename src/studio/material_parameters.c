@@ -409,6 +409,24 @@ static bool get_back_color(const struct owner *o, struct value *v)
     return o->material.translucency > 0;
 }
 
+/* Mean free path of a new subsurface, by the size of the body. */
+#define SUBSURFACE_PATH 0.03
+
+static void set_subsurface(struct owner *o, const struct value *v)
+{
+    double path = SUBSURFACE_PATH * body_size(o->selection);
+
+    put_number(&o->source.subsurface, v->number);
+    if (o->source.subsurface_path.line == 0)
+        put_grey(&o->source.subsurface_path, decimal_shortened(path));
+}
+
+static bool get_mean_path(const struct owner *o, struct value *v)
+{
+    memcpy(v->rgb, o->source.subsurface_path.rgb, sizeof v->rgb);
+    return o->material.subsurface > 0;
+}
+
 /* Reads the weight of sheen, which is multiplied by its colour. */
 static bool get_sheen(const struct owner *o, struct value *v)
 {
@@ -571,14 +589,31 @@ static void set_emission_color(struct owner *o, const struct value *v)
 
 /* ---- presets ---- */
 
-/* True for glass with the index and the medium of the substance. Its surface
- * may be another. */
+/* True if two triples differ by a factor only. */
+static bool are_alike(const double a[3], const double b[3])
+{
+    for (int c = 1; c < 3; c++)
+        if (!(fabs(a[c] * b[0] - b[c] * a[0]) <= 1e-3 * fabs(b[c] * a[0])))
+            return false;
+    return true;
+}
+
+/* True for a material with the color and the ratios of mean free paths of the
+ * substance, or for glass with its index. The highlight, and the surface of
+ * glass, may be others. */
 static bool is_of_substance(const struct owner *o, const struct substance *p)
 {
-    const struct fog f = get_coefficients(o);
+    const struct material_values *s = &o->factors;
+    double color[3], path[3];
 
-    return is_kind(o, GLASS) && o->factors.ior.value == p->ior &&
-           o->factors.abbe.value == p->abbe && medium_is_alike(f, p->medium);
+    if (!(p->depth > 0))
+        return is_kind(o, GLASS) && s->ior.value == p->ior &&
+               s->abbe.value == p->abbe && !has_coefficients(o);
+    substance_color(p, color);
+    substance_path(p, 1, path);
+    return o->material.subsurface == 1 &&
+           memcmp(color, s->base_color.rgb, sizeof color) == 0 &&
+           are_alike(s->subsurface_path.rgb, path);
 }
 
 static bool get_preset(const struct owner *o, struct value *v)
@@ -606,20 +641,27 @@ static void set_preset(struct owner *o, const struct value *v)
 {
     const struct substance *p = substance_at((uint32_t)v->number);
     struct material_values *s = &o->source;
-    struct fog f;
 
     if (p == NULL)
         return;
-    change_kind(o, GLASS);
+    change_kind(o, p->depth > 0 ? PLASTIC : GLASS);
     s->maps_off |= 1u << MTL_MAP_COLOR;
+    put_number(&s->roughness, p->roughness);
+    put_number(&s->subsurface, p->depth > 0);
+    if (p->depth > 0) {
+        substance_color(p, s->base_color.rgb);
+        substance_path(p, body_size(o->selection), s->subsurface_path.rgb);
+        put_color(&s->base_color, s->base_color.rgb);
+        put_color(&s->subsurface_path, s->subsurface_path.rgb);
+        put_number(&s->subsurface_anisotropy, 0);
+        return;
+    }
     put_grey(&s->transmission, 1);
     put_number(&s->ior, p->ior);
     put_number(&s->abbe, p->abbe);
-    put_number(&s->roughness, p->roughness);
-    put_number(&s->medium_anisotropy, p->medium.anisotropy);
-    s->attenuation_distance = (struct mtl_number){.line = 0};
-    f = substance_medium(p, o->selection);
-    set_coefficients(s, &f);
+    s->attenuation_distance = s->medium_anisotropy =
+        (struct mtl_number){.line = 0};
+    s->medium_scatter = s->medium_absorb = (struct mtl_color){.line = 0};
 }
 
 /* ---- table ---- */
@@ -695,6 +737,11 @@ const struct parameter_row material_parameters[] = {
      .result = offsetof(struct material, translucency)},
     {"back colour", DIFFUSE | PLASTIC | MIXED, VALUE_COLOR, &scale_unit,
      .get = get_back_color, WRITES_COLOR(back_color)},
+    {"subsurface", DIFFUSE | PLASTIC, VALUE_NUMBER, &scale_unit,
+     .get = get_statement, .set = set_subsurface,
+     .result = offsetof(struct material, subsurface)},
+    {"mean path", DIFFUSE | PLASTIC, VALUE_TRIPLE, &scale_density,
+     .get = get_mean_path, WRITES_COLOR(subsurface_path)},
     {"coat", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      .get = get_coat, .set = set_coat},
     {"coat rough", MIXED, VALUE_NUMBER, &scale_unit,

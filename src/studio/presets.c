@@ -5,6 +5,7 @@
 
 #include "base/decimal.h"
 #include "base/geometry.h"
+#include "scene/material.h"
 #include "studio/medium_parameters.h"
 
 /* ---- substances ---- */
@@ -14,16 +15,11 @@
  * is isotropic. Those of wax and jade are estimates. */
 /* clang-format off */
 static const struct substance substances[] = {
-    {"milk", 1.34, 0, 0, 40,
-     {{2.55, 3.21, 3.77}, {0.0011, 0.0024, 0.014}, 0, 0, 0}},
-    {"skin", 1.4, 0, 0.4, 40,
-     {{0.74, 0.88, 1.01}, {0.032, 0.17, 0.48}, 0, 0, 0}},
-    {"marble", 1.5, 0, 0.2, 30,
-     {{2.19, 2.62, 3}, {0.0021, 0.0041, 0.0071}, 0, 0, 0}},
-    {"wax", 1.44, 0, 0.35, 20,
-     {{1.5, 1.4, 1.1}, {0.001, 0.008, 0.04}, 0, 0, 0}},
-    {"jade", 1.61, 0, 0.15, 12,
-     {{1, 1.2, 1}, {0.14, 0.012, 0.08}, 0, 0, 0}},
+    {"milk", 1.34, 0, 0, 40, {2.55, 3.21, 3.77}, {0.0011, 0.0024, 0.014}},
+    {"skin", 1.4, 0, 0.4, 40, {0.74, 0.88, 1.01}, {0.032, 0.17, 0.48}},
+    {"marble", 1.5, 0, 0.2, 30, {2.19, 2.62, 3}, {0.0021, 0.0041, 0.0071}},
+    {"wax", 1.44, 0, 0.35, 20, {1.5, 1.4, 1.1}, {0.001, 0.008, 0.04}},
+    {"jade", 1.61, 0, 0.15, 12, {1, 1.2, 1}, {0.14, 0.012, 0.08}},
     {.name = "water", .ior = 1.333, .abbe = 55.7},
     {.name = "crown glass", .ior = 1.52, .abbe = 64},
     {.name = "flint glass", .ior = 1.62, .abbe = 36},
@@ -38,9 +34,7 @@ const struct substance *substance_at(uint32_t i)
     return i >= 1 && i <= SUBSTANCES ? &substances[i - 1] : NULL;
 }
 
-/* Returns the largest side of the first object with the selected material, or
- * of the scene if it has none. */
-static double body_size(const struct selection *s)
+double body_size(const struct selection *s)
 {
     const struct scene *scene = s->scene;
     const uint32_t *assigned = s->edit->now.assigned;
@@ -65,14 +59,24 @@ static double body_size(const struct selection *s)
     return (size > 0 ? size : 2) / scene->scale;
 }
 
-struct fog substance_medium(const struct substance *p,
-                            const struct selection *s)
+void substance_color(const struct substance *p, double rgb[3])
 {
-    struct fog m = p->medium;
+    for (int c = 0; c < 3; c++) {
+        double albedo = p->scatter[c] / (p->scatter[c] + p->absorb[c]);
 
-    if (p->depth > 0)
-        medium_set_density(&m, p->depth / body_size(s));
-    return m;
+        rgb[c] = decimal_shortened((double)seen_color((float)albedo, 0));
+    }
+}
+
+void substance_path(const struct substance *p, double width, double rgb[3])
+{
+    double most = 0;
+
+    for (int c = 0; c < 3; c++)
+        most = fmax(most, p->scatter[c] + p->absorb[c]);
+    for (int c = 0; c < 3; c++)
+        rgb[c] = decimal_shortened(width * most / p->depth /
+                                   (p->scatter[c] + p->absorb[c]));
 }
 
 /* ---- fogs ---- */

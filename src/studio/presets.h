@@ -14,22 +14,28 @@
 
 #include "studio/parameter_table.h"
 
-/* Solid with a surface of glass, and the medium in it. */
+/* Plastic above a medium, or clear glass if depth is 0. */
 struct substance {
     const char *name;
-    double ior, abbe; /* an Abbe number of 0: no dispersion */
+    double ior, abbe; /* of glass; an Abbe number of 0: no dispersion */
     double roughness;
-    double depth;      /* width of the body in mean free paths */
-    struct fog medium; /* in any unit of length */
+    double depth; /* width of the body in mean free paths */
+    double scatter[3], absorb[3]; /* coefficients in any unit of length */
 };
 
 /* The substance of choice i from 1 on, or NULL. Choice 0 is any other. */
 const struct substance *substance_at(uint32_t i);
 
-/* Returns the medium of a substance in a body that is as large as the first
- * object with the selected material. */
-struct fog substance_medium(const struct substance *substance,
-                            const struct selection *selection);
+/* Finds the color of a thick body of a substance. */
+void substance_color(const struct substance *substance, double rgb[3]);
+
+/* Finds the mean free paths in a body of this width. */
+void substance_path(const struct substance *substance, double width,
+                    double rgb[3]);
+
+/* Returns the largest side of the first object with the selected material, or
+ * of the scene if it has none, in units of the file. */
+double body_size(const struct selection *selection);
 
 /* Names of fogs: none, those of the table, and any other one. */
 const char *fog_name(const struct owner *owner, uint32_t i);

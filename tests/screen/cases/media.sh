@@ -20,10 +20,9 @@ wait_until_gone "gold_"
 # the row stays where it is, and its own values come below it
 keys Right
 wait_for "│>    preset     milk"
-expect "│     type       glass"
-expect "│     index      1.34"
-expect "│     anisotropy 0"
-expect "▏inside     #faf8f0"
+expect "│     type       plastic"
+expect "▏colour     #faf8f0"
+expect "│     subsurface 1"
 keys u
 wait_for "│>    preset     none"
 expect "│     type       diffuse"
@@ -31,26 +30,18 @@ keys Enter
 raw_keys 'jade'
 keys Enter
 wait_for "│>    preset     jade"
-expect "│     density    6 "
-keys Down Down Down Down Down Down Down Down
-wait_for "│>    density    6 "
-raw_keys '3'
-keys Enter
-wait_for "│>    density    3 "
-expect "│     scatters   2.48 2.97 2.48"
-expect "│     preset     jade"
+expect "│     mean path  0.177 0.167 0.187"
 keys C-s
 wait_for "wrote 1 material to lamp.mtl"
 cat >expected.mtl <<'END'
 # mine
 newmtl l
-Kd 0 0 0 # black
+Kd 0.4382342 0.79543114 0.5311563 # black
 Ke 1 1 1
-Tf_scatter 2.4752476 2.970297 2.4752476
-Tf_absorb 0.34653464 0.02970297 0.1980198
-illum 7
-Ni 1.61
+Ks 0.5 0.5 0.5
+Sr 0.17719299 0.16666667 0.18703704
 Pr 0.15
+Sf 1
 END
 cmp expected.mtl lamp.mtl || die "lamp.mtl: $(cat lamp.mtl)"
 # the fog of the view

@@ -951,22 +951,23 @@ static struct parameter labelled(const struct selection *target,
     return *find(list, count, label);
 }
 
-/* A substance is one step of the history. Its density is that of a body as
- * large as the object, whose longest side is 1. */
+/* A substance is one step of the history. Its mean free paths are those of a
+ * body as large as the object, whose longest side is 1. */
 static void presets_are_one_step(void **state)
 {
     static const struct {
-        const char *name, *index, *abbe, *density;
+        const char *name, *index, *abbe; /* of glass */
+        const char *path;                /* of plastic */
     } cases[] = {
-        {"milk", "1.34", "off", "40"},
-        {"skin", "1.4", "off", "40"},
-        {"marble", "1.5", "off", "30"},
-        {"wax", "1.44", "off", "20"},
-        {"jade", "1.61", "off", "12"},
-        {"water", "1.333", "55.7", "off"},
-        {"crown glass", "1.52", "64", "off"},
-        {"flint glass", "1.62", "36", "off"},
-        {"diamond", "2.42", "44.3", "off"},
+        {"milk", NULL, NULL, "0.0371 0.0294 0.025"},
+        {"skin", NULL, NULL, "0.0483 0.0355 0.025"},
+        {"marble", NULL, NULL, "0.0457 0.0382 0.0333"},
+        {"wax", NULL, NULL, "0.05 0.0533 0.0658"},
+        {"jade", NULL, NULL, "0.0886 0.0833 0.0935"},
+        {"water", "1.333", "55.7", NULL},
+        {"crown glass", "1.52", "64", NULL},
+        {"flint glass", "1.62", "36", NULL},
+        {"diamond", "2.42", "44.3", NULL},
     };
     struct selection target;
     struct fixture s;
@@ -983,24 +984,30 @@ static void presets_are_one_step(void **state)
                      err.text);
         edit_end_step(&s.edit);
         assert_string_equal(labelled(&target, "preset").text, cases[i].name);
+        if (cases[i].path != NULL) {
+            assert_string_equal(labelled(&target, "type").text, "plastic");
+            assert_string_equal(labelled(&target, "subsurface").text, "1");
+            assert_string_equal(labelled(&target, "mean path").text,
+                                cases[i].path);
+            continue;
+        }
         assert_string_equal(labelled(&target, "type").text, "glass");
         assert_string_equal(labelled(&target, "tint").text, "#ffffff");
         assert_string_equal(labelled(&target, "index").text, cases[i].index);
         assert_string_equal(labelled(&target, "Abbe number").text,
                             cases[i].abbe);
-        assert_string_equal(labelled(&target, "density").text,
-                            cases[i].density);
+        assert_string_equal(labelled(&target, "density").text, "off");
     }
     parameter_step(&target, labelled(&target, "preset").id, 1);
     edit_end_step(&s.edit);
     assert_string_equal(labelled(&target, "preset").text, "milk");
-    /* a density of one's own is the same substance, another colour is not */
-    check_or_say(parameter_set_text(&target, labelled(&target, "density").id,
-                                    "7", &err),
+    /* other lengths are the same substance, another colour is not */
+    check_or_say(parameter_set_text(&target, labelled(&target, "mean path").id,
+                                    ".1483 .1178 .1", &err),
                  err.text);
     assert_string_equal(labelled(&target, "preset").text, "milk");
     edit_end_step(&s.edit);
-    parameter_set_text(&target, labelled(&target, "inside").id, "#804020",
+    parameter_set_text(&target, labelled(&target, "colour").id, "#804020",
                        &err);
     assert_string_equal(labelled(&target, "preset").text, "none");
     edit_end_step(&s.edit);
