@@ -587,6 +587,32 @@ static void solids_absorb_their_colour(void **state)
     only_material("Kd .5\nTf_distance 2", 1);
 }
 
+/* Sf is the weight of light below diffuse surfaces and plastic, Sr its mean free
+ * path. */
+static void surfaces_have_light_below(void **state)
+{
+    struct material m = only_material("Kd .7\nSf .5\nSr .1 .2 .4\nSg -.5", 0);
+
+    (void)state;
+    assert_int_equal(m.kind, MATERIAL_DIFFUSE);
+    assert_int_equal(m.role, ROLE_NONE); /* light paths leave it out */
+    check_close((double)m.subsurface, .5, 0);
+    check_color(m.medium.extinction, 10, 5, 2.5);
+    check_close((double)m.medium.anisotropy, -.5, 0);
+    m = only_material("Kd .7\nKs .5\nSf 1\nSr 1 0 1e-38", 0);
+    assert_int_equal(m.kind, MATERIAL_PLASTIC);
+    check_color(m.medium.extinction, 1, (double)1e30f, (double)1e30f);
+    assert_true(material_features(&m, NULL) & FEATURE_SUBSURFACE);
+    assert_false(material_features(&m, NULL) & FEATURE_ATTENUATION);
+    assert_true(only_material("Kd .7\nSr 1 1 1", 0).subsurface == 0);
+    assert_true(only_material("Kd .7\nSf 1", 1).subsurface == 0);
+    assert_true(only_material("Kd .7\nSf 1\nSr 0 0 0", 1).subsurface == 0);
+    assert_true(only_material("Pm 1\nSf 1\nSr 1 1 1", 1).subsurface == 0);
+    assert_true(only_material("Kd .7\nSf 7\nSr 1 1 1", 1).subsurface == 1);
+    assert_true(only_material("Kd .7\nSf 1\nSr 1 1 1\nSg 2", 1)
+                    .medium.anisotropy == 0);
+}
+
 static void sheets_are_rough_if_the_file_says_so(void **state)
 {
     struct material m = only_material("Tf .5\nNs 20\nillum 4", 0);
@@ -745,6 +771,7 @@ int main(void)
         cmocka_unit_test(leaves_let_light_through),
         cmocka_unit_test(maps_of_leaves_imply_their_factors),
         cmocka_unit_test(solids_absorb_their_colour),
+        cmocka_unit_test(surfaces_have_light_below),
         cmocka_unit_test(sheets_are_rough_if_the_file_says_so),
         cmocka_unit_test(maps_weigh_the_layers),
         cmocka_unit_test(maps_of_numbers_are_data),
