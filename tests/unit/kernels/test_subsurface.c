@@ -139,6 +139,26 @@ static void highlights_take_their_share(void **state)
     }
 }
 
+/* A mirror of .04 above a dark body, seen along its normal. */
+static void mirrors_lie_above_bodies(void **state)
+{
+    struct lit_mesh s = {0};
+    struct claim c = {.eye = {0, 2, 0},
+                      .truth = GREY(0.04 + 0.96 * 0.2),
+                      .systematic = 0.006,
+                      .paths = 3000};
+
+    (void)state;
+    s.mesh.materials[0] = skin(v3(.2f, .2f, .2f), 0.01f, 0);
+    s.mesh.materials[0].kind = MATERIAL_PLASTIC;
+    s.mesh.materials[0].specular = v3(0.04f, 0.04f, 0.04f);
+    s.mesh.world.settings.sky.color = v3(1, 1, 1);
+    mesh_add_box(&s.mesh, v3(-3, -2, -3), v3(3, 0, 3), 0);
+    lit_mesh_finish(&s);
+    check_claim(&s, c);
+    lit_mesh_free(&s);
+}
+
 /* Light that walks out of an open mesh, or into another material, is lost. */
 static void open_meshes_lose_the_light(void **state)
 {
@@ -170,6 +190,7 @@ int main(void)
         cmocka_unit_test(white_bodies_keep_the_light),
         cmocka_unit_test(weights_mix),
         cmocka_unit_test(highlights_take_their_share),
+        cmocka_unit_test(mirrors_lie_above_bodies),
         cmocka_unit_test(open_meshes_lose_the_light),
     };
 
