@@ -264,34 +264,101 @@ static bool read_glossiness(struct reader *r, const struct gltf_value *v,
 
 /* ---- layers ---- */
 
-static bool read_transmission(struct reader *r)
+/* Reads the color of a draft's scattering medium. Both spellings of the key
+ * are in use. */
+static bool read_scatter_color(struct reader *r, const struct gltf_value *v,
+                               double color[3])
+{
+    return gltf_numbers(v, "multiscatterColor", 3, color, r->err) &&
+           gltf_numbers(v, "multiscatterColorFactor", 3, color, r->err);
+}
+
+/* Reads the color and the mean cosine of scattering: those of
+ * KHR_materials_scatter, else of KHR_materials_volume_scatter, the draft before
+ * it. The color is black if nothing is scattered. */
+static bool read_scatter(struct reader *r, bool is_thin, double color[3],
+                         double *cosine)
+{
+    double strength = 0;
+    struct gltf_value v, older;
+
+    if (!gltf_extension(&r->v, "KHR_materials_scatter", &v, r->err) ||
+        !gltf_extension(&r->v, "KHR_materials_volume_scatter", &older, r->err))
+        return false;
+    for (int i = 0; i < 3; i++)
+        color[i] = v.json != NULL;
+    if (v.json == NULL)
+        strength = 1;
+    if (!read_number(r, &v, "scatterStrengthFactor", &strength) ||
+        !read_scatter_color(r, v.json != NULL ? &v : &older, color) ||
+        !read_number(r, v.json != NULL ? &v : &older, "scatterAnisotropy",
+                     cosine))
+        return false;
+    for (int i = 0; i < 3; i++)
+        color[i] *= statement_clamped(strength);
+    if (is_thin && !is_black(color))
+        warn(r, "thin surfaces that scatter",
+             "scattering without a KHR_materials_volume that is thick: "
+             "ignored");
+    else if (json_object_get(v.json, "multiscatterColorTexture") != NULL ||
+             json_object_get(v.json, "scatterStrengthTexture") != NULL)
+        warn(r, "maps of media",
+             "KHR_materials_scatter: its textures are not used");
+    return true;
+}
+
+/* Reads the inside of a solid: what it absorbs, scatters and disperses. Its
+ * attenuation is the extinction, of which a part scatters. */
+static bool read_volume(struct reader *r)
 {
     struct material_values *s = &r->source;
-    double weight = 0, thickness = 0, distance = INFINITY, tint[3] = {1, 1, 1};
-    double dispersion = 0;
-    struct gltf_value v, volume, spread;
+    double thickness = 0, distance = INFINITY, tint[3] = {1, 1, 1};
+    double dispersion = 0, color[3], cosine = 0;
+    struct gltf_value volume, spread;
+    bool is_thin;
 
-    if (!gltf_extension(&r->v, "KHR_materials_transmission", &v, r->err) ||
-        !read_number(r, &v, "transmissionFactor", &weight) ||
-        !gltf_extension(&r->v, "KHR_materials_volume", &volume, r->err) ||
+    if (!gltf_extension(&r->v, "KHR_materials_volume", &volume, r->err) ||
         !read_number(r, &volume, "thicknessFactor", &thickness) ||
         !read_number(r, &volume, "attenuationDistance", &distance) ||
         !gltf_numbers(&volume, "attenuationColor", 3, tint, r->err) ||
         !gltf_extension(&r->v, "KHR_materials_dispersion", &spread, r->err) ||
         !read_number(r, &spread, "dispersion", &dispersion))
         return false;
+    is_thin = !(thickness > 0);
+    if (!read_scatter(r, is_thin, color, &cosine))
+        return false;
+    if (is_thin) {
+        set_number(&s->thinness, 1);
+        return true;
+    }
+    if (dispersion > 0)
+        set_number(&s->abbe, DISPERSION_ABBE / dispersion);
+    if (!(distance > 0 && distance < (double)INFINITY))
+        return true;
+    set_number(&s->attenuation_distance, distance);
+    set_color(&s->attenuation, tint);
+    if (is_black(color))
+        return true;
+    set_color(&s->medium_color, color);
+    if (cosine != 0)
+        set_number(&s->medium_anisotropy, fmin(fmax(cosine, -1), 1));
+    return true;
+}
+
+static bool read_transmission(struct reader *r)
+{
+    struct material_values *s = &r->source;
+    double weight = 0;
+    struct gltf_value v;
+
+    if (!gltf_extension(&r->v, "KHR_materials_transmission", &v, r->err) ||
+        !read_number(r, &v, "transmissionFactor", &weight))
+        return false;
     if (!(weight > 0))
         return true;
     set_color(&s->transmission, (const double[3]){weight, weight, weight});
-    if (thickness > 0 && dispersion > 0)
-        set_number(&s->abbe, DISPERSION_ABBE / dispersion);
-    if (!(thickness > 0))
-        set_number(&s->thinness, 1);
-    else if (distance > 0 && distance < (double)INFINITY) {
-        set_number(&s->attenuation_distance, distance);
-        set_color(&s->attenuation, tint);
-    }
-    return read_map(r, &v, "transmissionTexture", of_red, MTL_MAP_TRANSMISSION);
+    return read_volume(r) &&
+           read_map(r, &v, "transmissionTexture", of_red, MTL_MAP_TRANSMISSION);
 }
 
 static bool read_diffuse_transmission(struct reader *r)

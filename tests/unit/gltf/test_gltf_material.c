@@ -448,6 +448,113 @@ static void leaves_have_two_textures(void **state)
     unload(&l);
 }
 
+/* Share of the extinction that is scattered, as both drafts define it. */
+static double single_scattering(double color, double cosine)
+{
+    double s = 4.09712 + 4.20863 * color -
+               sqrt(9.59217 + 41.6808 * color + 17.7126 * color * color);
+
+    return (1 - s * s) / (1 - cosine * s * s);
+}
+
+/* A body whose attenuation is 0.5 0.25 1 after a distance of 2. */
+#define BODY(thickness, drafts)                                    \
+    "{\"extensions\":{\"KHR_materials_transmission\":{"            \
+    "\"transmissionFactor\":1},\"KHR_materials_volume\":{"         \
+    "\"thicknessFactor\":" thickness ",\"attenuationDistance\":2," \
+    "\"attenuationColor\":[0.5,0.25,1]}" drafts "}}"
+#define NEWER(members) ",\"KHR_materials_scatter\":{" members "}"
+#define OLDER(members) ",\"KHR_materials_volume_scatter\":{" members "}"
+
+/* Media of the drafts KHR_materials_volume_scatter and KHR_materials_scatter:
+ * the attenuation is the extinction, and where it is white there is nothing. */
+static void drafts_scatter_what_is_attenuated(void **state)
+{
+    static const struct {
+        const char *material;
+        double color[3], cosine;
+    } cases[] = {
+        {BODY("1", ""), {0, 0, 0}, 0},
+        {BODY("1", OLDER("")), {0, 0, 0}, 0},
+        {BODY("1", OLDER("\"multiscatterColor\":[0.9,0.5,0.7],"
+                         "\"scatterAnisotropy\":0.4")),
+         {0.9, 0.5, 0.7},
+         0.4},
+        {BODY("1", OLDER("\"multiscatterColorFactor\":[0.9,0.5,0.7],"
+                         "\"scatterAnisotropy\":-0.4")),
+         {0.9, 0.5, 0.7},
+         -0.4},
+        {BODY("1", NEWER("")), {0, 0, 0}, 0},
+        {BODY("1", NEWER("\"scatterStrengthFactor\":0.5")), {0.5, 0.5, 0.5}, 0},
+        {BODY("1", NEWER("\"scatterStrengthFactor\":0.5,"
+                         "\"multiscatterColor\":[1,0.4,0],"
+                         "\"scatterAnisotropy\":1")),
+         {0.5, 0.2, 0},
+         0.999},
+        {BODY("1", NEWER("\"scatterStrengthFactor\":1,"
+                         "\"multiscatterColorFactor\":[0.3,0.4,0.5]")
+                       OLDER("\"multiscatterColor\":[1,1,1],"
+                             "\"scatterAnisotropy\":0.9")),
+         {0.3, 0.4, 0.5},
+         0},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const double *c = cases[i].color, g = cases[i].cosine;
+        const struct medium *m;
+        struct loaded l;
+
+        load_text(&l, cases[i].material);
+        assert_true(l.ok);
+        assert_int_equal(l.report.entry_count, 0);
+        m = &l.scene.materials[1].medium;
+        check_close((double)m->extinction.x, log(2) / 2, 1e-6);
+        check_close((double)m->extinction.y, log(2), 1e-6);
+        check_close((double)m->extinction.z, 0, 0);
+        check_close((double)m->anisotropy, g, 1e-6);
+        check_close((double)m->scattering.x,
+                    c[0] > 0 ? log(2) / 2 * single_scattering(c[0], g) : 0,
+                    1e-5);
+        check_close((double)m->scattering.y,
+                    c[1] > 0 ? log(2) * single_scattering(c[1], g) : 0, 1e-5);
+        check_close((double)m->scattering.z, 0, 0);
+        unload(&l);
+    }
+}
+
+/* What a draft says and glim does not render is named. */
+static void drafts_are_used_with_warnings(void **state)
+{
+    static const struct {
+        const char *material, *warning;
+    } cases[] = {
+        {BODY("0", NEWER("\"scatterStrengthFactor\":1")),
+         "a.gltf: found scattering without a KHR_materials_volume that is "
+         "thick: ignored"},
+        {BODY("0", OLDER("\"multiscatterColor\":[1,1,1]")),
+         "a.gltf: found scattering without a KHR_materials_volume that is "
+         "thick: ignored"},
+        {BODY("1", NEWER("\"scatterStrengthFactor\":1,"
+                         "\"scatterStrengthTexture\":{\"index\":0}")),
+         "a.gltf: found KHR_materials_scatter: its textures are not used"},
+        {BODY("1", NEWER("\"scatterStrengthFactor\":1,"
+                         "\"multiscatterColorTexture\":{\"index\":0}")),
+         "a.gltf: found KHR_materials_scatter: its textures are not used"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct loaded l;
+
+        load_text(&l, cases[i].material);
+        assert_true(l.ok);
+        assert_int_equal(l.report.entry_count, 1);
+        assert_string_equal(l.report.entries[0].text, cases[i].warning);
+        unload(&l);
+    }
+}
+
 #define TRANSFORMED                                                           \
     "{\"index\":1,\"texCoord\":1,\"extensions\":{\"KHR_texture_transform\":{" \
     "\"offset\":[0.1,0.7],\"rotation\":1.3,\"scale\":[2,-3]}}}"
@@ -471,6 +578,8 @@ static const char all_of_it[] =
     "\"diffuseTransmissionColorTexture\":{\"index\":0}},"
     "\"KHR_materials_volume\":{\"thicknessFactor\":1,"
     "\"attenuationDistance\":0.3,\"attenuationColor\":[0.3,0.6,0.9]},"
+    "\"KHR_materials_volume_scatter\":{\"multiscatterColor\":"
+    "[0.8,0.7,0.1],\"scatterAnisotropy\":0.6},"
     "\"KHR_materials_dispersion\":{\"dispersion\":0.3},"
     "\"KHR_materials_clearcoat\":{\"clearcoatFactor\":0.4,"
     "\"clearcoatRoughnessFactor\":0.2,\"clearcoatTexture\":{\"index\":0},"
@@ -531,6 +640,13 @@ static void wrong_values_have_messages(void **state)
         {"{\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1]}}",
          "a.gltf: /materials/0/pbrMetallicRoughness/baseColorFactor: found an "
          "array of 2, expected an array of 4 numbers"},
+        {BODY("1", OLDER("\"multiscatterColor\":[1]")),
+         "a.gltf: /materials/0/extensions/KHR_materials_volume_scatter/"
+         "multiscatterColor: found an array of 1, expected an array of 3 "
+         "numbers"},
+        {BODY("1", NEWER("\"scatterAnisotropy\":true")),
+         "a.gltf: /materials/0/extensions/KHR_materials_scatter/"
+         "scatterAnisotropy: found true, expected a number"},
         {"{\"alphaMode\":1}",
          "a.gltf: /materials/0/alphaMode: found 1, expected a string"},
     };
@@ -556,6 +672,8 @@ int main(void)
         cmocka_unit_test(images_are_listed_once),
         cmocka_unit_test(factors_become_values),
         cmocka_unit_test(leaves_have_two_textures),
+        cmocka_unit_test(drafts_scatter_what_is_attenuated),
+        cmocka_unit_test(drafts_are_used_with_warnings),
         cmocka_unit_test(saved_materials_are_the_same),
         cmocka_unit_test(wrong_values_have_messages),
     };

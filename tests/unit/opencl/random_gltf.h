@@ -218,6 +218,15 @@ static const struct {
      {"thicknessFactor", "attenuationDistance"},
      {"thicknessTexture", NULL, NULL},
      ", \"attenuationColor\": [0.9, 0.5, 0.2]"},
+    {"volume_scatter",
+     {"scatterAnisotropy", NULL},
+     {NULL, NULL, NULL},
+     ", \"multiscatterColor\": [0.9, 0.4, 0.7]"},
+    {"scatter",
+     {"scatterStrengthFactor", NULL},
+     {NULL, NULL, NULL},
+     ", \"multiscatterColorFactor\": [0.9, 0.6, 0.2], "
+     "\"scatterAnisotropy\": -0.5"},
     {"dispersion", {"dispersion", NULL}, {NULL, NULL, NULL}, ""},
     {"diffuse_transmission",
      {"diffuseTransmissionFactor", NULL},
@@ -228,7 +237,7 @@ static const struct {
      {"specularTexture", "specularColorTexture", NULL},
      ", \"specularColorFactor\": [0.9, 1.5, 0.8]"},
 };
-#define RANDOM_EXTENSIONS 9
+#define RANDOM_EXTENSIONS 11
 
 /* Writes an extension that is missing in most materials, so that each is in
  * some without the others. */

@@ -123,7 +123,7 @@ static void lamps_are_equal(void **state)
 
 /* What the random files are for. */
 #define RANDOM_FEATURES                                                        \
-    ((uint32_t)(FEATURE_COVERAGE | FEATURE_TEXTURES | FEATURE_ROUGH |          \
+    ((uint64_t)(FEATURE_COVERAGE | FEATURE_TEXTURES | FEATURE_ROUGH |          \
                 FEATURE_EMITTERS | FEATURE_BUMPS | FEATURE_PRINCIPLED |        \
                 FEATURE_ANISOTROPY | FEATURE_SHEEN | FEATURE_POINT_LIGHTS |    \
                 FEATURE_DIRECTIONAL_LIGHTS | FEATURE_ATTENUATION |             \
@@ -131,7 +131,7 @@ static void lamps_are_equal(void **state)
                 FEATURE_THIN_FILM | FEATURE_INSTANCES |                        \
                 FEATURE_TEXTURE_OPTIONS | FEATURE_VERTEX_ALPHAS |              \
                 FEATURE_TANGENTS | FEATURE_COAT_NORMALS | FEATURE_DISPERSION | \
-                FEATURE_TRANSLUCENT))
+                FEATURE_MEDIA | FEATURE_TRANSLUCENT))
 
 /* Random files have each feature of glTF, some of them without instances. */
 static void random_files_are_equal(void **state)
