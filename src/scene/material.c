@@ -219,9 +219,11 @@ static bool fill(struct material *m, struct vec3 tf,
 
     to->anisotropy = medium_anisotropy(g);
     if (s->medium_scatter.line != 0 || s->medium_absorb.line != 0) {
-        to->scattering = statement_radiance(&s->medium_scatter, at);
+        to->scattering =
+            statement_amounts(&s->medium_scatter, "Tf_scatter", at);
         to->extinction =
-            v3_add(to->scattering, statement_radiance(&s->medium_absorb, at));
+            v3_add(to->scattering,
+                   statement_amounts(&s->medium_absorb, "Tf_absorb", at));
         *to = medium_scaled(*to, 1);
         return false;
     }
@@ -491,7 +493,7 @@ static void set_subsurface(struct material *m, const struct material_values *s,
 {
     double weight = statement_unit(&s->subsurface, "Sf", at);
     double g = statement_within(&s->subsurface_anisotropy, "Sg", -1, 1, 0, at);
-    struct vec3 path = statement_radiance(&s->subsurface_path, at);
+    struct vec3 path = statement_amounts(&s->subsurface_path, "Sr", at);
 
     if (!(weight > 0))
         return;
@@ -595,6 +597,51 @@ static void check_translucency(const struct material_values *s,
                      at->path, line);
 }
 
+/* Reports statements about a medium that do nothing here. */
+static void check_medium(const struct material_values *s,
+                         const struct material *m,
+                         const struct statement_place *at)
+{
+    bool is_solid =
+        m->kind == MATERIAL_GLASS || (m->transmission > 0 && m->is_thin == 0);
+    bool is_by_coefficients =
+        s->medium_scatter.line != 0 || s->medium_absorb.line != 0;
+    bool is_by_distance =
+        !is_by_coefficients && s->attenuation_distance.value > 0;
+    bool scatters = s->medium_scatter.line != 0 ||
+                    (is_by_distance &&
+                     (s->medium_color.line != 0 || s->medium_albedo.line != 0));
+    const char *instead = is_by_coefficients
+                              ? "which Tf_scatter and Tf_absorb replace"
+                              : "which needs Tf_distance";
+    const struct {
+        const char *key, *reason;
+        uint64_t line;
+        bool is_used;
+    } statements[] = {
+        {"Tf_distance", instead,
+         s->attenuation_distance.value > 0 ? s->attenuation_distance.line : 0,
+         is_by_distance},
+        {"Tf_attenuation", instead, s->attenuation.line, is_by_distance},
+        {"Tf_scatter", NULL, s->medium_scatter.line, true},
+        {"Tf_absorb", NULL, s->medium_absorb.line, true},
+        {"Tf_multiscatter", instead, s->medium_color.line, is_by_distance},
+        {"Tf_albedo",
+         is_by_distance ? "which Tf_multiscatter replaces" : instead,
+         s->medium_albedo.line, is_by_distance && s->medium_color.line == 0},
+        {"Tf_anisotropy", "which media that scatter use",
+         s->medium_anisotropy.line, scatters},
+    };
+
+    for (size_t i = 0; i < sizeof statements / sizeof statements[0]; i++)
+        if (statements[i].line != 0 && !(is_solid && statements[i].is_used))
+            warnings_add(at->report, "statements without effect",
+                         "%s:%" PRIu64 ": found %s, %s: ignored", at->path,
+                         statements[i].line, statements[i].key,
+                         is_solid ? statements[i].reason
+                                  : "which solid glass uses");
+}
+
 /* Roughness below which metal and glass cast, above which metal is matte; and
  * least one of highlights on matte surfaces: a narrow highlight that a light
  * path meets by chance is a speck. */
@@ -671,14 +718,9 @@ struct material material_from_source(const struct material_values *source,
                      "%s:%" PRIu64 ": found glass of Ni 1 without a tint: "
                      "surfaces with this material are invisible",
                      path, s->illum.line);
-    if (s->attenuation_distance.value > 0 && m.kind != MATERIAL_GLASS &&
-        (m.transmission == 0 || m.is_thin != 0))
-        warnings_add(report, "statements without effect",
-                     "%s:%" PRIu64 ": found Tf_distance, which solid glass "
-                     "uses: ignored",
-                     path, s->attenuation_distance.line);
+    check_medium(s, &m, &at);
     check_translucency(s, &m, &at);
-    m.emission = statement_radiance(&light, &at);
+    m.emission = statement_amounts(&light, "Ke", &at);
     m.is_boundary = is_boundary(&m);
     m.role = role_of(&m);
     return m;

@@ -203,8 +203,8 @@ struct vec3 statement_reflectance(const struct mtl_color *c, const char *key,
     return (struct vec3){(float)rgb[0], (float)rgb[1], (float)rgb[2]};
 }
 
-struct vec3 statement_radiance(const struct mtl_color *c,
-                               const struct statement_place *at)
+struct vec3 statement_amounts(const struct mtl_color *c, const char *key,
+                              const struct statement_place *at)
 {
     float rgb[3] = {0, 0, 0};
     bool is_changed = false;
@@ -216,10 +216,10 @@ struct vec3 statement_radiance(const struct mtl_color *c,
             is_changed = true;
     }
     if (is_changed)
-        warnings_add(at->report, "radiances out of range",
-                     "%s:%" PRIu64 ": found Ke %g %g %g, expected numbers of "
+        warnings_add(at->report, "colours out of range",
+                     "%s:%" PRIu64 ": found %s %g %g %g, expected numbers of "
                      "at least 0: others taken as 0",
-                     at->path, c->line, c->rgb[0], c->rgb[1], c->rgb[2]);
+                     at->path, c->line, key, c->rgb[0], c->rgb[1], c->rgb[2]);
     return (struct vec3){rgb[0], rgb[1], rgb[2]};
 }
 

@@ -189,10 +189,10 @@ struct vec3 statement_reflectance(const struct mtl_color *color,
                                   const char *key, float missing,
                                   const struct statement_place *at);
 
-/* Returns a radiance. Channels that are negative or no floats become 0, with a
- * warning. */
-struct vec3 statement_radiance(const struct mtl_color *color,
-                               const struct statement_place *at);
+/* Returns radiances or coefficients. Channels that are negative or no floats
+ * become 0, with a warning. */
+struct vec3 statement_amounts(const struct mtl_color *color, const char *key,
+                              const struct statement_place *at);
 
 /* Returns the number if it is in [lo, hi], else `missing`; a number out of
  * range is reported. */

@@ -8,64 +8,8 @@
 #include "read/mtl.h"
 #include "scene/material.h"
 #include "tests/unit/files.h"
+#include "tests/unit/read/one_material.h"
 #include "kernels/energy.h"
-
-struct loaded {
-    struct scene scene;
-    struct warnings report;
-    struct error err;
-    bool ok;
-};
-
-static struct loaded load(const char *text)
-{
-    struct loaded l = {.ok = false};
-    size_t size_bytes = strlen(text);
-    char *copy = malloc(size_bytes == 0 ? 1 : size_bytes);
-
-    assert_non_null(copy);
-    memcpy(copy, text, size_bytes);
-    l.ok = mtl_parse(&l.scene, copy, size_bytes, "a.mtl", &l.report, &l.err);
-    free(copy);
-    return l;
-}
-
-static void unload(struct loaded *l)
-{
-    scene_free(&l->scene);
-    warnings_free(&l->report);
-}
-
-/* Returns the material "m" of these statements, which give this many kinds of
- * warnings. */
-static struct material only_material(const char *statements, int warnings)
-{
-    struct material m;
-    char text[1024];
-    struct loaded l;
-    uint32_t index;
-
-    snprintf(text, sizeof text, "newmtl m\n%s\n", statements);
-    l = load(text);
-    if (!l.ok)
-        print_error("%s\n", l.err.text);
-    assert_true(l.ok);
-    for (int i = warnings; i < l.report.entry_count; i++)
-        print_error("%s\n", l.report.entries[i].text);
-    assert_int_equal(l.report.entry_count, warnings);
-    index = mtl_find(&l.scene, "m");
-    assert_int_not_equal(index, NO_INDEX);
-    m = l.scene.materials[index];
-    unload(&l);
-    return m;
-}
-
-static void check_color(struct vec3 c, double r, double g, double b)
-{
-    check_close((double)c.x, r, 1e-7);
-    check_close((double)c.y, g, 1e-7);
-    check_close((double)c.z, b, 1e-7);
-}
 
 static void statements_choose_the_kind(void **state)
 {
@@ -587,8 +531,8 @@ static void solids_absorb_their_colour(void **state)
     only_material("Kd .5\nTf_distance 2", 1);
 }
 
-/* Sf is the weight of light below diffuse surfaces and plastic, Sr its mean free
- * path. */
+/* Sf is the weight of light below diffuse surfaces and plastic, Sr its mean
+ * free path. */
 static void surfaces_have_light_below(void **state)
 {
     struct material m = only_material("Kd .7\nSf .5\nSr .1 .2 .4\nSg -.5", 0);
@@ -609,8 +553,8 @@ static void surfaces_have_light_below(void **state)
     assert_true(only_material("Kd .7\nSf 1\nSr 0 0 0", 1).subsurface == 0);
     assert_true(only_material("Pm 1\nSf 1\nSr 1 1 1", 1).subsurface == 0);
     assert_true(only_material("Kd .7\nSf 7\nSr 1 1 1", 1).subsurface == 1);
-    assert_true(only_material("Kd .7\nSf 1\nSr 1 1 1\nSg 2", 1)
-                    .medium.anisotropy == 0);
+    assert_true(
+        only_material("Kd .7\nSf 1\nSr 1 1 1\nSg 2", 1).medium.anisotropy == 0);
 }
 
 static void sheets_are_rough_if_the_file_says_so(void **state)

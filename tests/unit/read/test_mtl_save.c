@@ -64,6 +64,13 @@ static void absorb(struct material_values *s)
     s->maps_off ^= 1u << MTL_MAP_COAT;
 }
 
+static void scatter(struct material_values *s)
+{
+    s->medium_scatter = (struct mtl_color){{0.5, 1e-30, 1e30}, 1};
+    s->medium_absorb.line = 0;
+    s->medium_anisotropy = number(-0.25);
+}
+
 static void layer(struct material_values *s)
 {
     s->sheen_roughness = number(0.25);
@@ -117,6 +124,15 @@ static void only_changed_statements_are_written(void **state)
         {"newmtl m\nNs 30\n", roughen, "newmtl m\nNs 30\nPr 0.5\n"},
         {"newmtl m\nTf_thin 1\nmap_Pc a.png\n", absorb,
          "newmtl m\nTf_thin 0\n#map_Pc a.png\nNi_abbe 22\nTf_distance 2.5\n"},
+        {"newmtl m\nillum 7\nTf_absorb 1 2 3 # red\nTf_scatter 1 # milk\n",
+         scatter,
+         "newmtl m\nillum 7\n # red\nTf_scatter 0.5 1e-30 1e+30 # milk\n"
+         "Tf_anisotropy -0.25\n"},
+        {"newmtl m\nillum 7\nTf_multiscatter .9\nTf_albedo .8\n"
+         "Tf_distance 2\n",
+         scatter,
+         "newmtl m\nillum 7\nTf_multiscatter .9\nTf_albedo .8\n"
+         "Tf_distance 2\nTf_scatter 0.5 1e-30 1e+30\nTf_anisotropy -0.25\n"},
         {"newmtl m\nPs 1\nPf 0\n", layer,
          "newmtl m\nPs 1\nPf 1\nPs_roughness 0.25\nPf_ior 1.5\n"
          "Pf_thickness 300\nd_cutoff 0.5\n"},
