@@ -313,7 +313,8 @@ static bool read_part(struct view_reader *r, const struct part_list *list,
     return true;
 }
 
-/* Reads fog scatter R G B absorb R G B ...; what is left out is 0. */
+/* Reads fog scatter R G B absorb R G B ...; what is left out is 0, and so is
+ * what has no effect, which is not written. */
 static bool read_fog(struct view_reader *r, struct error *err)
 {
     struct fog fog = {.falloff = 0};
@@ -324,6 +325,10 @@ static bool read_fog(struct view_reader *r, struct error *err)
         if (!read_part(r, &fog_list, name, &fog, err))
             return false;
     }
+    if (!fog_is_there(&fog))
+        fog = (struct fog){.falloff = 0};
+    if (!(fog.falloff > 0))
+        fog.base = fog.falloff = 0;
     r->view->lighting.fog = fog;
     return true;
 }

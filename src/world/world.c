@@ -434,15 +434,19 @@ static struct sky make_sky(const struct host_world *host,
     return sky;
 }
 
-/* A height beyond the reach of floats becomes the nearest of their range. */
+/* A height or a falloff beyond the reach of floats becomes the nearest of their
+ * range. */
 static struct medium make_fog(const struct scene *scene, const struct fog *f)
 {
     double base = (f->base - scene->center[1]) * scene->scale;
+    double falloff = f->falloff * scene->scale;
     struct medium m = {
         .scattering = scaled(f->scatter, 1 / scene->scale),
         .anisotropy = medium_anisotropy(f->anisotropy),
         .base = (float)fmax(fmin(base, EYE_MAX), -EYE_MAX),
-        .falloff = (float)fmin(f->falloff * scene->scale, EYE_MAX),
+        .falloff = f->falloff > 0
+                       ? (float)fmin(fmax(falloff, 1 / EYE_MAX), EYE_MAX)
+                       : 0,
     };
 
     m.extinction = v3_add(m.scattering, scaled(f->absorb, 1 / scene->scale));

@@ -19,6 +19,14 @@ static int is_reflectance(struct vec3 c)
     return is_light(c) && c.x <= 1 && c.y <= 1 && c.z <= 1;
 }
 
+static int is_medium(const struct medium *m)
+{
+    return is_light(m->scattering) && is_light(m->extinction) &&
+           m->scattering.x <= m->extinction.x &&
+           m->scattering.y <= m->extinction.y &&
+           m->scattering.z <= m->extinction.z && fabsf(m->anisotropy) < 1;
+}
+
 static int is_texture(const struct scene *scene, uint32_t index)
 {
     return index == NO_INDEX || index < scene->texture_count;
@@ -48,7 +56,7 @@ static void check_material(const struct scene *scene, const struct material *m)
     require(m->film_thickness >= 0 && m->film_thickness <= 2000,
             "thickness of the film");
     require(m->cutoff >= 0 && m->cutoff <= 1, "cutoff");
-    require(is_light(m->medium.extinction), "absorption");
+    require(is_medium(&m->medium), "medium");
     require(isfinite(m->normal_strength), "slope of normals");
     require(isfinite(m->coat_normal_strength), "slope of the coat's normals");
     material_maps(m, maps);

@@ -91,6 +91,9 @@ static void check_same(const struct view *a, const struct view *b)
                 sun_has_same_sky(&a->lighting.sun, &b->lighting.sun) &&
                 a->lighting.sun.azimuth_deg == b->lighting.sun.azimuth_deg,
             "sky");
+    require(memcmp(&a->lighting.fog, &b->lighting.fog,
+                   sizeof a->lighting.fog) == 0,
+            "fog");
     require(a->lighting.exposure == b->lighting.exposure &&
                 a->lighting.tone == b->lighting.tone,
             "exposure");

@@ -133,6 +133,36 @@ static void all_keys_are_read(void **state)
     view_free(&view);
 }
 
+/* What a line of fog leaves out is 0, and so is what has no effect. */
+static void fog_is_read(void **state)
+{
+    const struct fog none = {.falloff = 0};
+    struct view view;
+    const struct fog *fog = &view.lighting.fog;
+
+    (void)state;
+    read_text(&view, "fog scatter .1 .2 .3 absorb 0 1e-30 1e30 anisotropy "
+                     "-1\theight -2 falloff 5 # at dawn\n");
+    is3(fog->scatter, .1, .2, .3);
+    is3(fog->absorb, 0, 1e-30, 1e30);
+    assert_true(fog->anisotropy == -1 && fog->base == -2 && fog->falloff == 5);
+    view_free(&view);
+    read_text(&view, "fog falloff 3 height 1 absorb 0 0 1\n");
+    is3(fog->scatter, 0, 0, 0);
+    is3(fog->absorb, 0, 0, 1);
+    assert_true(fog->anisotropy == 0 && fog->base == 1 && fog->falloff == 3);
+    view_free(&view);
+    read_text(&view, "fog height 2 scatter 1 1 1\n");
+    assert_true(fog->base == 0 && fog->falloff == 0);
+    view_free(&view);
+    read_text(&view, "fog scatter 1 1 1\nfog\n");
+    assert_memory_equal(fog, &none, sizeof none);
+    view_free(&view);
+    read_text(&view, "fog scatter 0 0 0 anisotropy .5 falloff 2\n");
+    assert_memory_equal(fog, &none, sizeof none);
+    view_free(&view);
+}
+
 static void later_lines_override_earlier_ones(void **state)
 {
     struct warnings report = {0};
@@ -179,6 +209,8 @@ static void wrong_lines_have_their_message(void **state)
     static const char sun[] = "an azimuth from -360 to 360 and an elevation "
                               "from -90 to 90 degrees";
     static const char number[] = "a number from 1 to 9";
+    static const char media[] =
+        "scatter, absorb, anisotropy, height or falloff";
     static const char parts[] = "eye, at, up, fovy, aperture or focus";
     static const struct {
         const char *text, *found, *expected, *key;
@@ -242,6 +274,18 @@ static void wrong_lines_have_their_message(void **state)
          "irradiance or angle", "directional"},
         {"light directional 1 2 angle 181", "'181'",
          "an angle from 0 to 180 degrees", "angle"},
+        {"fog dense", "'dense'", media, "fog"},
+        {"fog .1 .1 .1", "'.1'", media, "fog"},
+        {"fog scatter 1 1", "the end of the line", light, "scatter"},
+        {"fog scatter 1 1 1 1", "'1'", media, "fog"},
+        {"fog scatter 1 1 -1", "'-1'", light, "scatter"},
+        {"fog absorb 1 nan 1", "'nan'", light, "absorb"},
+        {"fog absorb 1 2e30 1", "'2e30'", light, "absorb"},
+        {"fog absorb 1 absorb 2", "'absorb'", light, "absorb"},
+        {"fog anisotropy 1.1", "'1.1'", "a number from -1 to 1", "anisotropy"},
+        {"fog height", "the end of the line", "a number from -1e30 to 1e30",
+         "height"},
+        {"fog falloff -1", "'-1'", "a number from 0 to 1e30", "falloff"},
         {"medium", "the end of the line", "a file", "medium"},
         {"medium \"\"", "the end of the line", "a file", "medium"},
         {"medium \"a", "the end of the line", "a file", "medium"},
@@ -644,6 +688,38 @@ static void lines_of_others_are_kept(void **state)
     view_free(&view);
 }
 
+/* The line of fog stays as it was written until the fog changes, and goes with
+ * it. */
+static void fog_is_written_at_its_place(void **state)
+{
+    const char *path = put("fovy 30\nfog absorb .10 0 0 scatter 0 0 0 # red\n"
+                           "exposure 1\n");
+    struct warnings report = {0};
+    struct error err;
+    struct view view;
+
+    (void)state;
+    view_init(&view);
+    assert_true(view_read(&view, path, &report, &err));
+    view.lighting.exposure = 2;
+    assert_true(view_write(&view, path, &change, &err));
+    is_file(path, "fovy 30\nfog absorb .10 0 0 scatter 0 0 0 # red\n"
+                  "exposure 2\n");
+    view.lighting.fog.scatter[1] = 1e-30;
+    view.lighting.fog.base = 4;
+    assert_true(view_write(&view, path, &change, &err));
+    is_file(path, "fovy 30\nfog scatter 0 1e-30 0 absorb 0.1 0 0 anisotropy 0\n"
+                  "exposure 2\n");
+    view.lighting.fog.falloff = .5;
+    assert_true(view_write(&view, path, &change, &err));
+    is_file(path, "fovy 30\nfog scatter 0 1e-30 0 absorb 0.1 0 0 anisotropy 0 "
+                  "height 4 falloff 0.5\nexposure 2\n");
+    view.lighting.fog = (struct fog){.anisotropy = .5};
+    assert_true(view_write(&view, path, &change, &err));
+    is_file(path, "fovy 30\nexposure 2\n");
+    view_free(&view);
+}
+
 /* What has not changed stays as it was written, to the digit. */
 static void unchanged_lines_are_kept(void **state)
 {
@@ -773,6 +849,7 @@ int main(void)
             shared_camera_files_are_read), /* before the folder changes */
         cmocka_unit_test(absent_keys_have_their_defaults),
         cmocka_unit_test(all_keys_are_read),
+        cmocka_unit_test(fog_is_read),
         cmocka_unit_test(later_lines_override_earlier_ones),
         cmocka_unit_test(limits_are_accepted),
         cmocka_unit_test(wrong_lines_have_their_message),
@@ -785,6 +862,7 @@ int main(void)
         cmocka_unit_test(copies_own_their_texts),
         cmocka_unit_test(numbered_views_have_the_keys_above),
         cmocka_unit_test(lines_of_others_are_kept),
+        cmocka_unit_test(fog_is_written_at_its_place),
         cmocka_unit_test(unchanged_lines_are_kept),
         cmocka_unit_test(lights_are_read),
         cmocka_unit_test(lights_are_written_in_this_form),
