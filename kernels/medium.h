@@ -157,14 +157,22 @@ static inline struct vec3 transmittance(struct vec3 extinction, float depth)
               f_exp(-extinction.z * depth));
 }
 
+/* Returns a share of radiance. Radiance beyond floats is the greatest float, so
+ * that nothing is left of it where the share is 0. */
+static inline struct vec3 radiance_share(struct vec3 radiance,
+                                         struct vec3 share)
+{
+    return v3_mul(v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), radiance), share);
+}
+
 /* Returns radiance that has come a distance t along the ray, against it. */
 static inline struct vec3
 attenuated(struct vec3 radiance, const struct medium *m, struct ray r, float t)
 {
     if (v3_is_zero(m->extinction))
         return radiance;
-    return v3_mul(radiance,
-                  transmittance(m->extinction, medium_depth(m, r, t)));
+    return radiance_share(radiance,
+                          transmittance(m->extinction, medium_depth(m, r, t)));
 }
 
 /* ---- scattering ---- */

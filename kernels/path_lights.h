@@ -309,12 +309,12 @@ static inline bool path_choose_medium_light(const struct world *w,
                       path_2d(p, DIMENSION_LIGHT_CHOICE), &l))
         return false;
     pdf = phase_density(m, d, l.wi);
-    radiance = v3_scale(l.radiance, pdf);
+    radiance =
+        path_part(p, l.radiance,
+                  pdf * light_mis_weight(w, l.pdf, l.is_delta ? 0.0f : pdf) /
+                      l.pdf);
     if (v3_is_zero(radiance))
         return false;
-    radiance =
-        path_part(p, radiance,
-                  light_mis_weight(w, l.pdf, l.is_delta ? 0.0f : pdf) / l.pdf);
     v.above = p->from.p;
     v.face = 0;
     p->light.tri = l.tri;
@@ -380,8 +380,8 @@ static inline void path_add_light(const struct world *w, struct path *p)
 {
     if (HAS(FEATURE_MEDIA) && w->settings.has_boundaries != 0) {
         p->out.radiance =
-            v3_add(p->out.radiance,
-                   v3_mul(p->light.radiance, shadow_transmittance(w, p)));
+            v3_add(p->out.radiance, radiance_share(p->light.radiance,
+                                                   shadow_transmittance(w, p)));
         return;
     }
     p->out.rays++;

@@ -113,13 +113,45 @@ static inline void put_images(void)
     fclose(f);
 }
 
-static inline void put_numbers(FILE *f, const char *key, int count,
-                               double (*number)(uint64_t *), uint64_t *seed)
+static inline void put_words(FILE *f, const char *key, int count,
+                             double (*number)(uint64_t *), uint64_t *seed)
 {
     fprintf(f, "%s", key);
     while (count-- > 0)
         fprintf(f, " %.9g", number(seed));
+}
+
+static inline void put_numbers(FILE *f, const char *key, int count,
+                               double (*number)(uint64_t *), uint64_t *seed)
+{
+    put_words(f, key, count, number, seed);
     fprintf(f, "\n");
+}
+
+/* Returns the mean cosine of scattering, often an end of its range. */
+static inline double cosine(uint64_t *seed)
+{
+    return fmax(-1, fmin(2.5 * check_random(seed) - 1.25, 1));
+}
+
+/* Writes what fills a body, in most cases of one without a surface. */
+static inline void put_any_medium(FILE *f, uint64_t *seed)
+{
+    static const char *const colors[] = {"Tf_scatter", "Tf_absorb",
+                                         "Tf_attenuation", "Tf_albedo",
+                                         "Tf_multiscatter"};
+    bool is_by_distance = check_random(seed) < 0.3;
+
+    fprintf(f, "illum 7\n");
+    if (check_random(seed) < 0.7)
+        fprintf(f, "Ni 1\nTf 1\nKe 0\nd 1\n");
+    for (int i = is_by_distance ? 2 : 0; i < (is_by_distance ? 5 : 2); i++)
+        if (check_random(seed) < 0.8)
+            put_numbers(f, colors[i], check_random(seed) < 0.5 ? 1 : 3, amount,
+                        seed);
+    if (is_by_distance)
+        put_numbers(f, "Tf_distance", 1, amount, seed);
+    put_numbers(f, "Tf_anisotropy", 1, cosine, seed);
 }
 
 static inline void put_any_material(FILE *f, int number, uint64_t *seed)
@@ -147,6 +179,8 @@ static inline void put_any_material(FILE *f, int number, uint64_t *seed)
             fprintf(f, "%s -o %.9g %.9g -s %.9g %.9g t.tga\n", maps[i],
                     coordinate(seed), coordinate(seed), coordinate(seed),
                     coordinate(seed));
+    if (check_random(seed) < 0.2)
+        put_any_medium(f, seed);
 }
 
 static inline void put_faces(FILE *f, int materials, int vertices,
@@ -204,6 +238,18 @@ static inline double place(uint64_t *seed)
     return fmax(-1e30, fmin(coordinate(seed), 1e30));
 }
 
+static inline void put_any_fog(FILE *f, uint64_t *seed)
+{
+    put_words(f, "fog scatter", 3, up_to_1e30, seed);
+    put_words(f, " absorb", 3, up_to_1e30, seed);
+    put_words(f, " anisotropy", 1, cosine, seed);
+    if (check_random(seed) < 0.5) {
+        put_words(f, " height", 1, place, seed);
+        put_words(f, " falloff", 1, up_to_1e30, seed);
+    }
+    fprintf(f, "\n");
+}
+
 static inline void put_view(uint64_t *seed)
 {
     FILE *f = extremes_file("a.view");
@@ -229,6 +275,8 @@ static inline void put_view(uint64_t *seed)
         put_numbers(f, "sky_strength", 1, up_to_1e30, seed);
     if (check_random(seed) < 0.3)
         fprintf(f, "max_bounces %d\n", (int)one_of(seed, 9));
+    if (check_random(seed) < 0.3)
+        put_any_fog(f, seed);
     fclose(f);
 }
 
