@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
  * test_scenes_cl.c - scenes with every feature on the OpenCL device and on the
- * CPU: the shipped scenes, edited ones, lamps, and random glTF files
+ * CPU: the shipped scenes, edited ones, lamps, media, and random glTF files
  */
 #include "tests/unit/files.h"
 #include "tests/unit/folder.h"
@@ -121,6 +121,111 @@ static void lamps_are_equal(void **state)
     close_pair(&p);
 }
 
+/* ---- media ---- */
+
+static const char media_mtl[] =
+    "newmtl floor\nKd .7 .6 .5\n"
+    "newmtl lamp\nKd 0\nKe 9 8 7\n"
+    "newmtl smoke\nillum 7\nNi 1\nTf_scatter 1 2 4\nTf_absorb .5 .2 0\n"
+    "Tf_anisotropy .6\n"
+    "newmtl core\nillum 7\nNi 1\nTf_scatter 9 3 1\nTf_anisotropy -.4\n"
+    "newmtl milk\nillum 7\nNi 1.34\nTf .8\nTf_distance .3\n"
+    "Tf_attenuation .2 .3 .4\nTf_multiscatter .9 .8 .7\n"
+    "newmtl frosted\nillum 7\nNi 1.5\nPr .5\nTf_scatter 2\nTf_absorb 0 .1 1\n";
+
+/* Writes a box whose faces point outwards. */
+static void put_box(FILE *f, const char *material, const double low[3],
+                    const double high[3])
+{
+    static const int faces[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5},
+                                    {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
+
+    fprintf(f, "usemtl %s\n", material);
+    for (int i = 0; i < 8; i++)
+        fprintf(f, "v %g %g %g\n", i & 1 ? high[0] : low[0],
+                i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]);
+    for (int i = 0; i < 6; i++)
+        fprintf(f, "f %d %d %d %d\n", faces[i][0] - 9, faces[i][1] - 9,
+                faces[i][2] - 9, faces[i][3] - 9);
+}
+
+/* Writes bodies on a floor: smoke around a core, milk in smooth and in rough
+ * glass, which touches the floor, and a lamp over them if it is wanted. */
+static void put_media(const char *view, bool has_lamp)
+{
+    char path[sizeof folder + 32];
+    FILE *f;
+
+    snprintf(path, sizeof path, "%s/media.mtl", folder);
+    put_bytes(path, media_mtl, strlen(media_mtl));
+    snprintf(path, sizeof path, "%s/media.view", folder);
+    put_bytes(path, view, strlen(view));
+    snprintf(path, sizeof path, "%s/media.obj", folder);
+    f = fopen(path, "w");
+    assert_non_null(f);
+    fprintf(f, "mtllib media.mtl\nusemtl floor\nv -4 0 4\nv 4 0 4\nv 4 0 -4\n"
+               "v -4 0 -4\nf -4 -3 -2 -1\n");
+    put_box(f, "smoke", (const double[3]){-1, .2, -1},
+            (const double[3]){.2, 1.4, .2});
+    put_box(f, "core", (const double[3]){-.7, .5, -.7},
+            (const double[3]){-.1, 1, -.1});
+    put_box(f, "milk", (const double[3]){.4, .1, -.6},
+            (const double[3]){1, 1, 0});
+    put_box(f, "frosted", (const double[3]){.2, 0, .3},
+            (const double[3]){.8, .5, .9});
+    if (has_lamp)
+        fprintf(f, "usemtl lamp\nv -.5 2 .5\nv -.5 2 -.5\nv .5 2 -.5\n"
+                   "v .5 2 .5\nf -4 -3 -2 -1\n");
+    assert_int_equal(fclose(f), 0);
+}
+
+#define OUTSIDE "eye 0 1.2 4\nat 0 .6 0\n"
+
+/* Bodies and fog under each kind of light, seen from outside and inside. */
+static void media_are_equal(void **state)
+{
+    static const struct {
+        const char *view;
+        bool has_lamp;
+    } cases[] = {
+        {OUTSIDE "background .5 .6 .7\n", true},
+        {OUTSIDE "light point 1 2 1 intensity 3 3 3\n"
+                 "fog scatter .1 .2 .3 absorb .1 0 0 anisotropy .7\n",
+         false},
+        {OUTSIDE "sun 120 30\nfog scatter .3 .2 .1 height .5 falloff .4\n",
+         false},
+        {"eye -.9 1 -.3\nat .6 .5 -.3\nlight spot 0 2 2 at 0 0 0 radius .2\n"
+         "light directional 20 50 angle 2\n",
+         true},
+        {"eye -.4 .8 -.4\nat 1 .4 .3\nbackground 1 1 1\n"
+         "fog absorb .3 .2 .1 falloff 2\n",
+         false},
+        {"eye .7 .5 -.3\nat -.4 .8 -.4\naperture .1\nbackground 1 .9 .8\n",
+         true},
+        {OUTSIDE "max_bounces 2\nlight point 1 .3 1 radius .1\n"
+                 "fog scatter 1 0 9 anisotropy -1\n",
+         true},
+    };
+
+    (void)state;
+    for (uint32_t i = 0; device && i < sizeof cases / sizeof cases[0]; i++) {
+        char path[sizeof folder + 32];
+        struct pair p;
+
+        put_media(cases[i].view, cases[i].has_lamp);
+        snprintf(path, sizeof path, "%s/media.obj", folder);
+        open_pair(&p, path, 48, 36);
+        assert_true((world_features(&p.world) & FEATURE_MEDIA) != 0);
+        render_both(&p, (struct rect){0, 0, 48, 36}, 5, i);
+        p.has_surfaces = true;
+        render_both(&p, (struct rect){0, 0, 48, 36}, 2, i);
+        p.has_surfaces = false;
+        if (check_is_thorough())
+            render_special(&p, (struct rect){0, 0, 48, 36}, 3, i);
+        close_pair(&p);
+    }
+}
+
 /* What the random files are for. */
 #define RANDOM_FEATURES                                                        \
     ((uint64_t)(FEATURE_COVERAGE | FEATURE_TEXTURES | FEATURE_ROUGH |          \
@@ -175,6 +280,7 @@ int main(void)
         cmocka_unit_test(shipped_scenes_are_equal),
         cmocka_unit_test(edited_worlds_are_equal),
         cmocka_unit_test(lamps_are_equal),
+        cmocka_unit_test(media_are_equal),
         cmocka_unit_test(random_files_are_equal),
     };
 
