@@ -25,3 +25,33 @@ glim info bright.film | grep fault
 run_untimed develop -o cut.png bright.film
 glim reference $b -s 80 ref.pfm bright.obj 2>&1 | grep warning
 glim curve -s 8 ref.pfm bright.obj 2>&1 >/dev/null | grep warning
+# Media of coefficients and cosines at their limits, in a body around the eye and
+# as fog that ends nowhere: no sample is lost, and paths end.
+printf 'mtllib body.mtl\nusemtl m\n' >body.obj
+printf 'v %s\n' '-1 -1 -1' '1 -1 -1' '-1 1 -1' '1 1 -1' '-1 -1 1' '1 -1 1' \
+    '-1 1 1' '1 1 1' >>body.obj
+printf 'f %s\n' '1 3 4 2' '5 6 8 7' '1 2 6 5' '3 7 8 4' '1 5 7 3' '2 4 8 6' \
+    >>body.obj
+render() # WHAT
+{
+    glim -b -w 6 -h 4 -s 2 -t 1 -o body.pfm body.obj >body.out 2>&1 &&
+        ! grep -q warning body.out || { echo "$1:" && cat body.out; }
+}
+for sigma in 0 1e-30 1 1e30; do
+    for g in -1 0 1; do
+        printf 'newmtl m\nillum 7\nNi 1\nTf_scatter %s 0 1\nTf_absorb %s %s 0\n' \
+            $sigma 0 $sigma >body.mtl
+        printf 'Tf_anisotropy %s\n' $g >>body.mtl
+        printf 'eye 0 0 .5\nat 0 0 0\nbackground 1 1 1\n%s\n' \
+            'light point .5 .5 0' >body.view
+        render "body of $sigma, $g"
+        printf 'newmtl m\nKd .5\n' >body.mtl
+        for falloff in 0 1e-30 1e-3 1e30; do
+            printf 'eye 0 0 3\nat 0 0 0\nbackground 1 1 1\n%s\n' \
+                'light point .5 1.5 0' >body.view
+            printf 'fog scatter %s 0 1 absorb 0 %s 0 anisotropy %s %s %s\n' \
+                $sigma $sigma $g 'height 0 falloff' $falloff >>body.view
+            render "fog of $sigma, $g, $falloff"
+        done
+    done
+done
