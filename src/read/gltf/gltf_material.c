@@ -264,46 +264,40 @@ static bool read_glossiness(struct reader *r, const struct gltf_value *v,
 
 /* ---- layers ---- */
 
-/* Reads the color of a draft's scattering medium. Both spellings of the key
- * are in use. */
-static bool read_scatter_color(struct reader *r, const struct gltf_value *v,
-                               double color[3])
-{
-    return gltf_numbers(v, "multiscatterColor", 3, color, r->err) &&
-           gltf_numbers(v, "multiscatterColorFactor", 3, color, r->err);
-}
-
 /* Reads the color and the mean cosine of scattering: those of
  * KHR_materials_scatter, else of KHR_materials_volume_scatter, the draft before
- * it. The color is black if nothing is scattered. */
-static bool read_scatter(struct reader *r, bool is_thin, double color[3],
+ * it. Both spellings of the color are in use. It is black if nothing is
+ * scattered. A surface that is no boundary of a solid does not use them. */
+static bool read_scatter(struct reader *r, bool is_solid, double color[3],
                          double *cosine)
 {
-    double strength = 0;
     struct gltf_value v, older;
+    double strength;
 
     if (!gltf_extension(&r->v, "KHR_materials_scatter", &v, r->err) ||
         !gltf_extension(&r->v, "KHR_materials_volume_scatter", &older, r->err))
         return false;
+    strength = v.json == NULL;
     for (int i = 0; i < 3; i++)
         color[i] = v.json != NULL;
     if (v.json == NULL)
-        strength = 1;
+        v = older;
     if (!read_number(r, &v, "scatterStrengthFactor", &strength) ||
-        !read_scatter_color(r, v.json != NULL ? &v : &older, color) ||
-        !read_number(r, v.json != NULL ? &v : &older, "scatterAnisotropy",
-                     cosine))
+        !gltf_numbers(&v, "multiscatterColor", 3, color, r->err) ||
+        !gltf_numbers(&v, "multiscatterColorFactor", 3, color, r->err) ||
+        !read_number(r, &v, "scatterAnisotropy", cosine))
         return false;
     for (int i = 0; i < 3; i++)
         color[i] *= statement_clamped(strength);
-    if (is_thin && !is_black(color))
-        warn(r, "thin surfaces that scatter",
-             "scattering without a KHR_materials_volume that is thick: "
-             "ignored");
+    if (is_black(color))
+        return true;
+    if (!is_solid)
+        warn(r, "media without a body",
+             "scattering without KHR_materials_transmission and a thick "
+             "KHR_materials_volume: ignored");
     else if (json_object_get(v.json, "multiscatterColorTexture") != NULL ||
              json_object_get(v.json, "scatterStrengthTexture") != NULL)
-        warn(r, "maps of media",
-             "KHR_materials_scatter: its textures are not used");
+        warn(r, "maps of media", "textures of scattering: not used");
     return true;
 }
 
@@ -315,7 +309,7 @@ static bool read_volume(struct reader *r)
     double thickness = 0, distance = INFINITY, tint[3] = {1, 1, 1};
     double dispersion = 0, color[3], cosine = 0;
     struct gltf_value volume, spread;
-    bool is_thin;
+    bool is_solid;
 
     if (!gltf_extension(&r->v, "KHR_materials_volume", &volume, r->err) ||
         !read_number(r, &volume, "thicknessFactor", &thickness) ||
@@ -324,10 +318,10 @@ static bool read_volume(struct reader *r)
         !gltf_extension(&r->v, "KHR_materials_dispersion", &spread, r->err) ||
         !read_number(r, &spread, "dispersion", &dispersion))
         return false;
-    is_thin = !(thickness > 0);
-    if (!read_scatter(r, is_thin, color, &cosine))
+    is_solid = thickness > 0;
+    if (!read_scatter(r, is_solid, color, &cosine))
         return false;
-    if (is_thin) {
+    if (!is_solid) {
         set_number(&s->thinness, 1);
         return true;
     }
@@ -348,14 +342,14 @@ static bool read_volume(struct reader *r)
 static bool read_transmission(struct reader *r)
 {
     struct material_values *s = &r->source;
-    double weight = 0;
+    double weight = 0, color[3], cosine;
     struct gltf_value v;
 
     if (!gltf_extension(&r->v, "KHR_materials_transmission", &v, r->err) ||
         !read_number(r, &v, "transmissionFactor", &weight))
         return false;
     if (!(weight > 0))
-        return true;
+        return read_scatter(r, false, color, &cosine);
     set_color(&s->transmission, (const double[3]){weight, weight, weight});
     return read_volume(r) &&
            read_map(r, &v, "transmissionTexture", of_red, MTL_MAP_TRANSMISSION);

@@ -530,17 +530,21 @@ static void drafts_are_used_with_warnings(void **state)
         const char *material, *warning;
     } cases[] = {
         {BODY("0", NEWER("\"scatterStrengthFactor\":1")),
-         "a.gltf: found scattering without a KHR_materials_volume that is "
-         "thick: ignored"},
+         "a.gltf: found scattering without KHR_materials_transmission and a "
+         "thick KHR_materials_volume: ignored"},
         {BODY("0", OLDER("\"multiscatterColor\":[1,1,1]")),
-         "a.gltf: found scattering without a KHR_materials_volume that is "
-         "thick: ignored"},
+         "a.gltf: found scattering without KHR_materials_transmission and a "
+         "thick KHR_materials_volume: ignored"},
+        {"{\"extensions\":{\"KHR_materials_volume\":{\"thicknessFactor\":"
+         "1}" OLDER("\"multiscatterColor\":[1,1,1]") "}}",
+         "a.gltf: found scattering without KHR_materials_transmission and a "
+         "thick KHR_materials_volume: ignored"},
         {BODY("1", NEWER("\"scatterStrengthFactor\":1,"
                          "\"scatterStrengthTexture\":{\"index\":0}")),
-         "a.gltf: found KHR_materials_scatter: its textures are not used"},
+         "a.gltf: found textures of scattering: not used"},
         {BODY("1", NEWER("\"scatterStrengthFactor\":1,"
                          "\"multiscatterColorTexture\":{\"index\":0}")),
-         "a.gltf: found KHR_materials_scatter: its textures are not used"},
+         "a.gltf: found textures of scattering: not used"},
     };
 
     (void)state;
