@@ -55,3 +55,10 @@ for sigma in 0 1e-30 1 1e30; do
         done
     done
 done
+# A falloff below all floats is no fog above its height, not an even one.
+printf 'newmtl m\nKd 0\nKe 1\n' >body.mtl
+printf 'eye 0 0 3\nat 0 0 0\nmax_bounces 0\n' >body.view
+render "no fog" && cp body.pfm clear.pfm
+echo 'fog absorb 1 1 1 height -9 falloff 1e-50' >>body.view
+render "fog without a height"
+same body.pfm clear.pfm
