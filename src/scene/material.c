@@ -181,8 +181,8 @@ struct medium medium_scaled(struct medium m, float factor)
     return m;
 }
 
-/* The square of the root in medium_albedo_of() is linear in the color after its own terms
- * of second order are gone: 17.7126 is 4.20863 squared. */
+/* The square of the root in medium_albedo_of() is linear in the color after its
+ * own terms of second order are gone: 17.7126 is 4.20863 squared. */
 float seen_color(float albedo, float g)
 {
     float a = 4.09712f - sqrtf((1 - albedo) / (1 - g * albedo));
