@@ -19,6 +19,8 @@ static void free_step(struct edit_step *step)
 {
     if (step->kind == STEP_MATERIAL)
         free(step->value.source);
+    if (step->kind == STEP_LIGHTING)
+        free(step->value.lighting);
     if (step->kind == STEP_LAMPS)
         lamps_free(&step->value.lamps);
 }
@@ -258,7 +260,7 @@ static bool is_now(const struct edit *e, const struct edit_step *s)
     case STEP_ASSIGN: return s->value.material == now->assigned[s->index];
     case STEP_DUPLICATE: return s->value.is_there == now->is_there[s->index];
     case STEP_LIGHTING:
-        return lighting_equal(&s->value.lighting, &view->lighting);
+        return lighting_equal(s->value.lighting, &view->lighting);
     case STEP_LAMPS: return lamps_equal(&s->value.lamps, &view->lamps);
     case STEP_POSE: return is_same_pose(&s->value.pose, &view->pose);
     case STEP_SHOT:
@@ -307,7 +309,7 @@ static void exchange(struct edit *e, struct edit_step *s)
         must_render = false;
         break;
     case STEP_LIGHTING:
-        must_render = exchange_lighting(e, &s->value.lighting);
+        must_render = exchange_lighting(e, s->value.lighting);
         break;
     case STEP_LAMPS:
         EXCHANGE(struct lamps, &view->lamps, &s->value.lamps);
@@ -373,11 +375,13 @@ void edit_assign(struct edit *e, uint32_t object, uint32_t material)
 
 void edit_lighting(struct edit *e, const struct lighting *lighting)
 {
-    struct edit_step step = {.kind = STEP_LIGHTING,
-                             .value.lighting = with_own_path(e, lighting)};
+    struct edit_step step = {.kind = STEP_LIGHTING};
 
-    if (!is_now(e, &step))
-        change(e, step);
+    if (lighting_equal(lighting, &e->now.view.lighting))
+        return;
+    step.value.lighting = xmalloc(sizeof *lighting);
+    *step.value.lighting = with_own_path(e, lighting);
+    change(e, step);
 }
 
 /* Begins a change of the lamps with a copy of them. */

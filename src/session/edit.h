@@ -55,11 +55,12 @@ struct edit_step {
     uint32_t index; /* of the material, object, lamp or numbered view */
     uint32_t group;
     union {
-        struct material_values *source; /* the step's own; it is larger than
-                                      other values, and most steps are poses */
+        /* the step's own; these are larger than other values, and most steps
+         * are poses */
+        struct material_values *source;
+        struct lighting *lighting; /* its sky_path is borrowed from the edit */
         uint32_t material;
         bool is_there;
-        struct lighting lighting; /* its sky_path is borrowed from the edit */
         struct lamps lamps;       /* the step's own */
         struct pose pose;
         struct edit_shot shot;

@@ -26,7 +26,7 @@ wait_for "kept render 1: y shows differences, Esc ends"
 # green now: the wipe has red at its left and green at its right
 keys Tab Enter
 wait_for "│>....type"
-keys Down Down Down Down Down Down Down Down Down
+keys Down Down Down Down Down Down Down Down Down Down Down
 wait_for "│>....of colour"
 raw_keys '#0f0'
 keys Enter

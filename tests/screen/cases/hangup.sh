@@ -120,7 +120,7 @@ shows '255;255;255'
 keys Tab
 wait_for "│ Materials  Objects  Light "
 keys Enter
-keys Down Down Down Down Down Down Down Down Down
+keys Down Down Down Down Down Down Down Down Down Down Down
 wait_for "│>....of colour  #ffffff"
 raw_keys '#ff0000'
 keys Enter
@@ -134,7 +134,7 @@ wait_for "kept: \(unsaved changes\|.* s of render and unsaved changes\); ^R goes
 shows '255;255;255'
 # changes of this session do not replace it: both are kept
 keys Tab Enter
-keys Down Down Down Down Down Down Down Down Down
+keys Down Down Down Down Down Down Down Down Down Down Down
 raw_keys '#00ff00'
 keys Enter
 shows '0;255;0'

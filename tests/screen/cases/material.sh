@@ -28,7 +28,7 @@ start bare.obj
 wait_for LIVE
 keys Tab
 wait_for "│ ▕  ▏colour     #ff0000"
-keys Enter PPage NPage
+keys Enter End
 wait_for "│>    add image  map_Kd"
 keys Enter
 wait_for "found no image beside bare.obj"

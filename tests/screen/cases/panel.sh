@@ -26,7 +26,7 @@ keys Escape
 wait_until_gone "choose; change"
 # by hand: red light, typed
 keys Enter
-keys Down Down Down Down Down Down Down Down Down
+keys Down Down Down Down Down Down Down Down Down Down Down
 wait_for "^.*│>....of colour  #ffffff"
 raw_keys '#ff0000'
 wait_for "of colour  #ff0000_"
@@ -40,7 +40,7 @@ keys y
 wait_for "wrote the view"
 expect "│>....of colour  #ff0000"
 # a type is not typed: Enter goes to the next, and back with the undo
-keys Up Up Up Up Up Up Up Up Up
+keys Up Up Up Up Up Up Up Up Up Up Up
 wait_for "│>....type       diffuse"
 keys 5
 wait_for "changed with the arrows, or Enter"
@@ -48,7 +48,7 @@ keys Enter
 wait_for "│>....type       [^d ]"
 keys u
 wait_for "│>....type       diffuse"
-keys Down Down Down Down Down Down Down Down Down
+keys Down Down Down Down Down Down Down Down Down Down Down
 wait_for "│>....of colour  #ff0000"
 # half as bright by the arrows: one step of undo
 keys Up
@@ -90,7 +90,7 @@ keys IC
 wait_for "has its own material now: l.2"
 keys Tab Tab
 wait_for "│>....l.2               diffuse"
-keys Enter Down Down Down Down Down Down Down Down Down
+keys Enter Down Down Down Down Down Down Down Down Down Down Down
 raw_keys '#0f0'
 keys Enter
 shows '0;255;0'

@@ -9,7 +9,7 @@ start --watch lamp.obj
 wait_for LIVE
 keys Tab Enter
 wait_for "│>...."
-keys Down Down Down Down Down Down Down Down Down
+keys Down Down Down Down Down Down Down Down Down Down Down
 wait_for "│>....of colour  #ffffff"
 raw_keys '#ff0000'
 keys Enter

@@ -22,7 +22,7 @@ wait_for ": quit_"
 keys Escape Escape
 wait_until_gone "quit_"
 # a value takes it
-keys Tab Enter Down Down Down Down Down Down Down Down Down
+keys Tab Enter Down Down Down Down Down Down Down Down Down Down Down
 wait_for "│>....of colour"
 mux set-buffer '#ff0000'
 mux paste-buffer -p
