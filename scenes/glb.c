@@ -382,6 +382,19 @@ char *glb_shape(struct glb *g, const struct glb_grid *grid)
     return text;
 }
 
+char *glb_triangles(struct glb *g, const double *places, const double *normals,
+                    int count, const uint16_t *corners, int corner_count)
+{
+    char *text = grown(NULL, 200);
+    uint32_t place = glb_floats(g, places, count, 3, "VEC3");
+    uint32_t normal = glb_floats(g, normals, count, 3, "VEC3");
+
+    snprintf(text, 200,
+             "\"attributes\":{\"POSITION\":%u,\"NORMAL\":%u},\"indices\":%u",
+             place, normal, add_shorts(g, corners, corner_count, 1, "SCALAR"));
+    return text;
+}
+
 uint32_t glb_mesh_of(struct glb *g, const char *shape, uint32_t material)
 {
     return glb_add(&g->meshes, "{\"primitives\":[{%s,\"material\":%u}]}", shape,

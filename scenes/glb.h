@@ -67,6 +67,11 @@ uint32_t glb_texture(struct glb *g, const uint8_t *rgb, int width, int height,
  * part of a mesh, for free(). */
 char *glb_shape(struct glb *g, const struct glb_grid *grid);
 
+/* Writes points, three numbers each, with their normals, and the corners of
+ * triangles, and returns the same. */
+char *glb_triangles(struct glb *g, const double *places, const double *normals,
+                    int count, const uint16_t *corners, int corner_count);
+
 /* Adds a mesh of one shape, or of a grid. */
 uint32_t glb_mesh_of(struct glb *g, const char *shape, uint32_t material);
 uint32_t glb_mesh(struct glb *g, const struct glb_grid *grid,
