@@ -7,6 +7,7 @@
  */
 #include "glasses.h"
 #include "images.h"
+#include "media.h"
 #include "mesh.h"
 #include "models.h"
 
@@ -521,6 +522,7 @@ int main(int argc, char **argv)
     make_lights200();
     make_principled();
     glasses_write(folder);
+    media_write(folder);
     make_models();
     images_write(folder);
     return 0;
