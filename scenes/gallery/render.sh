@@ -22,7 +22,7 @@ render interior 320 700
 render skylit 320 300
 render lights200 320 500
 render principled 480 400
-for glass in globe bulb lantern water prism; do
+for glass in globe bulb lantern water prism milk; do
     "$glim" -b -w 480 -s 128 --denoise -o "scenes/gallery/$glass.png" \
         "scenes/$glass.obj"
     echo "scenes/gallery/$glass.png"
@@ -35,6 +35,10 @@ model() # model, samples, option...
     echo "scenes/gallery/$1.png"
 }
 
+"$glim" -b -w 480 -s 256 --denoise -o scenes/gallery/fog.png scenes/fog.obj
+echo scenes/gallery/fog.png
+"$glim" -b -w 480 -s 256 --denoise -o scenes/gallery/busts.png scenes/busts.glb
+echo scenes/gallery/busts.png
 model chess 500
 model bottles 1500
 model bubbles 1500

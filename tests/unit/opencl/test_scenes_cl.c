@@ -16,6 +16,7 @@ static const char *const scenes[] = {
     "scenes/principled.obj", "scenes/bottles.glb",   "scenes/bubbles.glb",
     "scenes/chess.glb",      "scenes/forest.glb",    "scenes/jellyfish.glb",
     "scenes/knot.glb",       "scenes/prism.obj",     "scenes/lantern.obj",
+    "scenes/fog.obj",        "scenes/busts.glb",     "scenes/milk.obj",
 };
 
 static void shipped_scenes_are_equal(void **state)
