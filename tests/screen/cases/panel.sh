@@ -147,9 +147,9 @@ wait_for "│>....l  "
 click=$(printf '\033[<0;%d;%dM\033[<0;%d;%dm' 55 3 55 3)
 raw_keys "$click"
 wait_for "│>....l\.2 "
-raw_keys "$(printf '\033[<0;60;13M\033[<0;60;13m')"
+raw_keys "$(printf '\033[<0;60;15M\033[<0;60;15m')"
 wait_for "│>....light "
-raw_keys "$(printf '\033[<65;60;13M')"
+raw_keys "$(printf '\033[<65;60;15M')"
 wait_for "│>....light      0.909"
 # a slider is dragged, and one undo takes the whole drag back
 raw_keys "$(printf '\033[<0;70;8M')"
