@@ -219,8 +219,7 @@ uint64_t engine_features(const struct engine *e, const struct view *view)
     return world_features(&e->world) | view_features(view) |
            (e->options.wants_filter ? FEATURE_FILTER : 0) |
            (e->options.is_exact ? 0 : FEATURE_RADIANCE_CELLS) |
-           (e->world.light_paths.sources != NULL ? FEATURE_LIGHT_PATHS
-                                                 : 0);
+           (e->world.light_paths.sources != NULL ? FEATURE_LIGHT_PATHS : 0);
 }
 
 struct cl_request engine_request(const struct engine *e, uint64_t features)

@@ -116,7 +116,8 @@ static inline void path_samples(const struct world *w,
         struct camera_sample start = {s.camera[i], samplers[i],
                                       (uint32_t)places[i].index & 1u};
 
-        path_open(w, &s.paths[i], start, estimates != NULL ? estimates + i : NULL);
+        path_open(w, &s.paths[i], start,
+                  estimates != NULL ? estimates + i : NULL);
     }
     stream_trace(w, &s, count);
     for (uint32_t i = 0; i < count; i++)

@@ -183,7 +183,7 @@ static struct world render_films_draft_world(const struct render_films *f,
     struct world w = job->world;
     struct projection_part part = {job->crop.x,     job->crop.y,
                                    job->crop.width, job->crop.height,
-                                   f->draft->width,  f->draft->height};
+                                   f->draft->width, f->draft->height};
 
     w.settings.camera = projection_camera(&w.settings.camera, &part);
     w.settings.order = ORDER_DRAFT;

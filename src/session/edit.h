@@ -61,7 +61,7 @@ struct edit_step {
         struct lighting *lighting; /* its sky_path is borrowed from the edit */
         uint32_t material;
         bool is_there;
-        struct lamps lamps;       /* the step's own */
+        struct lamps lamps; /* the step's own */
         struct pose pose;
         struct edit_shot shot;
     } value;

@@ -19,7 +19,7 @@ struct substance {
     const char *name;
     double ior, abbe; /* of glass; an Abbe number of 0: no dispersion */
     double roughness;
-    double depth; /* width of the body in mean free paths */
+    double depth;                 /* width of the body in mean free paths */
     double scatter[3], absorb[3]; /* coefficients in any unit of length */
 };
 

@@ -84,7 +84,8 @@ static void screen_draft_fit(struct live_render *control,
         s->draft_height = screen->moving_height;
     }
     screen_filter_draft_size(screen->frame_width, screen->frame_height,
-                             SCREEN_FILTER_PIXELS, &s->fine_width, &s->fine_height);
+                             SCREEN_FILTER_PIXELS, &s->fine_width,
+                             &s->fine_height);
     if (draft == NULL)
         draft = render_draft(s->engine.render);
     if (!control->is_halted && s->draft_has_surfaces && draft != NULL &&
@@ -644,8 +645,8 @@ static enum pixel_graphics_pace pace_of(const struct workspace *workspace)
                                            : PIXEL_GRAPHICS_RESTS;
 }
 
-/* Returns true if frames may have the pixels of a picture that rests. A filtered
- * one has them from its fine draft on. */
+/* Returns true if frames may have the pixels of a picture that rests. A
+ * filtered one has them from its fine draft on. */
 static bool is_fine(const struct workspace *workspace,
                     enum pixel_graphics_pace pace)
 {

@@ -58,8 +58,7 @@ static void free_sized(struct screen *screen)
 static void say_too_small(const struct tty_size *size)
 {
     char text[64];
-    int length =
-        snprintf(text, sizeof text, "needs %dx%d", COLS_MIN, ROWS_MIN);
+    int length = snprintf(text, sizeof text, "needs %dx%d", COLS_MIN, ROWS_MIN);
 
     if (size->cols >= COLS_MIN / 2)
         snprintf(text + length, sizeof text - (size_t)length, ", has %dx%d",

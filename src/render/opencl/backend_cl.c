@@ -148,9 +148,8 @@ static bool compile(struct cl_kernels *k, const struct cl_machine *m,
     cl_int code;
 
     /* rounds division and sqrt as IEEE 754 does, where the device can */
-    snprintf(options, sizeof options, "-cl-std=CL1.2 -Werror -DFEATURES=%" PRIu64
-             "ul%s",
-             k->features,
+    snprintf(options, sizeof options,
+             "-cl-std=CL1.2 -Werror -DFEATURES=%" PRIu64 "ul%s", k->features,
              m->device->has_correct_divide
                  ? " -cl-fp32-correctly-rounded-divide-sqrt"
                  : "");

@@ -87,10 +87,9 @@ static void screens_hide_their_share(void **state)
 {
     const float opacities[] = {1, 0.3f};
     const float glows[] = {0, 3};
-    const struct receiver receivers[] = {{{0, 0, 0}, {0, 1, 0}, false, false},
-                                         {{-0.4f, 0.05f, 0.1f},
-                                          {0.6f, 0.8f, 0},
-                                          false, false}};
+    const struct receiver receivers[] = {
+        {{0, 0, 0}, {0, 1, 0}, false, false},
+        {{-0.4f, 0.05f, 0.1f}, {0.6f, 0.8f, 0}, false, false}};
 
     (void)state;
     for (size_t k = 0; k < 8; k++) {
@@ -280,10 +279,9 @@ static void all_surfaces_shine_as_they_scatter(void **state)
 /* 300 lamps of three radiances are side by side in a plane. */
 static void many_lamps_add_up(void **state)
 {
-    const struct receiver receivers[] = {{{0, 0, 0}, {0, 1, 0}, false, false},
-                                         {{0.5f, 0.2f, -0.3f},
-                                          {-0.6f, 0.8f, 0},
-                                          false, false}};
+    const struct receiver receivers[] = {
+        {{0, 0, 0}, {0, 1, 0}, false, false},
+        {{0.5f, 0.2f, -0.3f}, {-0.6f, 0.8f, 0}, false, false}};
 
     (void)state;
     for (size_t k = 0; k < 2; k++) {

@@ -151,7 +151,8 @@ static void spots_fall_off_as_in_gltf(void **state)
         double part = fmin(fmax(cos(angle) * scale - outer * scale, 0), 1);
         struct vec3 d = {(float)sin(angle), (float)-cos(angle), 0};
         struct point_light l = point_at(v3(0.1f, 0.5f, 0.2f), 3);
-        struct receiver r = {v3_add(l.p, v3_scale(d, 2)), v3_neg(d), false, false};
+        struct receiver r = {v3_add(l.p, v3_scale(d, 2)), v3_neg(d), false,
+                             false};
         struct lit_mesh s;
 
         l.axis = v3(0, -1, 0);

@@ -262,7 +262,8 @@ static struct receiver receiver_at(int side, double a, double b)
     struct receiver r = {place(side, a, b),
                          {side / 2 == 0 ? n : 0, side / 2 == 1 ? n : 0,
                           side / 2 == 2 ? n : 0},
-                         false, false};
+                         false,
+                         false};
 
     return r;
 }
