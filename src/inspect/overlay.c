@@ -300,6 +300,7 @@ static const char *way_name(const struct path_record_step *s)
     case PATH_RECORD_SKY: return "sky";
     case PATH_RECORD_ENDED: return "end";
     case PATH_RECORD_ROULETTE: return "roulette";
+    case PATH_RECORD_SCATTERED: return "scatter";
     case PATH_RECORD_REFLECTED: return "reflect";
     case PATH_RECORD_TRANSMITTED: break;
     }
@@ -333,8 +334,7 @@ static void add_step(struct overlay_text *l, const struct scene *scene,
                      const struct overlay_names *names,
                      const struct path_record_step *s, int number)
 {
-    bool goes_on =
-        s->way == PATH_RECORD_REFLECTED || s->way == PATH_RECORD_TRANSMITTED;
+    bool goes_on = s->way >= PATH_RECORD_SCATTERED;
     double pdf = (double)s->pdf;
     double place[3] = {file_coordinate(scene, s->to.x, 0),
                        file_coordinate(scene, s->to.y, 1),
@@ -350,8 +350,9 @@ static void add_step(struct overlay_text *l, const struct scene *scene,
     else if (goes_on)
         snprintf(pdf_text, sizeof pdf_text, "delta");
     text_width_fit(material, sizeof material,
-                   s->way == PATH_RECORD_SKY ? ""
-                                             : material_of(names, s->hit.tri),
+                   s->way == PATH_RECORD_SKY || s->way == PATH_RECORD_SCATTERED
+                       ? ""
+                       : material_of(names, s->hit.tri),
                    MATERIAL_COLS);
     snprintf(next_line(l), OVERLAY_TEXT_BYTES,
              "%2d %s %-*s %-8s %4.2f %4.2f %4.2f %-*s %.2g %.2g %.2g", number,
@@ -386,6 +387,7 @@ static void add_event(struct overlay_text *l, const struct overlay_names *names,
         [PATH_RECORD_SKY] = "leaves the scene for the sky",
         [PATH_RECORD_ENDED] = "ends there",
         [PATH_RECORD_ROULETTE] = "ends by Russian roulette",
+        [PATH_RECORD_SCATTERED] = "is scattered",
         [PATH_RECORD_REFLECTED] = "is reflected",
         [PATH_RECORD_TRANSMITTED] = "goes through",
     };
@@ -393,7 +395,7 @@ static void add_event(struct overlay_text *l, const struct overlay_names *names,
     char material[MATERIAL_BYTES], keeps[WEIGHT_BYTES] = "";
     const char *light = luminance(s->light) > 0 ? ", finds light" : "";
 
-    if (s->way == PATH_RECORD_SKY) {
+    if (s->way == PATH_RECORD_SKY || s->way == PATH_RECORD_SCATTERED) {
         snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%2d  %s%s", number,
                  ends[s->way], light);
         return;

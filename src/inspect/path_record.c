@@ -36,6 +36,15 @@ static enum path_record_way side_of(const struct world *w, struct hit h,
                : PATH_RECORD_TRANSMITTED;
 }
 
+/* True if the path goes on from a place on the way of its ray. */
+static bool scatters(const struct path *before, const struct path *after)
+{
+    bool is_below =
+        after->below.steps > before->below.steps && before->below.steps > 0;
+
+    return is_below || (after->from.is_free && after->vertex > before->vertex);
+}
+
 static enum path_record_way way_of(const struct world *w, struct ray before,
                                    const struct path *after, struct hit h,
                                    bool goes_on)
@@ -63,18 +72,21 @@ void path_record_follow(struct path_record *t, const struct world *w,
     while (goes_on) {
         struct path before = p;
         struct hit vertex = h;
+        bool is_scattered;
 
         goes_on = path_step(w, &p, &h);
+        is_scattered = goes_on && scatters(&before, &p);
         t->vertices++;
         if (t->count == PATH_RECORD_STEPS)
             continue;
         t->steps[t->count++] = (struct path_record_step){
             .from = before.ray.o,
-            .to = end_of(w, before.ray, vertex),
+            .to = is_scattered ? p.ray.o : end_of(w, before.ray, vertex),
             .hit = vertex,
             .throughput = v3_scale(before.beta, before.scale),
             .light = v3_sub(p.out.radiance, before.out.radiance),
-            .way = way_of(w, before.ray, &p, vertex, goes_on),
+            .way = is_scattered ? PATH_RECORD_SCATTERED
+                                : way_of(w, before.ray, &p, vertex, goes_on),
             .pdf = goes_on ? p.pdf : 0.0f,
         };
     }
