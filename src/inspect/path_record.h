@@ -20,9 +20,9 @@
 #define PATH_RECORD_LOBES 64
 
 enum path_record_way {
-    PATH_RECORD_SKY,      /* the ray hit nothing */
-    PATH_RECORD_ENDED,    /* absorbed, or the limit of bounces */
-    PATH_RECORD_ROULETTE, /* ended by Russian roulette */
+    PATH_RECORD_SKY,       /* the ray hit nothing */
+    PATH_RECORD_ENDED,     /* absorbed, or the limit of bounces */
+    PATH_RECORD_ROULETTE,  /* ended by Russian roulette */
     PATH_RECORD_SCATTERED, /* in a medium, or below a surface */
     PATH_RECORD_REFLECTED,
     PATH_RECORD_TRANSMITTED
