@@ -350,6 +350,7 @@ static inline struct vec3 shadow_transmittance(const struct world *w,
     for (uint32_t i = 0; i <= CROSSINGS_MAX; i++) {
         struct medium medium = medium_of(w, &media);
         struct surface_point v;
+        struct material m;
         uint32_t material;
         struct hit h;
         bool is_end;
@@ -362,12 +363,9 @@ static inline struct vec3 shadow_transmittance(const struct world *w,
         material = tri_material(w, h.tri, instance_of(w, h.tri));
         if (w->materials[material].is_boundary == 0 || v3_is_zero(left))
             break;
-        {
-            struct material m = w->materials[material];
-
-            if (!surface_at(w, &m, r, h, &v))
-                break;
-        }
+        m = w->materials[material];
+        if (!surface_at(w, &m, r, h, &v))
+            break;
         boundary_cross(&media, material, &v, &r);
         if (r.t_max < FLOAT_MAX)
             r.t_max -= h.t;

@@ -141,3 +141,10 @@ void library_child_limit(struct library_limits limits)
     setrlimit(RLIMIT_CORE, &none);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 }
+
+bool library_child_fail(FILE *to, const struct error *err)
+{
+    fprintf(to, "%s\n", err->text);
+    fflush(to);
+    return false;
+}

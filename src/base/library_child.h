@@ -21,6 +21,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "base/child.h"
 #include "base/error.h"
@@ -66,5 +67,8 @@ bool library_child_run(const struct library_task *task,
 
 /* Limits this process, which is a copy. */
 void library_child_limit(struct library_limits limits);
+
+/* Sends an error in place of the answer. Returns false. */
+bool library_child_fail(FILE *to, const struct error *err);
 
 #endif

@@ -294,6 +294,12 @@ static char *next_line(struct overlay_text *l)
     return l->lines[l->count++];
 }
 
+/* True if the step ends at a surface, and not in the sky or in a medium. */
+static bool is_at_surface(const struct path_record_step *s)
+{
+    return s->way != PATH_RECORD_SKY && s->way != PATH_RECORD_SCATTERED;
+}
+
 static const char *way_name(const struct path_record_step *s)
 {
     switch (s->way) {
@@ -350,9 +356,7 @@ static void add_step(struct overlay_text *l, const struct scene *scene,
     else if (goes_on)
         snprintf(pdf_text, sizeof pdf_text, "delta");
     text_width_fit(material, sizeof material,
-                   s->way == PATH_RECORD_SKY || s->way == PATH_RECORD_SCATTERED
-                       ? ""
-                       : material_of(names, s->hit.tri),
+                   is_at_surface(s) ? material_of(names, s->hit.tri) : "",
                    MATERIAL_COLS);
     snprintf(next_line(l), OVERLAY_TEXT_BYTES,
              "%2d %s %-*s %-8s %4.2f %4.2f %4.2f %-*s %.2g %.2g %.2g", number,
@@ -395,7 +399,7 @@ static void add_event(struct overlay_text *l, const struct overlay_names *names,
     char material[MATERIAL_BYTES], keeps[WEIGHT_BYTES] = "";
     const char *light = luminance(s->light) > 0 ? ", finds light" : "";
 
-    if (s->way == PATH_RECORD_SKY || s->way == PATH_RECORD_SCATTERED) {
+    if (!is_at_surface(s)) {
         snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%2d  %s%s", number,
                  ends[s->way], light);
         return;

@@ -43,13 +43,21 @@ static void write_line(FILE *to, const char *key, const double *values,
     fputc('\n', to);
 }
 
+/* Writes what lines of fog and of smoke share. */
+static void write_medium(FILE *to, const double scatter[3],
+                         const double absorb[3], double anisotropy)
+{
+    write_numbers(to, " scatter", scatter, 3);
+    write_numbers(to, " absorb", absorb, 3);
+    write_numbers(to, " anisotropy", &anisotropy, 1);
+}
+
 static void write_fog(FILE *to, const struct fog *f)
 {
     if (!fog_is_there(f))
         return;
-    write_numbers(to, "fog scatter", f->scatter, 3);
-    write_numbers(to, " absorb", f->absorb, 3);
-    write_numbers(to, " anisotropy", &f->anisotropy, 1);
+    fputs("fog", to);
+    write_medium(to, f->scatter, f->absorb, f->anisotropy);
     if (f->falloff > 0) {
         write_numbers(to, " height", &f->base, 1);
         write_numbers(to, " falloff", &f->falloff, 1);
@@ -74,9 +82,7 @@ static void write_smokes(FILE *to, const struct smokes *smokes,
             fputs(" grid ", to);
             quoted_name_write(to, s->grid);
         }
-        write_numbers(to, " scatter", s->scatter, 3);
-        write_numbers(to, " absorb", s->absorb, 3);
-        write_numbers(to, " anisotropy", &s->anisotropy, 1);
+        write_medium(to, s->scatter, s->absorb, s->anisotropy);
         if (memcmp(s->at, zero, sizeof zero) != 0)
             write_numbers(to, " at", s->at, 3);
         if (s->scale < 1 || s->scale > 1)

@@ -94,13 +94,13 @@ static void insert(struct faces *f, struct face new)
     f->at[i] = new;
 }
 
+/* Tests the triangles of a mesh in a place, or with NO_INDEX those outside of
+ * meshes. */
 static void find_faces(const struct world *w, const bool *solid,
-                       struct vec3 eye, struct faces *f)
+                       struct vec3 eye, uint32_t instance, uint32_t first,
+                       uint32_t count, struct faces *f)
 {
-    uint32_t count = all_tri_count(w);
-
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t instance = instance_of(w, i);
+    for (uint32_t i = first; i < first + count; i++) {
         struct face face = {.tri = i, .material = tri_material(w, i, instance)};
         struct vec3 p[3];
         struct tri t;
@@ -116,6 +116,17 @@ static void find_faces(const struct world *w, const bool *solid,
             insert(f, face);
         }
     }
+}
+
+/* Tests all triangles of solids. Few of many instances are solids. */
+static void find_all_faces(const struct world *w, const bool *solid,
+                           struct vec3 eye, struct faces *f)
+{
+    find_faces(w, solid, eye, NO_INDEX, 0, plain_tri_count(w), f);
+    for (uint32_t i = 0; i < w->settings.instance_count; i++)
+        if (solid[w->instances[i].material])
+            find_faces(w, solid, eye, i, w->instances[i].first_tri,
+                       w->instances[i].tri_count, f);
 }
 
 /* A body that the ray leaves without having entered it is around the eye, the
@@ -153,7 +164,7 @@ struct media camera_media(const struct world *w, struct vec3 eye)
         has_solids = has_solids || solid[i];
     }
     if (faces != NULL && has_solids) {
-        find_faces(w, solid, eye, faces);
+        find_all_faces(w, solid, eye, faces);
         none = bodies_of(faces);
     }
     free(faces);

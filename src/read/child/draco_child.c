@@ -14,11 +14,8 @@ bool draco_child(struct library_limits limits, FILE *to)
     bool ok;
 
     library_child_limit(limits);
-    if (!file_read_stdin(&requests, &size_bytes, &err)) {
-        fprintf(to, "%s\n", err.text);
-        fflush(to);
-        return false;
-    }
+    if (!file_read_stdin(&requests, &size_bytes, &err))
+        return library_child_fail(to, &err);
     ok = draco_decode(requests, size_bytes, to);
     free(requests);
     return ok;

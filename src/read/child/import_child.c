@@ -451,9 +451,5 @@ bool import_child(const char *path, struct library_limits limits, FILE *to)
     struct error err;
 
     library_child_limit(limits);
-    if (read_and_send(path, to, &err))
-        return true;
-    fprintf(to, "%s\n", err.text);
-    fflush(to);
-    return false;
+    return read_and_send(path, to, &err) || library_child_fail(to, &err);
 }

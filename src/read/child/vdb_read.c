@@ -141,11 +141,7 @@ bool vdb_child(const char *path, struct library_limits limits, FILE *to)
     struct error err;
 
     library_child_limit(limits);
-    if (read_and_send(path, to, &err))
-        return true;
-    fprintf(to, "%s\n", err.text);
-    fflush(to);
-    return false;
+    return read_and_send(path, to, &err) || library_child_fail(to, &err);
 }
 
 bool vdb_read(struct voxel_grid *grid, const char *path, const char *name,

@@ -7,11 +7,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "read/child/import.h"
 #include "read/child/import_child.h"
 #include "tests/unit/check.h"
+#include "tests/unit/child/shell_program.h"
 #include "tests/unit/files.h"
 
 /* A triangle of Collada, under a node that is moved by (10, 20, 30) and one
@@ -300,17 +300,6 @@ static void exponents_are_no_mirrors(void **state)
     warnings_free(&report);
     scene_free(&scene);
     unlink("r.gltf");
-}
-
-/* Writes a program of the shell and returns its path. */
-static const char *shell_program(const char *script)
-{
-    char text[256];
-
-    snprintf(text, sizeof text, "#!/bin/sh\n%s\n", script);
-    put("child", text);
-    chmod("child", 0700);
-    return "./child";
 }
 
 static void failures_are_one_line(void **state)

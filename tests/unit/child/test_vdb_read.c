@@ -3,11 +3,11 @@
  * test_vdb_read.c - grids that a copy of the program sends, and copies that
  * fail in every way. This test is the program of the copies: see main().
  */
-#include <sys/stat.h>
 
 #include "read/child/vdb_read.h"
 #include "read/vdb.h"
 #include "tests/unit/check.h"
+#include "tests/unit/child/shell_program.h"
 #include "tests/unit/files.h"
 #include "tests/unit/vdb_file.h"
 
@@ -74,17 +74,6 @@ static void copies_send_what_they_read(void **state)
     }
     free(bytes);
     unlink("a.vdb");
-}
-
-/* Writes a program of the shell and returns its path. */
-static const char *shell_program(const char *script)
-{
-    char text[256];
-
-    snprintf(text, sizeof text, "#!/bin/sh\n%s\n", script);
-    put("child", text);
-    chmod("child", 0700);
-    return "./child";
 }
 
 static void failures_are_one_line(void **state)

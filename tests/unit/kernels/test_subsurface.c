@@ -53,26 +53,37 @@ static void albedos_give_the_color(void **state)
     }
 }
 
+/* Checks the light of a body under a white sky. */
+static void check_body(const struct material *m, bool is_ball, struct claim c)
+{
+    struct lit_mesh s = {0};
+
+    s.mesh.materials[0] = *m;
+    s.mesh.world.settings.sky.color = v3(1, 1, 1);
+    if (is_ball)
+        mesh_add_sphere(&s.mesh, v3(0, 0, 0), 0.5f, 40, 60, 0);
+    else
+        mesh_add_box(&s.mesh, v3(-3, -2, -3), v3(3, 0, 3), 0);
+    lit_mesh_finish(&s);
+    check_claim(&s, c);
+    lit_mesh_free(&s);
+}
+
 /* A thick body under a white sky has its color, whatever the mean free paths,
  * seen from any direction. */
 static void thick_bodies_have_their_color(void **state)
 {
-    static const struct vec3 color = {0.8f, 0.5f, 0.2f};
-
     (void)state;
     for (int i = 0; i < 3; i++) {
-        struct lit_mesh s = {0};
-        struct claim c = {.eye = {0, i == 0 ? 2 : 0.7f, 0.5f * (float)i},
-                          .truth = {0.8, 0.5, 0.2},
-                          .systematic = 0.006,
-                          .paths = 2000};
+        struct material m =
+            skin(v3(0.8f, 0.5f, 0.2f), 0.01f, i == 2 ? 0.5f : 0);
 
-        s.mesh.materials[0] = skin(color, 0.01f, i == 2 ? 0.5f : 0);
-        s.mesh.world.settings.sky.color = v3(1, 1, 1);
-        mesh_add_box(&s.mesh, v3(-3, -2, -3), v3(3, 0, 3), 0);
-        lit_mesh_finish(&s);
-        check_claim(&s, c);
-        lit_mesh_free(&s);
+        check_body(&m, false,
+                   (struct claim){.eye = {0, i == 0 ? 2 : 0.7f,
+                                          0.5f * (float)i},
+                                  .truth = {0.8, 0.5, 0.2},
+                                  .systematic = 0.006,
+                                  .paths = 2000});
     }
 }
 
@@ -80,38 +91,38 @@ static void thick_bodies_have_their_color(void **state)
  * kept below 1, and its walks are cut after very many steps. */
 static void white_bodies_keep_the_light(void **state)
 {
-    struct lit_mesh s = {0};
-    struct claim c = {.eye = {0.1f, 0.2f, 2},
-                      .truth = GREY(1),
-                      .systematic = 0.004,
-                      .paths = 1000};
+    struct material m = skin(v3(1, 1, 1), 0.2f, 0);
 
     (void)state;
-    s.mesh.materials[0] = skin(v3(1, 1, 1), 0.2f, 0);
-    s.mesh.world.settings.sky.color = v3(1, 1, 1);
-    mesh_add_sphere(&s.mesh, v3(0, 0, 0), 0.5f, 20, 30, 0);
-    lit_mesh_finish(&s);
-    check_claim(&s, c);
-    lit_mesh_free(&s);
+    check_body(&m, true,
+               (struct claim){.eye = {0.1f, 0.2f, 2},
+                              .truth = GREY(1),
+                              .systematic = 0.004,
+                              .paths = 1000});
 }
 
 /* What does not enter is that of the surface: half of the weight each. */
 static void weights_mix(void **state)
 {
-    struct lit_mesh s = {0};
-    struct claim c = {.eye = {0, 2, 0},
-                      .truth = {0.8, 0.5, 0.2},
-                      .systematic = 0.005,
-                      .paths = 2000};
+    struct material m = skin(v3(0.8f, 0.5f, 0.2f), 0.01f, 0);
 
     (void)state;
-    s.mesh.materials[0] = skin(v3(0.8f, 0.5f, 0.2f), 0.01f, 0);
-    s.mesh.materials[0].subsurface = 0.5f;
-    s.mesh.world.settings.sky.color = v3(1, 1, 1);
-    mesh_add_box(&s.mesh, v3(-3, -2, -3), v3(3, 0, 3), 0);
-    lit_mesh_finish(&s);
-    check_claim(&s, c);
-    lit_mesh_free(&s);
+    m.subsurface = 0.5f;
+    check_body(&m, false,
+               (struct claim){.eye = {0, 2, 0},
+                              .truth = {0.8, 0.5, 0.2},
+                              .systematic = 0.005,
+                              .paths = 2000});
+}
+
+static struct material polished(float grey, float path, float alpha)
+{
+    struct material m = skin(v3(grey, grey, grey), path, 0);
+
+    m.kind = MATERIAL_PLASTIC;
+    m.specular = v3(0.04f, 0.04f, 0.04f);
+    m.alpha = alpha;
+    return m;
 }
 
 /* Below a highlight the body has what the highlight leaves: a white body is
@@ -120,43 +131,28 @@ static void highlights_take_their_share(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct lit_mesh s = {0};
-        struct claim c = {.eye = {0, 1, 1},
-                          .truth = GREY(1),
-                          .systematic = 0.006,
-                          .paths = 3000,
-                          .without = 1 << DIRECT_LIGHTS};
+        struct material m = polished(1, 0.05f, i == 0 ? 0.3f : 0);
 
-        s.mesh.materials[0] = skin(v3(1, 1, 1), 0.05f, 0);
-        s.mesh.materials[0].kind = MATERIAL_PLASTIC;
-        s.mesh.materials[0].specular = v3(0.04f, 0.04f, 0.04f);
-        s.mesh.materials[0].alpha = i == 0 ? 0.3f : 0;
-        s.mesh.world.settings.sky.color = v3(1, 1, 1);
-        mesh_add_sphere(&s.mesh, v3(0, 0, 0), 0.5f, 40, 60, 0);
-        lit_mesh_finish(&s);
-        check_claim(&s, c);
-        lit_mesh_free(&s);
+        check_body(&m, true,
+                   (struct claim){.eye = {0, 1, 1},
+                                  .truth = GREY(1),
+                                  .systematic = 0.006,
+                                  .paths = 3000,
+                                  .without = 1 << DIRECT_LIGHTS});
     }
 }
 
 /* A mirror of .04 above a dark body, seen along its normal. */
 static void mirrors_lie_above_bodies(void **state)
 {
-    struct lit_mesh s = {0};
-    struct claim c = {.eye = {0, 2, 0},
-                      .truth = GREY(0.04 + 0.96 * 0.2),
-                      .systematic = 0.006,
-                      .paths = 3000};
+    struct material m = polished(0.2f, 0.01f, 0);
 
     (void)state;
-    s.mesh.materials[0] = skin(v3(.2f, .2f, .2f), 0.01f, 0);
-    s.mesh.materials[0].kind = MATERIAL_PLASTIC;
-    s.mesh.materials[0].specular = v3(0.04f, 0.04f, 0.04f);
-    s.mesh.world.settings.sky.color = v3(1, 1, 1);
-    mesh_add_box(&s.mesh, v3(-3, -2, -3), v3(3, 0, 3), 0);
-    lit_mesh_finish(&s);
-    check_claim(&s, c);
-    lit_mesh_free(&s);
+    check_body(&m, false,
+               (struct claim){.eye = {0, 2, 0},
+                              .truth = GREY(0.04 + 0.96 * 0.2),
+                              .systematic = 0.006,
+                              .paths = 3000});
 }
 
 /* Light that walks out of an open mesh, or into another material, is lost. */
