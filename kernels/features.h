@@ -42,6 +42,7 @@
 #define FEATURE_INSTANCES     FEATURE_BIT(23) /* instance.h */
 /* Media that scatter, or boundaries of media; with FEATURE_ATTENUATION */
 #define FEATURE_MEDIA FEATURE_BIT(29)
+#define FEATURE_GRIDS FEATURE_BIT(33) /* smoke.h; with FEATURE_MEDIA */
 
 /* Light */
 #define FEATURE_SKY_IMAGE          FEATURE_BIT(7)  /* the sky is an image */
@@ -56,7 +57,7 @@
 #define FEATURE_LIGHT_PATHS    FEATURE_BIT(21) /* settings.has_light_paths */
 #define FEATURE_RADIANCE_CELLS FEATURE_BIT(28) /* radiance_cells.h */
 
-#define FEATURES_ALL (FEATURE_BIT(33) - 1u)
+#define FEATURES_ALL (FEATURE_BIT(34) - 1u)
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

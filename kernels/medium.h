@@ -198,6 +198,7 @@ struct collision {
     float t;
     struct vec3 weight;
     bool is_there;
+    bool is_in_smoke; /* smoke.h */
 };
 
 /* Returns the probabilities with which the channels choose the distance: by
@@ -220,39 +221,67 @@ static inline struct vec3 collision_shares(const struct medium *m,
                : v3(1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f);
 }
 
+static inline uint32_t channel_chosen(struct vec3 shares, float u)
+{
+    return u < shares.x ? 0u : u < shares.x + shares.y ? 1u : 2u;
+}
+
+static inline float channel_of(struct vec3 v, uint32_t channel)
+{
+    return channel == 0 ? v.x : channel == 1 ? v.y : v.z;
+}
+
+/* Samples how deep in a medium of a grey extinction the next collision is. */
+static inline float collision_depth(float extinction, float u)
+{
+    return extinction > 0.0f ? -f_log2(1.0f - u) / (LOG2_E * extinction)
+                             : FLOAT_MAX;
+}
+
+/* Returns transmittances divided by the largest, so that not all of them
+ * underflow. */
+static inline struct vec3 relative_transmittance(struct vec3 extinction,
+                                                 float depth)
+{
+    float least = f_min(extinction.x, f_min(extinction.y, extinction.z));
+
+    return transmittance(v3_sub(extinction, v3(least, least, least)), depth);
+}
+
+/* Returns the factor of a path by the balance heuristic. factor: what the path
+ * does; densities: with which the channels do it; left: of both of them. */
+static inline struct vec3 balanced(struct vec3 factor, struct vec3 densities,
+                                   struct vec3 left, struct vec3 shares)
+{
+    float density = v3_dot(shares, v3_mul(densities, left));
+
+    return density > 0.0f ? v3_scale(v3_mul(factor, left), 1.0f / density)
+                          : v3(0.0f, 0.0f, 0.0f);
+}
+
 /*
  * Samples the distance to the next collision of a path with throughput beta, on
  * a ray that meets the next surface at t_max. u: random numbers for distance
  * and channel. One channel is chosen and all of them are weighted by the
  * balance heuristic (Veach 1997, 9.2), as in Wilkie et al. 2014, "Hero
- * wavelength spectral sampling". Transmittances are divided by the largest, so
- * that not all of them underflow.
+ * wavelength spectral sampling".
  */
 static inline struct collision medium_collide(const struct medium *m,
                                               struct vec3 beta, struct ray r,
                                               float t_max, struct vec2 u)
 {
+    const struct vec3 one = v3(1.0f, 1.0f, 1.0f);
     struct vec3 q = collision_shares(m, beta), e = m->extinction;
-    float least = f_min(e.x, f_min(e.y, e.z));
-    float chosen = u.y < q.x ? e.x : u.y < q.x + q.y ? e.y : e.z;
     float end = medium_depth(m, r, t_max);
-    float depth =
-        chosen > 0.0f ? -f_log2(1.0f - u.x) / (LOG2_E * chosen) : FLOAT_MAX;
-    struct collision c;
-    struct vec3 left;
-    float density;
+    float depth = collision_depth(channel_of(e, channel_chosen(q, u.y)), u.x);
+    struct collision c = {t_max, one, depth < end, false};
 
-    c.is_there = depth < end;
-    c.t = t_max;
-    if (c.is_there) {
-        c.t = f_min(medium_distance(m, r, depth), t_max);
-        end = depth;
+    if (!c.is_there) {
+        c.weight = balanced(one, one, relative_transmittance(e, end), q);
+        return c;
     }
-    left = transmittance(v3_sub(e, v3(least, least, least)), end);
-    density = c.is_there ? v3_dot(q, v3_mul(e, left)) : v3_dot(q, left);
-    c.weight = c.is_there ? v3_mul(m->scattering, left) : left;
-    c.weight = density > 0.0f ? v3_scale(c.weight, 1.0f / density)
-                              : v3(0.0f, 0.0f, 0.0f);
+    c.t = f_min(medium_distance(m, r, depth), t_max);
+    c.weight = balanced(m->scattering, e, relative_transmittance(e, depth), q);
     return c;
 }
 

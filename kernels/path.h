@@ -163,13 +163,13 @@ static inline bool path_advance(const struct world *w, struct path *p, float u)
 /* ---- media ---- */
 
 /* Returns random numbers for a collision. After a boundary they are others. */
-static inline struct vec2 path_medium_2d(const struct path *p)
+static inline struct vec2 path_medium_2d(const struct path *p, uint32_t kind)
 {
     struct sampler s = p->sampler;
 
     if (p->crossings > 0)
         s.key = hash_u32(s.key + p->crossings);
-    return vertex_2d(s, p->vertex, DIMENSION_MEDIUM);
+    return vertex_2d(s, p->vertex, kind);
 }
 
 /* Takes the path along a distance t of its ray, whose end it sees: its
@@ -178,16 +178,98 @@ static inline struct vec2 path_medium_2d(const struct path *p)
 static inline struct collision
 path_travel(struct path *p, const struct medium *m, float t, struct vec3 *beta)
 {
-    struct collision c = {t, v3(1.0f, 1.0f, 1.0f), false};
+    struct collision c = {t, v3(1.0f, 1.0f, 1.0f), false, false};
     bool scatters = medium_scatters(m);
 
     if (scatters) {
-        c = medium_collide(m, p->beta, p->ray, t, path_medium_2d(p));
+        c = medium_collide(m, p->beta, p->ray, t,
+                           path_medium_2d(p, DIMENSION_MEDIUM));
         *beta = v3_mul(p->beta, c.weight);
     }
     p->beta = attenuated(p->beta, m, p->ray, t);
     if (!scatters)
         *beta = p->beta;
+    return c;
+}
+
+/* Returns the medium that fog and smokes of density 1 are together. */
+static inline struct medium smoke_sum(const struct world *w, struct medium fog)
+{
+    for (uint32_t i = 0; i < w->settings.smoke_count; i++) {
+        fog.extinction = v3_add(fog.extinction, w->smokes[i].extinction);
+        fog.scattering = v3_add(fog.scattering, w->smokes[i].scattering);
+    }
+    return fog;
+}
+
+/* Takes the path along a distance t of its ray as path_travel() does, through
+ * smokes and the fog *m, which becomes the medium in which the path is
+ * scattered. Light at the end is seen if no smoke stops the path. */
+APART static struct collision path_travel_smoke(const struct world *w,
+                                                struct path *p,
+                                                struct medium *m, float t,
+                                                struct vec3 *beta)
+{
+    const struct vec3 one = v3(1.0f, 1.0f, 1.0f);
+    const struct vec3 none = v3(0.0f, 0.0f, 0.0f);
+    struct collision c = {t, one, false, false};
+    struct medium sum = smoke_sum(w, *m);
+    struct vec3 q = collision_shares(&sum, p->beta);
+    struct vec2 u = path_medium_2d(p, DIMENSION_MEDIUM);
+    struct smoke_ray ray = {.r = p->ray,
+                            .fog = *m,
+                            .shares = q,
+                            .channel = channel_chosen(q, u.y),
+                            .key = smoke_key(p),
+                            .first = path_medium_2d(p, DIMENSION_SMOKE)};
+    struct smoke_flight f = smoke_fly(w, &ray, t);
+    struct vec3 left = f.left, factor = one, densities = one;
+    bool scatters = medium_scatters(m);
+
+    path_add(p, f.glow, 1.0f);
+    if (f.is_cut) {
+        p->out.cut = 1;
+        p->beta = *beta = none;
+        c.is_there = true;
+        return c;
+    }
+    *beta = p->beta;
+    p->beta = f.smoke == NO_INDEX
+                  ? attenuated(v3_mul(p->beta, balanced(one, one, left, q)), m,
+                               p->ray, t)
+                  : none;
+    if (scatters) {
+        float depth =
+            collision_depth(channel_of(m->extinction, ray.channel), u.x);
+
+        c.is_there = depth < medium_depth(m, p->ray, f.t);
+        if (c.is_there) {
+            c.t = f_min(medium_distance(m, p->ray, depth), f.t);
+            left = smoke_fly(w, &ray, c.t).left;
+            factor = m->scattering;
+            densities = m->extinction;
+        }
+    }
+    if (!c.is_there && f.smoke != NO_INDEX) {
+        GLOBAL const struct smoke_medium *s = &w->smokes[f.smoke];
+
+        c.is_there = c.is_in_smoke = true;
+        c.t = f.t;
+        factor = s->scattering;
+        densities = s->extinction;
+    }
+    if (scatters)
+        left =
+            v3_mul(left, relative_transmittance(m->extinction,
+                                                medium_depth(m, p->ray, c.t)));
+    else
+        *beta = attenuated(*beta, m, p->ray, c.t);
+    *beta = v3_mul(*beta, balanced(factor, densities, left, q));
+    if (c.is_in_smoke) {
+        m->extinction = densities;
+        m->scattering = factor;
+        m->anisotropy = w->smokes[f.smoke].anisotropy;
+    }
     return c;
 }
 
@@ -367,7 +449,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
     struct vec3 wo, beta;
     struct vec2 lobe;
     struct medium medium;
-    struct collision c = {0.0f, v3(1.0f, 1.0f, 1.0f), false};
+    struct collision c = {0.0f, v3(1.0f, 1.0f, 1.0f), false, false};
     uint32_t material;
     bool has_cells = false;
 
@@ -378,9 +460,12 @@ static inline bool path_extend(const struct world *w, struct path *p,
     if (HAS(FEATURE_POINT_LIGHTS))
         path_add_spheres(w, p, h->tri == NO_INDEX ? FLOAT_MAX : h->t);
     if (HAS(FEATURE_ATTENUATION)) {
+        float t = h->tri == NO_INDEX ? FLOAT_MAX : h->t;
+
         medium = medium_of(w, &p->media);
-        c = path_travel(p, &medium, h->tri == NO_INDEX ? FLOAT_MAX : h->t,
-                        &beta);
+        c = is_in_smokes(w, &p->media)
+                ? path_travel_smoke(w, p, &medium, t, &beta)
+                : path_travel(p, &medium, t, &beta);
     }
     if (h->tri == NO_INDEX) {
         path_add_sky(w, p);
@@ -403,7 +488,8 @@ static inline bool path_extend(const struct world *w, struct path *p,
     first_surface_light(&p->surface, p->vertex, p->out.radiance);
     /* Scatter in the medium on the way, or enter another one */
     if (HAS(FEATURE_MEDIA) && c.is_there) {
-        if (p->media.count == 0 && first_surface_is_ahead(&p->surface)) {
+        if (p->media.count == 0 && !c.is_in_smoke &&
+            first_surface_is_ahead(&p->surface)) {
             b = bsdf_at(w, &m, &v);
             first_surface_meet(&p->surface, &b, v.n, h->t);
         }

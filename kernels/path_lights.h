@@ -15,12 +15,16 @@
 #include "kernels/medium.h"
 #include "kernels/path_state.h"
 #include "kernels/roulette.h"
+#include "kernels/smoke.h"
 #include "kernels/sphere_walk.h"
 #include "kernels/surface_point.h"
 #include "kernels/vec.h"
 
 /* Offset between the keys of a vertex's next ray and of its shadow ray. */
 #define SHADOW_KEY 0x10000u
+
+/* Likewise of its key in smokes. */
+#define SMOKE_KEY 0x20000u
 
 /* Returns the MIS weight by the power heuristic of a sample with density `pdf`
  * that the other technique would have drawn with density `other`. Measured
@@ -53,6 +57,18 @@ static inline float light_mis_weight(const struct world *w, float light_pdf,
 {
     return w->settings.direct == DIRECT_LIGHTS ? 1.0f
                                                : power_weight(light_pdf, pdf);
+}
+
+/* True if smokes are where the ray is. */
+static inline bool is_in_smokes(const struct world *w, const struct media *s)
+{
+    return HAS(FEATURE_GRIDS) && w->settings.smoke_count > 0 && s->count == 0;
+}
+
+/* Returns the key of random numbers of the path's ray in smokes. */
+static inline uint32_t smoke_key(const struct path *p)
+{
+    return hash_u32(ray_key(p->sampler, SMOKE_KEY + p->vertex) + p->crossings);
 }
 
 /* True if light paths bring light of lamps that comes by way of surfaces that
@@ -112,6 +128,10 @@ static inline void path_add_sphere(const struct world *w, struct path *p,
 
         radiance = attenuated(radiance, &medium, r, t);
     }
+    if (is_in_smokes(w, &p->media))
+        radiance =
+            radiance_share(radiance,
+                           smoke_transmittance(w, r, t, smoke_key(p) ^ ~i));
     if (p->pdf > 0.0f)
         pdf = sphere_pdf_at(w, &p->from, i);
     path_add(p, radiance, bsdf_mis_weight(w, p->pdf, pdf));
@@ -195,7 +215,7 @@ static inline bool wants_light_sample(const struct world *w,
 }
 
 /* Attenuates radiance of a light sample that comes to p in these media. With
- * boundaries, path_add_light() does that. */
+ * boundaries, and in smokes, path_add_light() does that. */
 static inline struct vec3 path_light_attenuated(const struct world *w,
                                                 struct path *p,
                                                 const struct media *media,
@@ -207,10 +227,10 @@ static inline struct vec3 path_light_attenuated(const struct world *w,
     struct ray r = {p->from.p, l->wi, distance, 0, 0};
     struct medium medium;
 
-    if (HAS(FEATURE_MEDIA) && w->settings.has_boundaries != 0) {
+    if (HAS(FEATURE_MEDIA))
         p->light_media = *media;
+    if (HAS(FEATURE_MEDIA) && w->settings.has_boundaries != 0)
         return radiance;
-    }
     medium = medium_of(w, media);
     return attenuated(radiance, &medium, r, distance);
 }
@@ -334,19 +354,26 @@ static inline void boundary_cross(struct media *media, uint32_t material,
     surface_spawn_ray(v, r->d, -1.0f, r);
 }
 
+/* Returns the ray with a direction of length 1. */
+static inline struct ray ray_of_unit(struct ray r)
+{
+    float length = v3_length(r.d);
+
+    r.d = v3_scale(r.d, 1.0f / length);
+    r.t_max = f_min(r.t_max * length, FLOAT_MAX);
+    return r;
+}
+
 /* Returns the share of light that comes along the shadow ray, through media and
  * their boundaries. Boundaries are crossed in the order in which they lie, so
  * that the share does not depend on the tree. */
 static inline struct vec3 shadow_transmittance(const struct world *w,
                                                struct path *p)
 {
-    struct ray r = p->light.shadow;
+    struct ray r = ray_of_unit(p->light.shadow);
     struct media media = p->light_media;
     struct vec3 left = v3(1.0f, 1.0f, 1.0f);
-    float length = v3_length(r.d);
 
-    r.d = v3_scale(r.d, 1.0f / length);
-    r.t_max = f_min(r.t_max * length, FLOAT_MAX);
     for (uint32_t i = 0; i <= CROSSINGS_MAX; i++) {
         struct medium medium = medium_of(w, &media);
         struct surface_point v;
@@ -358,6 +385,10 @@ static inline struct vec3 shadow_transmittance(const struct world *w,
         p->out.rays++;
         is_end = !hit_closest(w, r, &h) || h.tri == p->light.tri;
         left = attenuated(left, &medium, r, is_end ? r.t_max : h.t);
+        if (is_in_smokes(w, &media))
+            left =
+                v3_mul(left, smoke_transmittance(w, r, is_end ? r.t_max : h.t,
+                                                 hash_u32(shadow_key(p) + i)));
         if (is_end)
             return left;
         material = tri_material(w, h.tri, instance_of(w, h.tri));
@@ -383,8 +414,16 @@ static inline void path_add_light(const struct world *w, struct path *p)
         return;
     }
     p->out.rays++;
-    if (!hit_any(w, p->light.shadow, p->light.tri))
-        p->out.radiance = v3_add(p->out.radiance, p->light.radiance);
+    if (hit_any(w, p->light.shadow, p->light.tri))
+        return;
+    if (is_in_smokes(w, &p->light_media)) {
+        struct ray r = ray_of_unit(p->light.shadow);
+
+        p->light.radiance =
+            radiance_share(p->light.radiance,
+                           smoke_transmittance(w, r, r.t_max, shadow_key(p)));
+    }
+    p->out.radiance = v3_add(p->out.radiance, p->light.radiance);
 }
 
 #endif

@@ -36,7 +36,10 @@ __kernel void trace_paths(
     __global const struct directional_light *directional_lights,
     __global const float *profiles,
     __global const struct light_grid *light_grids,
-    __global const struct light_cell *light_cells)
+    __global const struct light_cell *light_cells,
+    __global const struct smoke_medium *smokes,
+    __global const struct voxel_place *voxel_places,
+    __global const float *voxels, __global const struct vec3 *glows)
 {
     uint i = (uint)get_global_id(0);
 
@@ -71,7 +74,11 @@ __kernel void trace_paths(
                           directional_lights,
                           profiles,
                           light_grids,
-                          light_cells};
+                          light_cells,
+                          smokes,
+                          voxel_places,
+                          voxels,
+                          glows};
 
         struct first_surface surface;
 

@@ -54,6 +54,7 @@ enum dimension {
     DIMENSION_BSDF_LOBE = 3, /* and Russian roulette */
     DIMENSION_KINDS = 4,     /* of these, which are computed together */
     DIMENSION_MEDIUM = 4,    /* distance and channel of a collision */
+    DIMENSION_SMOKE = 5,     /* distance and reality of a tentative one */
     DIMENSION_ENTRY = 6,     /* direction below the surface: subsurface.h */
     DIMENSION_WALK = 7       /* two for each step of a walk */
 };

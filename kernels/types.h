@@ -79,6 +79,44 @@ struct medium {
     float falloff;    /* and a length; 0: it is even */
 };
 
+/* A grid of numbers in space: smoke.h. */
+struct voxel_field {
+    struct vec3 rows[3]; /* of the matrix from the world to voxels, */
+    struct vec3 origin;  /* and where the world's origin is in it */
+    struct vec3 first;   /* first and last voxel, counted from the first of the
+                            first brick */
+    struct vec3 last;
+    uint32_t sides[3];    /* in bricks */
+    uint32_t first_place; /* in voxel_places; the last axis is fastest */
+};
+
+/* Voxels on a side of a brick, and in a brick. */
+#define BRICK_SIDE   8
+#define BRICK_VOXELS 512
+
+/* Where bricks are in a grid. */
+struct voxel_place {
+    uint32_t brick; /* its values begin at BRICK_VOXELS times this number */
+    float majorant; /* bound of the values between its voxels and the next */
+};
+
+/* Most smokes of a world. */
+#define SMOKES_MAX 8
+
+/* Entries of a table of the radiance of black bodies. */
+#define GLOW_ENTRIES 256
+
+/* A medium whose density is a grid. */
+struct smoke_medium {
+    struct voxel_field density, temperature;
+    struct vec3 extinction; /* coefficients of density 1 */
+    struct vec3 scattering;
+    float anisotropy;
+    float most;          /* largest extinction */
+    uint32_t first_glow; /* of its table in glows; NO_INDEX: it does not glow */
+    float glow_scale;    /* entries per unit of temperature */
+};
+
 struct material {
     struct vec3 color;
     float alpha;          /* GGX roughness; below ALPHA_SMOOTH: a delta lobe */
@@ -455,6 +493,10 @@ struct settings {
     uint32_t sphere_count; /* the first point lights, which have a radius */
     uint32_t directional_light_count;
     uint32_t profile_value_count;
+    uint32_t smoke_count;
+    uint32_t voxel_place_count;
+    uint32_t voxel_count;
+    uint32_t glow_count;
 
     struct guide_grid guide;
 };
@@ -493,6 +535,10 @@ struct world {
     GLOBAL const float *profiles; /* of point lights, row by row */
     GLOBAL const struct light_grid *light_grids; /* CELL_GRIDS, or NULL */
     GLOBAL const struct light_cell *light_cells; /* of all grids */
+    GLOBAL const struct smoke_medium *smokes;
+    GLOBAL const struct voxel_place *voxel_places; /* of all their grids */
+    GLOBAL const float *voxels;                    /* brick by brick */
+    GLOBAL const struct vec3 *glows;               /* tables of radiance */
 };
 
 struct ray {

@@ -48,6 +48,10 @@ static const enum film_part film_parts[WORLD_LIST_COUNT] = {
     [WORLD_LIST_point_lights] = FILM_LIGHT,
     [WORLD_LIST_directional_lights] = FILM_LIGHT,
     [WORLD_LIST_profiles] = FILM_LIGHT,
+    [WORLD_LIST_smokes] = FILM_LIGHT,
+    [WORLD_LIST_voxel_places] = FILM_LIGHT,
+    [WORLD_LIST_voxels] = FILM_LIGHT,
+    [WORLD_LIST_glows] = FILM_LIGHT,
 };
 
 static void add(uint64_t *hash, const void *bytes, size_t size)

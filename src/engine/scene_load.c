@@ -14,6 +14,7 @@
 #include "base/memory.h"
 #include "base/name_table.h"
 #include "base/thread_pool.h"
+#include "engine/smoke_load.h"
 #include "film/film.h"
 #include "image/color.h"
 #include "read/child/import.h"
@@ -798,8 +799,14 @@ bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
         !add_profile_paths(scene, &view->lamps, err) ||
         !world_init(host, scene, options->thread_count, report, err) ||
         !world_load_sky(host, view, report, err) ||
+        !smoke_load(host, scene, view, report, err) ||
         !world_set_lamps(host, scene, view, err))
         return false;
+    if (scene->tri_count == 0 && host->smoke_count == 0)
+        warnings_add(
+            report, "scenes without a face",
+            "%s: found no visible face: only the background is rendered",
+            scene->path);
     return tell_inverted_glass(scene, host, report, err) &&
            complete_view(scene, host, view, has_view_lamps, report, err) &&
            (!report->has_lost ||
@@ -823,6 +830,9 @@ const char *scene_file(const struct scene *scene, const struct view *view,
     number -= scene->data_path_count;
     if (number < scene->texture_count)
         return scene->texture_paths[number];
+    number -= scene->texture_count;
+    if (number < view->smokes.count)
+        return view->smokes.items[number].path;
     return NULL;
 }
 

@@ -83,28 +83,45 @@ void observer_rgb(const double xyz[3], double rgb[3])
 /* Second radiation constant of Planck's law in metre kelvins (CODATA 2018). */
 #define PLANCK_C2 0.014387769
 
+/* The last wavelength of the observer in metres. */
+#define LAST_WAVELENGTH \
+    ((OBSERVER_FIRST_NM + (OBSERVER_COUNT - 1) * OBSERVER_STEP_NM) * 1e-9)
+
 /* Returns the spectral radiance by Planck's law, times a factor that is the
  * same for all wavelengths. The factor holds the exponential of the last
  * wavelength, so that nothing overflows. */
 static double planck(double nm, double kelvin)
 {
-    double last =
-        (OBSERVER_FIRST_NM + (OBSERVER_COUNT - 1) * OBSERVER_STEP_NM) * 1e-9;
     double wavelength = nm * 1e-9;
     double x = PLANCK_C2 / (wavelength * kelvin);
 
     return pow(nm / OBSERVER_FIRST_NM, -5) *
-           exp(PLANCK_C2 / (last * kelvin) - x) / -expm1(-x);
+           exp(PLANCK_C2 / (LAST_WAVELENGTH * kelvin) - x) / -expm1(-x);
 }
 
-void blackbody_xyz(double kelvin, double xyz[3])
+/* Sets XYZ of planck(). */
+static void planck_xyz(double kelvin, double xyz[3])
 {
     double spectrum[OBSERVER_COUNT];
-    double luminance;
 
     for (int i = 0; i < OBSERVER_COUNT; i++)
         spectrum[i] = planck(OBSERVER_FIRST_NM + i * OBSERVER_STEP_NM, kelvin);
     observer_xyz(spectrum, xyz);
+}
+
+double blackbody_log_luminance(double kelvin)
+{
+    double xyz[3];
+
+    planck_xyz(kelvin, xyz);
+    return log(xyz[1]) - PLANCK_C2 / (LAST_WAVELENGTH * kelvin);
+}
+
+void blackbody_xyz(double kelvin, double xyz[3])
+{
+    double luminance;
+
+    planck_xyz(kelvin, xyz);
     luminance = xyz[1];
     for (int k = 0; k < 3; k++)
         xyz[k] /= luminance;

@@ -43,6 +43,10 @@ void observer_rgb(const double xyz[3], double rgb[3]);
 #define BLACKBODY_MIN 1.0
 #define BLACKBODY_MAX 1e9
 
+/* Returns the natural logarithm of the luminance, up to a summand that is the
+ * same for all temperatures. */
+double blackbody_log_luminance(double kelvin);
+
 /* Sets XYZ with Y = 1. kelvin is in the range above. */
 void blackbody_xyz(double kelvin, double xyz[3]);
 

@@ -65,6 +65,23 @@ static void write_fog(FILE *to, const struct fog *f)
     fputc('\n', to);
 }
 
+/* Writes a key with a name, unless it is empty. */
+static void write_name(FILE *to, const char *key, const char *name)
+{
+    if (name[0] == '\0')
+        return;
+    fprintf(to, " %s ", key);
+    quoted_name_write(to, name);
+}
+
+/* Writes a number that differs from its default. */
+static void write_changed(FILE *to, const char *key, double value,
+                          double by_default)
+{
+    if (value < by_default || value > by_default)
+        write_numbers(to, key, &value, 1);
+}
+
 /* Writes a line for each medium; `path` is that of the file. */
 static void write_smokes(FILE *to, const struct smokes *smokes,
                          const char *path)
@@ -73,20 +90,24 @@ static void write_smokes(FILE *to, const struct smokes *smokes,
 
     for (uint32_t i = 0; i < smokes->count; i++) {
         const struct smoke *s = &smokes->items[i];
+        const struct smoke_numbers *n = &s->numbers;
         char *name = view_name(s->path, path);
 
         fputs("medium ", to);
         quoted_name_write(to, name != NULL ? name : s->path);
         free(name);
-        if (s->grid[0] != '\0') {
-            fputs(" grid ", to);
-            quoted_name_write(to, s->grid);
-        }
-        write_medium(to, s->scatter, s->absorb, s->anisotropy);
-        if (memcmp(s->at, zero, sizeof zero) != 0)
-            write_numbers(to, " at", s->at, 3);
-        if (s->scale < 1 || s->scale > 1)
-            write_numbers(to, " scale", &s->scale, 1);
+        write_name(to, "grid", s->grid);
+        write_medium(to, n->scatter, n->absorb, n->anisotropy);
+        write_name(to, "temperature", s->temperature);
+        write_changed(to, " kelvin", n->kelvin, smoke_defaults.kelvin);
+        write_changed(to, " glow", n->glow, smoke_defaults.glow);
+        if (s->up_is_z)
+            fputs(" up z", to);
+        if (memcmp(n->at, zero, sizeof zero) != 0)
+            write_numbers(to, " at", n->at, 3);
+        write_changed(to, " scale", n->scale, smoke_defaults.scale);
+        if (smoke_has_box(n))
+            write_numbers(to, " box", n->box, 6);
         fputc('\n', to);
     }
 }
@@ -357,7 +378,10 @@ static bool check_names(const struct view *view, const char *path,
     for (uint32_t i = 0; i < view->smokes.count && ok; i++)
         ok = check_quoted_name(view->smokes.items[i].path, "medium's", path,
                                err) &&
-             check_quoted_name(view->smokes.items[i].grid, "grid's", path, err);
+             check_quoted_name(view->smokes.items[i].grid, "grid's", path,
+                               err) &&
+             check_quoted_name(view->smokes.items[i].temperature, "grid's",
+                               path, err);
     return ok;
 }
 

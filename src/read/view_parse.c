@@ -52,7 +52,8 @@ const struct view_key view_keys[VIEW_KEYS] = {
     {"fog", KEY_FOG, 0, false, 0, 0,
      "scatter, absorb, anisotropy, height or falloff"},
     {"medium", KEY_MEDIUM, 0, false, 0, 0,
-     "grid, scatter, absorb, anisotropy, at or scale"},
+     "grid, scatter, absorb, anisotropy, temperature, kelvin, glow, up, at, "
+     "scale or box"},
     {"aperture", KEY_APERTURE, 1, false, 0, VIEW_NUMBER_MAX,
      "a number from 0 to 1e30"},
     {"focus", KEY_FOCUS, 1, false, 0, VIEW_NUMBER_MAX,
@@ -266,18 +267,27 @@ static const struct part_key fog_keys[] = {
 static const struct part_key smoke_keys[] = {
     {{"scatter", KEY_MEDIUM, 3, false, 0, VIEW_NUMBER_MAX,
       "3 numbers from 0 to 1e30"},
-     offsetof(struct smoke, scatter)},
+     offsetof(struct smoke_numbers, scatter)},
     {{"absorb", KEY_MEDIUM, 3, false, 0, VIEW_NUMBER_MAX,
       "3 numbers from 0 to 1e30"},
-     offsetof(struct smoke, absorb)},
+     offsetof(struct smoke_numbers, absorb)},
     {{"anisotropy", KEY_MEDIUM, 1, false, -1, 1, "a number from -1 to 1"},
-     offsetof(struct smoke, anisotropy)},
+     offsetof(struct smoke_numbers, anisotropy)},
     {{"at", KEY_MEDIUM, 3, false, -VIEW_NUMBER_MAX, VIEW_NUMBER_MAX,
       "3 numbers from -1e30 to 1e30"},
-     offsetof(struct smoke, at)},
+     offsetof(struct smoke_numbers, at)},
     {{"scale", KEY_MEDIUM, 1, false, SMOKE_SCALE_MIN, VIEW_NUMBER_MAX,
       "a number from 1e-30 to 1e30"},
-     offsetof(struct smoke, scale)},
+     offsetof(struct smoke_numbers, scale)},
+    {{"box", KEY_MEDIUM, 6, false, -VIEW_NUMBER_MAX, VIEW_NUMBER_MAX,
+      "6 numbers from -1e30 to 1e30: the lowest corner and the highest"},
+     offsetof(struct smoke_numbers, box)},
+    {{"kelvin", KEY_MEDIUM, 1, false, 0, VIEW_NUMBER_MAX,
+      "a number from 0 to 1e30"},
+     offsetof(struct smoke_numbers, kelvin)},
+    {{"glow", KEY_MEDIUM, 1, false, 0, VIEW_NUMBER_MAX,
+      "a number from 0 to 1e30"},
+     offsetof(struct smoke_numbers, glow)},
 };
 
 /* Keys within a line. */
@@ -349,6 +359,33 @@ static bool read_smoke_name(struct view_reader *r, const char *expected,
            view_fail_at(r, (struct word){.length = 0}, expected, "medium", err);
 }
 
+/* Reads the axis of a grid that points up. */
+static bool read_smoke_up(struct view_reader *r, bool *up_is_z,
+                          struct error *err)
+{
+    struct word axis = lexer_word(r->lex);
+
+    *up_is_z = word_is(axis, "z");
+    return *up_is_z || word_is(axis, "y") ||
+           view_fail_at(r, axis, "y or z behind up", "medium", err);
+}
+
+/* Checks that all sides of a box are longer than 0, or that there is none. */
+static bool check_box(const struct view_reader *r, const double box[6],
+                      struct error *err)
+{
+    static const double none[6] = {0, 0, 0, 0, 0, 0};
+    bool is_box = true;
+
+    for (int a = 0; a < 3; a++)
+        is_box = is_box && box[a] < box[a + 3];
+    return is_box || memcmp(box, none, sizeof none) == 0 ||
+           fail(err,
+                "%s:%" PRIu64 ": found a box whose lowest corner is not below "
+                "its highest, expected x y z of both",
+                r->path, r->lex->line);
+}
+
 static bool read_smoke_keys(struct view_reader *r, struct smoke *smoke,
                             struct error *err)
 {
@@ -357,34 +394,45 @@ static bool read_smoke_keys(struct view_reader *r, struct smoke *smoke,
 
         if (!(word_is(name, "grid")
                   ? read_smoke_name(r, "a name behind grid", &smoke->grid, err)
-                  : read_part(r, &smoke_list, name, smoke, err)))
+              : word_is(name, "temperature")
+                  ? read_smoke_name(r, "a name behind temperature",
+                                    &smoke->temperature, err)
+              : word_is(name, "up")
+                  ? read_smoke_up(r, &smoke->up_is_z, err)
+                  : read_part(r, &smoke_list, name, &smoke->numbers, err)))
             return false;
     }
-    return true;
+    return check_box(r, smoke->numbers.box, err);
 }
 
 /* Reads medium FILE grid NAME scatter R G B ...; coefficients that are left out
  * are 0. */
 static bool read_smoke(struct view_reader *r, struct error *err)
 {
-    struct smoke smoke = {.grid = strdup(""), .scale = 1};
+    struct smoke smoke = {.grid = strdup(""),
+                          .temperature = strdup(""),
+                          .numbers = smoke_defaults};
     char *file = NULL;
-    bool ok = read_smoke_name(r, "a file", &file, err) &&
-              read_smoke_keys(r, &smoke, err);
+    bool ok;
 
+    if (r->view->smokes.count == SMOKES_MAX)
+        ok = fail(err,
+                  "%s:%" PRIu64 ": found another medium, expected %d at most",
+                  r->path, r->lex->line, SMOKES_MAX);
+    else
+        ok = read_smoke_name(r, "a file", &file, err) &&
+             read_smoke_keys(r, &smoke, err);
     if (ok) {
         smoke.path = path_beside(r->path, file);
         ok = (smoke.path != NULL && smoke.grid != NULL &&
+              smoke.temperature != NULL &&
               smokes_add(&r->view->smokes, &smoke)) ||
              fail_memory(r, err);
-        warnings_add(r->report, "media of files",
-                     "%s:%" PRIu64 ": found a medium of a file: it is kept, "
-                     "but not rendered yet",
-                     r->path, r->lex->line);
     }
     free(file);
     free(smoke.path);
     free(smoke.grid);
+    free(smoke.temperature);
     return ok;
 }
 

@@ -476,11 +476,6 @@ bool scene_finish(struct scene *scene, struct warnings *report,
         scene_flatten(scene, pool, err) && finish(scene, pool, report, err);
 
     pool_destroy(pool);
-    if (ok && scene->tri_count == 0)
-        warnings_add(
-            report, "scenes without a face",
-            "%s: found no visible face: only the background is rendered",
-            scene->path);
     return ok;
 }
 

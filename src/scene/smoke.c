@@ -4,6 +4,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+const struct smoke_numbers smoke_defaults = {.kelvin = 1,
+                                             .glow = 1,
+                                             .scale = 1};
+
+bool smoke_has_box(const struct smoke_numbers *s)
+{
+    return s->box[0] < s->box[3];
+}
+
+static void smoke_free(struct smoke *s)
+{
+    free(s->path);
+    free(s->grid);
+    free(s->temperature);
+}
+
 bool smokes_add(struct smokes *smokes, const struct smoke *smoke)
 {
     struct smoke copy = *smoke;
@@ -14,9 +30,10 @@ bool smokes_add(struct smokes *smokes, const struct smoke *smoke)
         smokes->items = items;
     copy.path = strdup(smoke->path);
     copy.grid = strdup(smoke->grid);
-    if (items == NULL || copy.path == NULL || copy.grid == NULL) {
-        free(copy.path);
-        free(copy.grid);
+    copy.temperature = strdup(smoke->temperature);
+    if (items == NULL || copy.path == NULL || copy.grid == NULL ||
+        copy.temperature == NULL) {
+        smoke_free(&copy);
         return false;
     }
     smokes->items[smokes->count++] = copy;
@@ -38,17 +55,12 @@ bool smokes_copy(struct smokes *to, const struct smokes *from)
     return true;
 }
 
-static bool are_same(const double a[3], const double b[3])
-{
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
 static bool smoke_equal(const struct smoke *a, const struct smoke *b)
 {
     return strcmp(a->path, b->path) == 0 && strcmp(a->grid, b->grid) == 0 &&
-           are_same(a->scatter, b->scatter) && are_same(a->absorb, b->absorb) &&
-           a->anisotropy == b->anisotropy && are_same(a->at, b->at) &&
-           a->scale == b->scale;
+           strcmp(a->temperature, b->temperature) == 0 &&
+           a->up_is_z == b->up_is_z &&
+           memcmp(&a->numbers, &b->numbers, sizeof a->numbers) == 0;
 }
 
 bool smokes_equal(const struct smokes *a, const struct smokes *b)
@@ -63,10 +75,8 @@ bool smokes_equal(const struct smokes *a, const struct smokes *b)
 
 void smokes_free(struct smokes *smokes)
 {
-    for (uint32_t i = 0; i < smokes->count; i++) {
-        free(smokes->items[i].path);
-        free(smokes->items[i].grid);
-    }
+    for (uint32_t i = 0; i < smokes->count; i++)
+        smoke_free(&smokes->items[i]);
     free(smokes->items);
     *smokes = (struct smokes){.count = 0};
 }

@@ -21,10 +21,7 @@
 #include <stdint.h>
 
 #include "base/geometry.h"
-
-/* Voxels on a side of a brick, and in a brick. */
-#define BRICK_SIDE   8
-#define BRICK_VOXELS 512
+#include "kernels/types.h"
 
 /* Most bricks of the box: 2,048 voxels on each side. */
 #define BRICK_PLACES_MAX ((uint64_t)1 << 24)

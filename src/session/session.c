@@ -48,7 +48,7 @@ static void note_additions(struct session *s)
 {
     const char *unread = unread_warning(&s->engine.report);
 
-    if (s->engine.scene.tri_count == 0)
+    if (s->engine.scene.tri_count == 0 && s->engine.world.smoke_count == 0)
         snprintf(s->notice, sizeof s->notice, "no faces: %s",
                  face_warning(&s->engine.report));
     else if (unread != NULL)

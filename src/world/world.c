@@ -20,6 +20,7 @@
 #include "world/light/daylight.h"
 #include "world/light/guide_grid.h"
 #include "world/textures.h"
+#include "world/world_smoke.h"
 #include "kernels/instance.h"
 #include "kernels/light.h"
 #include "kernels/sky.h"
@@ -286,6 +287,10 @@ struct world world_arrays(const struct host_world *host,
         .point_lights = host->point_lights,
         .profiles = host->profiles,
         .directional_lights = host->directional_lights,
+        .smokes = host->smokes,
+        .voxel_places = host->voxel_places,
+        .voxels = host->voxels,
+        .glows = host->glows,
         .settings =
             {
                 .tri_count = scene->tri_count,
@@ -305,6 +310,10 @@ struct world world_arrays(const struct host_world *host,
                 .point_light_count = host->point_light_count,
                 .profile_value_count = host->profile_value_count,
                 .directional_light_count = host->directional_light_count,
+                .smoke_count = host->smoke_count,
+                .voxel_place_count = host->voxel_place_count,
+                .voxel_count = host->voxel_count,
+                .glow_count = host->glow_count,
             },
     };
 
@@ -323,6 +332,8 @@ uint64_t world_features(const struct host_world *host)
         features |= FEATURE_POINT_LIGHTS;
     if (host->directional_light_count > 0)
         features |= FEATURE_DIRECTIONAL_LIGHTS;
+    if (host->smoke_count > 0)
+        features |= FEATURE_GRIDS | FEATURE_MEDIA;
     if (host->has_vertex_colors)
         features |= FEATURE_VERTEX_COLORS;
     if (host->has_vertex_alphas)
@@ -574,6 +585,7 @@ void world_free(struct host_world *host)
     path_guide_free(&host->guide);
     light_paths_free(&host->light_paths);
     bvh8_free(&host->tree);
+    world_free_smokes(host);
     *host = (struct host_world){.tris = NULL};
 }
 

@@ -49,6 +49,8 @@ enum world_part {
     WORLD_LIGHTS, /* area lights, point lights and their tree */
     WORLD_DIRECTIONAL_LIGHTS,
     WORLD_GUIDE,
+    WORLD_SMOKES,
+    WORLD_VOXELS, /* grids of smokes */
     WORLD_PARTS
 };
 
@@ -97,6 +99,16 @@ struct host_world {
     uint32_t profile_value_count;
     struct directional_light *directional_lights;
     uint32_t directional_light_count;
+
+    /* world_smoke.c: grids of files, and the smokes of the view */
+    struct world_grid *grids;
+    uint32_t grid_count;
+    struct voxel_place *voxel_places;
+    float *voxels;
+    uint32_t voxel_place_count, voxel_count;
+    struct smoke_medium *smokes;
+    struct vec3 *glows;
+    uint32_t smoke_count, glow_count;
 
     struct lights lights;
     struct path_guide guide;
@@ -227,7 +239,11 @@ void world_free(struct host_world *host);
       WORLD_DIRECTIONAL_LIGHTS)                                         \
     X(profiles, s->profile_value_count, WORLD_LIGHTS)                   \
     X(light_grids, 0, WORLD_FIXED)                                      \
-    X(light_cells, 0, WORLD_FIXED)
+    X(light_cells, 0, WORLD_FIXED)                                      \
+    X(smokes, s->smoke_count, WORLD_SMOKES)                             \
+    X(voxel_places, s->voxel_place_count, WORLD_VOXELS)                 \
+    X(voxels, s->voxel_count, WORLD_VOXELS)                             \
+    X(glows, s->glow_count, WORLD_SMOKES)
 
 #define WORLD_LIST_NAME(name, count, part) WORLD_LIST_##name,
 enum world_list_index { WORLD_LIST(WORLD_LIST_NAME) WORLD_LIST_COUNT };

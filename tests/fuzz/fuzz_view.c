@@ -66,10 +66,9 @@ static void check_smokes(const struct smokes *a, const struct smokes *b)
 
         check_sky(x->path, y->path);
         require(is_same_text(x->grid, y->grid), x->grid);
-        require(is_same3(x->scatter, y->scatter) &&
-                    is_same3(x->absorb, y->absorb) &&
-                    x->anisotropy == y->anisotropy && is_same3(x->at, y->at) &&
-                    x->scale == y->scale,
+        require(is_same_text(x->temperature, y->temperature), x->temperature);
+        require(memcmp(&x->numbers, &y->numbers, sizeof x->numbers) == 0 &&
+                    x->up_is_z == y->up_is_z,
                 "numbers of a medium");
     }
 }

@@ -98,7 +98,9 @@
       M(settings, sky_power) M(settings, fog) M(settings, camera_media)       \
       M(settings, has_boundaries) M(settings, point_light_count)                   \
       M(settings, sphere_count) M(settings, directional_light_count)          \
-      M(settings, profile_value_count)                                        \
+      M(settings, profile_value_count) M(settings, smoke_count)               \
+      M(settings, voxel_place_count) M(settings, voxel_count)                 \
+      M(settings, glow_count)                                                 \
       M(settings, tri_count) M(settings, instance_count)                      \
       M(settings, position_count)                                             \
       M(settings, normal_count) M(settings, uv_count)                         \
@@ -108,6 +110,14 @@
       M(settings, texel_count) M(settings, light_count)                       \
       M(settings, light_node_count) M(settings, sky_cdf_count)                \
       M(settings, guide)                                                        \
+    S(voxel_field) M(voxel_field, rows) M(voxel_field, origin)                \
+      M(voxel_field, first) M(voxel_field, last) M(voxel_field, sides)        \
+      M(voxel_field, first_place)                                             \
+    S(voxel_place) M(voxel_place, brick) M(voxel_place, majorant)             \
+    S(smoke_medium) M(smoke_medium, density) M(smoke_medium, temperature)     \
+      M(smoke_medium, extinction) M(smoke_medium, scattering)                 \
+      M(smoke_medium, anisotropy) M(smoke_medium, most)                       \
+      M(smoke_medium, first_glow) M(smoke_medium, glow_scale)                 \
     S(ray) M(ray, o) M(ray, d) M(ray, t_max) M(ray, key) M(ray, from)         \
     S(path_sample) M(path_sample, radiance) M(path_sample, rays)              \
       M(path_sample, cut)                                                     \

@@ -204,9 +204,7 @@ static void scenes_without_faces_are_accepted(void **state)
 
     (void)state;
     assert_int_equal(l.scene.tri_count, 0);
-    assert_string_equal(
-        l.report.entries[0].text,
-        "a.obj: found no visible face: only the background is rendered");
+    assert_int_equal(l.report.entry_count, 0);
     check_close(l.scene.scale, 1, 0);
     check_close(l.scene.center[1], 0, 0);
     view_init(&view);
@@ -327,7 +325,7 @@ static void libraries_are_found_beside_the_scene(void **state)
     unload(&l);
     l = load("mtllib no such.mtl\nmtllib other\nv 0 0 0\n"
              "mtllib no such.mtl\n");
-    assert_int_equal(l.report.entry_count, 3);
+    assert_int_equal(l.report.entry_count, 2);
     assert_string_equal(l.report.entries[0].text,
                         "a.obj:1: found no file 'no such.mtl' for mtllib: its "
                         "materials are missing");

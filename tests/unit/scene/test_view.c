@@ -205,7 +205,8 @@ static void wrong_lines_have_their_message(void **state)
     static const char point[] = "3 numbers from -1e30 to 1e30";
     static const char kinds[] = "point, spot or directional";
     static const char smoke[] =
-        "grid, scatter, absorb, anisotropy, at or scale";
+        "grid, scatter, absorb, anisotropy, temperature, kelvin, glow, up, "
+        "at, scale or box";
     static const char sun[] = "an azimuth from -360 to 360 and an elevation "
                               "from -90 to 90 degrees";
     static const char number[] = "a number from 1 to 9";
@@ -298,6 +299,10 @@ static void wrong_lines_have_their_message(void **state)
          "anisotropy"},
         {"medium a.vdb at 1 2 x", "'x'", point, "at"},
         {"medium a.vdb scale 0", "'0'", "a number from 1e-30 to 1e30", "scale"},
+        {"medium a.vdb temperature", "the end of the line",
+         "a name behind temperature", "medium"},
+        {"medium a.vdb up x", "'x'", "y or z behind up", "medium"},
+        {"medium a.vdb kelvin -1", "'-1'", "a number from 0 to 1e30", "kelvin"},
         {"view", "the end of the line", number, "view"},
         {"view 0 eye 0 0 1 at 0 0 0", "'0'", number, "view"},
         {"view 10 eye 0 0 1 at 0 0 0", "'10'", number, "view"},
@@ -593,7 +598,9 @@ static void lights_are_written_in_this_form(void **state)
 static const char smoke_lines[] =
     "medium smoke.vdb scatter 1 2 3\n"
     "medium \"a b.vdb\" grid \"my \"\"grid\"\"\" scatter 1 1 1 absorb "
-    ".5 .25 .125 anisotropy -.5 at 1 -2 3 scale .01 # small\n";
+    ".5 .25 .125 anisotropy -.5 at 1 -2 3 scale .01 # small\n"
+    "medium fire.vdb absorb 1 1 1 temperature heat kelvin 2000 glow 3 up z "
+    "box 0 0 0 1 2 3\n";
 
 static void smokes_are_read(void **state)
 {
@@ -606,25 +613,36 @@ static void smokes_are_read(void **state)
     view_init(&view);
     view_init(&copy);
     check_or_say(view_read(&view, put(smoke_lines), &report, &err), err.text);
-    assert_int_equal(report.entry_count, 1);
-    assert_int_equal(report.entries[0].count, 2);
-    warnings_free(&report);
-    assert_int_equal(view.smokes.count, 2);
+    assert_int_equal(report.entry_count, 0);
+    assert_int_equal(view.smokes.count, 3);
     s = view.smokes.items;
     assert_string_equal(s[0].path, file("smoke.vdb"));
     assert_string_equal(s[0].grid, "");
-    is3(s[0].scatter, 1, 2, 3);
-    is3(s[0].absorb, 0, 0, 0);
-    is3(s[0].at, 0, 0, 0);
-    assert_true(s[0].anisotropy == 0 && s[0].scale == 1);
+    is3(s[0].numbers.scatter, 1, 2, 3);
+    is3(s[0].numbers.absorb, 0, 0, 0);
+    is3(s[0].numbers.at, 0, 0, 0);
+    assert_true(s[0].numbers.anisotropy == 0 && s[0].numbers.scale == 1);
     assert_string_equal(s[1].path, file("a b.vdb"));
     assert_string_equal(s[1].grid, "my \"grid\"");
-    is3(s[1].absorb, .5, .25, .125);
-    is3(s[1].at, 1, -2, 3);
-    assert_true(s[1].anisotropy == -.5 && s[1].scale == .01);
+    is3(s[1].numbers.absorb, .5, .25, .125);
+    is3(s[1].numbers.at, 1, -2, 3);
+    assert_true(s[1].numbers.anisotropy == -.5 && s[1].numbers.scale == .01);
+    assert_string_equal(s[0].temperature, "");
+    assert_false(s[0].up_is_z || smoke_has_box(&s[0].numbers));
+    assert_string_equal(s[2].temperature, "heat");
+    assert_true(s[2].numbers.kelvin == 2000 && s[2].numbers.glow == 3);
+    assert_true(s[2].up_is_z && smoke_has_box(&s[2].numbers));
+    is3(s[2].numbers.box, 0, 0, 0);
+    is3(s[2].numbers.box + 3, 1, 2, 3);
     assert_true(view_copy(&copy, &view));
     assert_true(smokes_equal(&copy.smokes, &view.smokes));
     copy.smokes.items[1].grid[0] = 'M';
+    assert_false(smokes_equal(&copy.smokes, &view.smokes));
+    copy.smokes.items[1].grid[0] = 'm';
+    copy.smokes.items[2].up_is_z = false;
+    assert_false(smokes_equal(&copy.smokes, &view.smokes));
+    copy.smokes.items[2].up_is_z = true;
+    copy.smokes.items[2].numbers.glow = 4;
     assert_false(smokes_equal(&copy.smokes, &view.smokes));
     view_free(&copy);
     view_free(&view);
@@ -644,13 +662,15 @@ static void smokes_are_written_in_this_form(void **state)
     assert_true(view_read(&view, path, &report, &err));
     assert_true(view_write(&view, path, &change, &err));
     is_file(path, smoke_lines);
-    view.smokes.items[0].scatter[2] = .75;
+    view.smokes.items[0].numbers.scatter[2] = .75;
     assert_true(view_write(&view, path, &change, &err));
     is_file(path, "medium smoke.vdb scatter 1 2 0.75 absorb 0 0 0 "
                   "anisotropy 0\n"
                   "medium \"a b.vdb\" grid \"my \"\"grid\"\"\" scatter "
                   "1 1 1 absorb 0.5 0.25 0.125 anisotropy -0.5 at 1 -2 3 "
-                  "scale 0.01\n");
+                  "scale 0.01\n"
+                  "medium fire.vdb scatter 0 0 0 absorb 1 1 1 anisotropy 0 "
+                  "temperature heat kelvin 2000 glow 3 up z box 0 0 0 1 2 3\n");
     view.smokes.items[0].grid[0] = '\0';
     free(view.smokes.items[0].path);
     view.smokes.items[0].path = strdup("a\nb");

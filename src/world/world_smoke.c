@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: MIT
+#include "world/world_smoke.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "image/color.h"
+#include "scene/material.h"
+
+/* Largest extinction of a world, so that products with distances stay finite.
+ */
+#define EXTINCTION_MAX 1e30f
+
+/* Most values of all grids: 8 GiB. */
+#define VOXELS_MAX ((uint64_t)1 << 31)
+
+/* A grid of a file in voxel_places and voxels. */
+struct world_grid {
+    char *path, *name;
+    struct affine to_file; /* from voxels, counted from the first brick's */
+    double first[3], last[3];
+    uint32_t sides[3];
+    uint32_t first_place;
+    float most;    /* largest value, at least 0 */
+    bool is_empty; /* it has no active voxel */
+};
+
+/* ---- grids ---- */
+
+static const struct world_grid *find_grid(const struct host_world *host,
+                                          const char *path, const char *name)
+{
+    for (uint32_t i = 0; i < host->grid_count; i++)
+        if (strcmp(host->grids[i].path, path) == 0 &&
+            strcmp(host->grids[i].name, name) == 0)
+            return &host->grids[i];
+    return NULL;
+}
+
+bool world_has_grid(const struct host_world *host, const char *path,
+                    const char *name)
+{
+    return find_grid(host, path, name) != NULL;
+}
+
+/* Makes room for more items behind `count`. */
+static bool grow(void *array, uint64_t count, uint64_t more, size_t item_bytes)
+{
+    void *items, *grown;
+
+    memcpy(&items, array, sizeof items);
+    grown = realloc(items, (count + more) * item_bytes);
+    if (grown == NULL)
+        return false;
+    memcpy(array, &grown, sizeof grown);
+    return true;
+}
+
+static struct world_grid make_grid(const struct voxel_grid *g)
+{
+    struct affine local = {.m = {{1, 0, 0, g->origin[0]},
+                                 {0, 1, 0, g->origin[1]},
+                                 {0, 0, 1, g->origin[2]}}};
+    struct world_grid made = {.to_file = affine_join(&g->to_world, &local)};
+
+    for (int a = 0; a < 3; a++) {
+        made.first[a] = (double)g->first[a] - g->origin[a];
+        made.last[a] = (double)g->last[a] - g->origin[a];
+        made.sides[a] = g->sides[a];
+        made.is_empty = made.is_empty || g->first[a] > g->last[a];
+    }
+    return made;
+}
+
+/* Appends the bricks of a grid. The arrays have room. */
+static void add_bricks(struct host_world *host, const struct voxel_grid *g,
+                       struct world_grid *made)
+{
+    uint32_t places = (uint32_t)voxel_grid_place_count(g);
+    uint32_t first_brick = host->voxel_count / BRICK_VOXELS;
+
+    made->first_place = host->voxel_place_count;
+    for (uint32_t i = 0; i < places; i++) {
+        float majorant = fmaxf(g->majorants[i], 0);
+
+        host->voxel_places[made->first_place + i] =
+            (struct voxel_place){first_brick + g->index[i], majorant};
+        made->most = fmaxf(made->most, majorant);
+    }
+    memcpy(host->voxels + host->voxel_count, g->values,
+           (size_t)g->brick_count * BRICK_VOXELS * sizeof *g->values);
+    host->voxel_place_count += places;
+    host->voxel_count += g->brick_count * BRICK_VOXELS;
+}
+
+bool world_add_grid(struct host_world *host, const char *path, const char *name,
+                    const struct voxel_grid *grid, struct error *err)
+{
+    uint64_t places = voxel_grid_place_count(grid);
+    uint64_t voxels = (uint64_t)grid->brick_count * BRICK_VOXELS;
+    struct world_grid made = make_grid(grid);
+
+    if (host->voxel_count + voxels > VOXELS_MAX ||
+        host->voxel_place_count + places > UINT32_MAX)
+        return fail(err,
+                    "%s: found more voxels than the %lu of all grids "
+                    "together that are possible",
+                    path, (unsigned long)VOXELS_MAX);
+    made.path = strdup(path);
+    made.name = strdup(name);
+    if (made.path == NULL || made.name == NULL ||
+        !grow(&host->grids, host->grid_count, 1, sizeof made) ||
+        !grow(&host->voxel_places, host->voxel_place_count, places,
+              sizeof *host->voxel_places) ||
+        !grow(&host->voxels, host->voxel_count, voxels, sizeof *host->voxels)) {
+        free(made.path);
+        free(made.name);
+        return fail(err, "%s: out of memory for its voxels", path);
+    }
+    add_bricks(host, grid, &made);
+    host->grids[host->grid_count++] = made;
+    world_renew(host, WORLD_VOXELS);
+    return true;
+}
+
+/* ---- where a grid is ---- */
+
+/* Inverts a map. Returns false if it is flat, or beyond doubles. */
+static bool invert(const struct affine *a, struct affine *to)
+{
+    double columns[3][3], volume;
+
+    for (int i = 0; i < 3; i++)
+        vec3d_cross(a->m[(i + 1) % 3], a->m[(i + 2) % 3], columns[i]);
+    volume = vec3d_dot(a->m[0], columns[0]);
+    if (!(fabs(volume) > 0 && fabs(volume) < INFINITY))
+        return false;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++)
+            to->m[i][k] = columns[k][i] / volume;
+        to->m[i][3] = 0;
+    }
+    for (int i = 0; i < 3; i++)
+        to->m[i][3] = -(to->m[i][0] * a->m[0][3] + to->m[i][1] * a->m[1][3] +
+                        to->m[i][2] * a->m[2][3]);
+    return true;
+}
+
+/* Sets the bounds of a grid's box behind a map. */
+static void find_bounds(const struct world_grid *g, const struct affine *to,
+                        double low[3], double high[3])
+{
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3], q[3];
+
+        for (int a = 0; a < 3; a++)
+            p[a] =
+                (corner >> a & 1) != 0 ? g->last[a] + 0.5 : g->first[a] - 0.5;
+        affine_point(to, p, q);
+        for (int a = 0; a < 3; a++) {
+            low[a] = corner == 0 ? q[a] : fmin(low[a], q[a]);
+            high[a] = corner == 0 ? q[a] : fmax(high[a], q[a]);
+        }
+    }
+}
+
+/* Returns the map from the file of the grid to the scene. `density` is the grid
+ * whose box counts. */
+static struct affine placing(const struct smoke *s,
+                             const struct world_grid *density)
+{
+    static const struct affine turned = {
+        .m = {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}}};
+    static const struct affine same = {
+        .m = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    const struct smoke_numbers *n = &s->numbers;
+    struct affine up = s->up_is_z ? turned : same;
+    struct affine place = {.m = {{n->scale, 0, 0, n->at[0]},
+                                 {0, n->scale, 0, n->at[1]},
+                                 {0, 0, n->scale, n->at[2]}}};
+
+    if (smoke_has_box(n)) {
+        struct affine to = affine_join(&up, &density->to_file);
+        double low[3], high[3];
+
+        find_bounds(density, &to, low, high);
+        for (int a = 0; a < 3; a++) {
+            double factor = (n->box[a + 3] - n->box[a]) / (high[a] - low[a]);
+
+            place.m[a][a] = factor;
+            place.m[a][3] = n->box[a] - low[a] * factor;
+        }
+    }
+    return affine_join(&place, &up);
+}
+
+static struct vec3 as_floats(const double v[3])
+{
+    return v3((float)v[0], (float)v[1], (float)v[2]);
+}
+
+/* Makes the field of a grid that has this map from its file to the scene. */
+static bool make_field(const struct scene *scene, const struct world_grid *g,
+                       const struct affine *place, struct voxel_field *to)
+{
+    double s = scene->scale;
+    const double *c = scene->center;
+    struct affine normalised = {.m = {{s, 0, 0, -c[0] * s},
+                                      {0, s, 0, -c[1] * s},
+                                      {0, 0, s, -c[2] * s}}};
+    struct affine map = affine_join(place, &g->to_file), back;
+
+    map = affine_join(&normalised, &map);
+    if (!invert(&map, &back))
+        return false;
+    for (int i = 0; i < 3; i++) {
+        to->rows[i] = as_floats(back.m[i]);
+        to->sides[i] = g->sides[i];
+        if (!(v3_length(to->rows[i]) < INFINITY && fabs(back.m[i][3]) < 1e30))
+            return false;
+    }
+    to->origin =
+        v3((float)back.m[0][3], (float)back.m[1][3], (float)back.m[2][3]);
+    to->first = as_floats(g->first);
+    to->last = as_floats(g->last);
+    to->first_place = g->first_place;
+    return true;
+}
+
+/* ---- what a smoke does ---- */
+
+/* Fills a table of the radiance of black bodies up to a temperature, by equal
+ * steps. The last one has this luminance. */
+static void fill_glow(double kelvin, double luminance,
+                      struct vec3 table[GLOW_ENTRIES])
+{
+    double last = blackbody_log_luminance(kelvin);
+
+    for (int i = 0; i < GLOW_ENTRIES; i++) {
+        double t = kelvin * i / (GLOW_ENTRIES - 1), rgb[3] = {0, 0, 0};
+
+        if (t >= BLACKBODY_MIN) {
+            double part = exp(blackbody_log_luminance(t) - last) * luminance;
+
+            blackbody_rgb(t, rgb);
+            for (int k = 0; k < 3; k++)
+                rgb[k] *= part;
+        }
+        table[i] = as_floats(rgb);
+    }
+}
+
+/* What is built for a world. */
+struct made {
+    struct smoke_medium smokes[SMOKES_MAX];
+    struct vec3 glows[SMOKES_MAX * GLOW_ENTRIES];
+    uint32_t count, glow_count;
+};
+
+static bool make_glow(const struct host_world *host, const struct scene *scene,
+                      const struct smoke *s, const struct affine *place,
+                      struct smoke_medium *m, struct made *made)
+{
+    const struct world_grid *g;
+    double kelvin;
+
+    m->first_glow = NO_INDEX;
+    if (s->temperature[0] == '\0' || !(s->numbers.glow > 0))
+        return true;
+    g = find_grid(host, s->path, s->temperature);
+    kelvin = g->is_empty
+                 ? 0
+                 : fmin((double)g->most * s->numbers.kelvin, BLACKBODY_MAX);
+    if (kelvin < BLACKBODY_MIN)
+        return true;
+    m->first_glow = made->glow_count;
+    m->glow_scale = (float)((GLOW_ENTRIES - 1) * s->numbers.kelvin / kelvin);
+    fill_glow(kelvin, fmin(s->numbers.glow, (double)EXTINCTION_MAX),
+              made->glows + made->glow_count);
+    made->glow_count += GLOW_ENTRIES;
+    return make_field(scene, g, place, &m->temperature);
+}
+
+/* Makes a smoke, or leaves it out if it has no effect. */
+static bool make_smoke(const struct host_world *host, const struct scene *scene,
+                       const struct smoke *s, struct made *made,
+                       struct error *err)
+{
+    const struct world_grid *g = find_grid(host, s->path, s->grid);
+    struct smoke_medium *m = &made->smokes[made->count];
+    double per_unit = 1 / scene->scale;
+    struct affine place;
+    double most = 0, limit;
+
+    for (int k = 0; k < 3; k++)
+        most = fmax(most,
+                    (s->numbers.scatter[k] + s->numbers.absorb[k]) * per_unit);
+    if (g->is_empty || !(g->most > 0) || !(most > 0))
+        return true;
+    /* all coefficients by one factor, so that the albedo stays */
+    limit = (double)EXTINCTION_MAX / fmax((double)g->most, 1);
+    per_unit *= fmin(1, limit / most);
+    *m = (struct smoke_medium){.anisotropy =
+                                   medium_anisotropy(s->numbers.anisotropy)};
+    for (int k = 0; k < 3; k++) {
+        float scatter = (float)(s->numbers.scatter[k] * per_unit);
+        float absorb = (float)(s->numbers.absorb[k] * per_unit);
+
+        (&m->scattering.x)[k] = scatter;
+        (&m->extinction.x)[k] = scatter + absorb;
+    }
+    m->most = v3_max_component(m->extinction);
+    place = placing(s, g);
+    if (!make_field(scene, g, &place, &m->density) ||
+        !make_glow(host, scene, s, &place, m, made))
+        return fail(err, "%s: found a grid that is flat or too far away",
+                    s->path);
+    made->count++;
+    return true;
+}
+
+/* Returns true if the arrays of the world are these. */
+static bool is_current(const struct host_world *host, const struct made *m)
+{
+    return m->count == host->smoke_count && m->glow_count == host->glow_count &&
+           (m->count == 0 || memcmp(m->smokes, host->smokes,
+                                    m->count * sizeof *m->smokes) == 0) &&
+           (m->glow_count == 0 ||
+            memcmp(m->glows, host->glows, m->glow_count * sizeof *m->glows) ==
+                0);
+}
+
+bool world_set_smokes(struct host_world *host, const struct scene *scene,
+                      const struct smokes *smokes, struct error *err)
+{
+    struct made *m = calloc(1, sizeof *m);
+    bool ok = m != NULL || fail(err, "out of memory for smoke");
+
+    for (uint32_t i = 0; ok && i < smokes->count; i++)
+        ok = make_smoke(host, scene, &smokes->items[i], m, err);
+    if (ok && !is_current(host, m)) {
+        struct smoke_medium *own = alloc_array(m->count, sizeof *own);
+        struct vec3 *glows = alloc_array(m->glow_count, sizeof *glows);
+
+        ok = (own != NULL && glows != NULL) ||
+             fail(err, "out of memory for smoke");
+        if (ok) {
+            memcpy(own, m->smokes, m->count * sizeof *own);
+            memcpy(glows, m->glows, m->glow_count * sizeof *glows);
+            free(host->smokes);
+            free(host->glows);
+            host->smokes = own;
+            host->glows = glows;
+            host->smoke_count = m->count;
+            host->glow_count = m->glow_count;
+            own = NULL;
+            glows = NULL;
+            world_renew(host, WORLD_SMOKES);
+        }
+        free(own);
+        free(glows);
+    }
+    free(m);
+    return ok;
+}
+
+void world_free_smokes(struct host_world *host)
+{
+    for (uint32_t i = 0; i < host->grid_count; i++) {
+        free(host->grids[i].path);
+        free(host->grids[i].name);
+    }
+    free(host->grids);
+    free(host->voxel_places);
+    free(host->voxels);
+    free(host->smokes);
+    free(host->glows);
+}
