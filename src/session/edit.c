@@ -23,6 +23,8 @@ static void free_step(struct edit_step *step)
         free(step->value.lighting);
     if (step->kind == STEP_LAMPS)
         lamps_free(&step->value.lamps);
+    if (step->kind == STEP_SMOKES)
+        smokes_free(&step->value.smokes);
 }
 
 /* Drops all steps from number `count` on. */
@@ -262,6 +264,7 @@ static bool is_now(const struct edit *e, const struct edit_step *s)
     case STEP_LIGHTING:
         return lighting_equal(s->value.lighting, &view->lighting);
     case STEP_LAMPS: return lamps_equal(&s->value.lamps, &view->lamps);
+    case STEP_SMOKES: return smokes_equal(&s->value.smokes, &view->smokes);
     case STEP_POSE: return is_same_pose(&s->value.pose, &view->pose);
     case STEP_SHOT:
         return s->value.shot.is_there == view->has_shot[s->index] &&
@@ -313,6 +316,9 @@ static void exchange(struct edit *e, struct edit_step *s)
         break;
     case STEP_LAMPS:
         EXCHANGE(struct lamps, &view->lamps, &s->value.lamps);
+        break;
+    case STEP_SMOKES:
+        EXCHANGE(struct smokes, &view->smokes, &s->value.smokes);
         break;
     case STEP_POSE: EXCHANGE(struct pose, &view->pose, &s->value.pose); break;
     case STEP_SHOT:
@@ -424,6 +430,29 @@ void edit_remove_lamp(struct edit *e, uint32_t number)
     change(e, step);
 }
 
+/* Begins a change of the smokes with a copy of some. */
+static struct edit_step smokes_step(const struct smokes *smokes,
+                                    uint32_t number)
+{
+    struct edit_step step = {.kind = STEP_SMOKES, .index = number};
+
+    xcheck(smokes_copy(&step.value.smokes, smokes));
+    return step;
+}
+
+void edit_smoke(struct edit *e, uint32_t number,
+                const struct smoke_numbers *numbers)
+{
+    const struct smokes *smokes = &e->now.view.smokes;
+    struct edit_step step;
+
+    if (memcmp(&smokes->items[number].numbers, numbers, sizeof *numbers) == 0)
+        return;
+    step = smokes_step(smokes, number);
+    step.value.smokes.items[number].numbers = *numbers;
+    change(e, step);
+}
+
 void edit_pose(struct edit *e, const struct pose *pose)
 {
     struct edit_step step = {.kind = STEP_POSE, .value.pose = *pose};
@@ -516,6 +545,8 @@ void edit_take_view(struct edit *e, const struct view *view,
         xcheck(lamps_copy(&lamps.value.lamps, &view->lamps));
         change(e, lamps);
     }
+    if (!smokes_equal(&view->smokes, &e->now.view.smokes))
+        change(e, smokes_step(&view->smokes, 0));
     for (uint32_t i = 0; i < VIEW_SHOTS; i++)
         change_to(e, (struct edit_step){.kind = STEP_SHOT,
                                         .index = i,
@@ -538,6 +569,7 @@ static const char *name_step(struct edit *e, const struct edit_step *s)
     case STEP_DUPLICATE:
         snprintf(text, size, "copy %.60s", e->names[s->index]);
         break;
+    case STEP_SMOKES: snprintf(text, size, "smoke"); break;
     case STEP_LAMPS:
     case STEP_LIGHTING: snprintf(text, size, "light"); break;
     case STEP_POSE: snprintf(text, size, "camera"); break;
@@ -592,7 +624,8 @@ static bool is_shown_as_saved(const struct edit *e)
     return !edit_has_unsaved_materials(e) && !has_unsaved_assigned(e) &&
            lighting_is_same_light(&e->now.view.lighting,
                                   &e->saved.view.lighting) &&
-           lamps_equal(&e->now.view.lamps, &e->saved.view.lamps);
+           lamps_equal(&e->now.view.lamps, &e->saved.view.lamps) &&
+           smokes_equal(&e->now.view.smokes, &e->saved.view.smokes);
 }
 
 void edit_compare(struct edit *e, bool is_comparing)
@@ -613,6 +646,7 @@ struct view edit_view(const struct edit *e)
 
     view.lighting = edit_shown(e)->view.lighting;
     view.lamps = edit_shown(e)->view.lamps;
+    view.smokes = edit_shown(e)->view.smokes;
     return view;
 }
 
@@ -648,6 +682,7 @@ bool edit_has_unsaved_view(const struct edit *e)
 {
     return !lighting_equal(&e->now.view.lighting, &e->saved.view.lighting) ||
            !lamps_equal(&e->now.view.lamps, &e->saved.view.lamps) ||
+           !smokes_equal(&e->now.view.smokes, &e->saved.view.smokes) ||
            has_unsaved_assigned(e);
 }
 
@@ -688,7 +723,8 @@ void edit_to_view(const struct edit *e, const struct scene *scene,
                   struct view *view)
 {
     xcheck(lighting_copy(&view->lighting, &e->now.view.lighting) &&
-           lamps_copy(&view->lamps, &e->now.view.lamps));
+           lamps_copy(&view->lamps, &e->now.view.lamps) &&
+           smokes_copy(&view->smokes, &e->now.view.smokes));
     write_assigns(e, scene, &view->assigns);
 }
 
@@ -697,7 +733,8 @@ void edit_saved_lighting(struct edit *e, const struct view *written)
     edit_compare(e, false);
     xcheck(lighting_copy(&e->saved.view.lighting, &written->lighting) &&
            assigns_copy(&e->saved.view.assigns, &written->assigns) &&
-           lamps_copy(&e->saved.view.lamps, &written->lamps));
+           lamps_copy(&e->saved.view.lamps, &written->lamps) &&
+           smokes_copy(&e->saved.view.smokes, &written->smokes));
     memcpy(e->saved.assigned, e->now.assigned,
            e->object_count * sizeof *e->now.assigned);
     e->changes++;

@@ -3,9 +3,9 @@
  * edit.h - the editable state of an open scene, with undo and redo
  *
  * The state has the values of materials, the assignment of materials to
- * objects, duplicated materials, light, lamps, exposure and tone, the camera,
- * and numbered views. It exists only here, and every change is made by a
- * function of this file. Changes without edit_end_step() between them are one
+ * objects, duplicated materials, light, lamps, smoke, exposure and tone, the
+ * camera, and numbered views. It exists only here, and every change is made by
+ * a function of this file. Changes without edit_end_step() between them are one
  * step: the whole motion of a slider or of a held key is undone at once.
  *
  * Units:     those of MTL and view files; times are of clock_ns()
@@ -40,6 +40,7 @@ enum edit_step_kind {
     STEP_DUPLICATE,
     STEP_LIGHTING,
     STEP_LAMPS,
+    STEP_SMOKES,
     STEP_POSE,
     STEP_SHOT
 };
@@ -52,7 +53,7 @@ struct edit_shot {
 
 struct edit_step {
     enum edit_step_kind kind;
-    uint32_t index; /* of the material, object, lamp or numbered view */
+    uint32_t index; /* of the material, object, lamp, smoke or numbered view */
     uint32_t group;
     union {
         /* the step's own; these are larger than other values, and most steps
@@ -62,6 +63,7 @@ struct edit_step {
         uint32_t material;
         bool is_there;
         struct lamps lamps; /* the step's own */
+        struct smokes smokes;
         struct pose pose;
         struct edit_shot shot;
     } value;
@@ -163,6 +165,8 @@ void edit_material(struct edit *edit, uint32_t material,
 void edit_assign(struct edit *edit, uint32_t object, uint32_t material);
 void edit_lighting(struct edit *edit, const struct lighting *lighting);
 void edit_lamp(struct edit *edit, uint32_t number, const struct lamp *lamp);
+void edit_smoke(struct edit *edit, uint32_t number,
+                const struct smoke_numbers *numbers);
 void edit_pose(struct edit *edit, const struct pose *pose);
 
 /* Appends a lamp, whose number is returned, and removes one. */
@@ -178,8 +182,8 @@ uint32_t edit_duplicate(struct edit *edit, uint32_t material);
 uint32_t edit_duplicate_as(struct edit *edit, uint32_t material,
                            const char *name);
 
-/* Takes camera, numbered views, light and lamps of a view, and a material or
- * NO_INDEX for each object, in the present step. */
+/* Takes camera, numbered views, light, lamps and smokes of a view, and a
+ * material or NO_INDEX for each object, in the present step. */
 void edit_take_view(struct edit *edit, const struct view *view,
                     const uint32_t *assigned);
 
@@ -212,8 +216,8 @@ bool edit_has_saved_statements(const struct edit *edit, uint32_t material);
  * was changed and chosen again has more statements of the same meaning. */
 bool edit_is_saved(const struct edit *edit, uint32_t material);
 
-/* Return true if a material, or an assignment, a lamp or the light, is not
- * saved. */
+/* Return true if a material, or an assignment, a lamp, smoke or the light, is
+ * not saved. */
 bool edit_has_unsaved_materials(const struct edit *edit);
 bool edit_has_unsaved_view(const struct edit *edit);
 
@@ -230,12 +234,12 @@ void edit_saved_material(struct edit *edit, uint32_t material);
 /* Returns the material with this name, or NO_INDEX. */
 uint32_t edit_find_material(const struct edit *edit, const char *name);
 
-/* Copies the current light, lamps and assignments into a view. */
+/* Copies the current light, lamps, smokes and assignments into a view. */
 void edit_to_view(const struct edit *edit, const struct scene *scene,
                   struct view *view);
 
-/* Mark light, lamps and assignments of the written view, which are the current
- * ones, or all of that view, as saved. */
+/* Mark light, lamps, smokes and assignments of the written view, which are the
+ * current ones, or all of that view, as saved. */
 void edit_saved_lighting(struct edit *edit, const struct view *written);
 void edit_saved_view(struct edit *edit, const struct view *written);
 

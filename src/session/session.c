@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "engine/smoke_load.h"
 #include "image/image_read.h"
 #include "read/mtl.h"
 #include "terminal/xmalloc.h"
@@ -62,7 +63,8 @@ static void note_additions(struct session *s)
 }
 
 /* Updates the world to the shown state of the edit, whose view is *view. If the
- * sky image cannot be read, the previous one stays and the notice says so. */
+ * sky image or a grid of smoke cannot be used, what was there before stays and
+ * the notice says so. */
 static bool apply_edit(struct session *s, const struct view *view,
                        struct error *err)
 {
@@ -78,6 +80,9 @@ static bool apply_edit(struct session *s, const struct view *view,
         if (!world_load_sky(&s->engine.world, view, &s->engine.report, &why))
             snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
     }
+    if (!smoke_load(&s->engine.world, &s->engine.scene, view, &s->engine.report,
+                    &why))
+        snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
     return world_set_lamps(&s->engine.world, &s->engine.scene, view, err) &&
            world_guide(&s->engine.world, &s->engine.scene, view, err);
 }

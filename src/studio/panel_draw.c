@@ -320,13 +320,13 @@ static void add_parameter(struct editor_panel *p, struct sheet *s,
     char text[LINE_BYTES], value[NAME_BYTES];
     size_t length = strlen(p->typed);
     bool is_typed = is_selected && p->is_typing;
-    enum text_role role = is_selected     ? ROLE_SELECTED
-                          : v->heads_lamp ? ROLE_TITLE
-                                          : ROLE_TEXT;
+    enum text_role role = is_selected    ? ROLE_SELECTED
+                          : v->heads > 0 ? ROLE_TITLE
+                                         : ROLE_TEXT;
     char label[NAME_BYTES];
 
-    snprintf(label, sizeof label, v->heads_lamp ? "%.20s %u" : "%.20s",
-             v->label, v->lamp + 1);
+    snprintf(label, sizeof label, v->heads > 0 ? "%.20s %u" : "%.20s", v->label,
+             v->heads);
     text_width_cut(value, sizeof value, v->text,
                    v->fraction >= 0 ? NUMBER_COLS : VALUE_COLS);
     if (is_typed)

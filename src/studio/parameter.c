@@ -384,9 +384,7 @@ int parameters_list(const struct selection *t,
         for (int part = 0; part < parts; part++) {
             assert(count < PARAMETERS_MAX);
             list[count] = describe(&o, &v, part);
-            list[count].heads_lamp =
-                o.lamp_number != NO_INDEX &&
-                (count == 0 || list[count - 1].lamp != o.lamp_number);
+            list[count].heads = part == 0 ? parameter_heads(&o) : 0;
             list[count++].id = i * PARTS + part;
         }
     }
@@ -430,6 +428,8 @@ static void take_change(struct owner *o, const struct value *v)
     case PAGE_LIGHT:
         if (o->lamp_number != NO_INDEX)
             edit_lamp(t->edit, o->lamp_number, &o->lamp);
+        else if (o->smoke_number != NO_INDEX)
+            edit_smoke(t->edit, o->smoke_number, &o->smoke);
         else
             edit_lighting(t->edit, &o->lighting);
         break;

@@ -97,13 +97,14 @@ struct parameter {
     double color[3];  /* linear */
     enum mtl_map map; /* that an image is for; MTL_MAPS: none */
     uint32_t texture; /* the texture that it switches; NO_INDEX: none */
-    uint32_t lamp;    /* the light that has it; NO_INDEX: none */
-    bool heads_lamp;  /* it is the first one of that light */
+    uint32_t lamp;    /* the lamp that has it; NO_INDEX: none */
+    uint32_t heads;   /* number, from 1, of the lamp or smoke whose first one it
+                         is; 0: none */
 };
 
 /* Lamps that are listed at most, and room for their parameters. */
 #define PARAMETER_LAMPS 16
-#define PARAMETERS_MAX  288
+#define PARAMETERS_MAX  416
 
 /* Lists the parameters of what is selected and returns their number. */
 int parameters_list(const struct selection *selection,

@@ -40,6 +40,8 @@ const struct value_scale scale_kelvin =
 const struct value_scale scale_density =
     SCALE(0, RADIANCE_MAX, 1e-5, 1e4, 0, 4, .zero = "off");
 const struct value_scale scale_anisotropy = SCALE(-1, 1, -1, 1, 0.01, 3,);
+static const struct value_scale scale_size =
+    SCALE(1e-30, RADIANCE_MAX, 1e-4, 1e4, 0, 4,);
 static const struct value_scale scale_radiance =
     SCALE(0, RADIANCE_MAX, 0, 1, 0.01, 3,);
 static const struct value_scale scale_sky =
@@ -207,6 +209,58 @@ static bool get_fog(const struct owner *o, struct value *v)
 static bool get_fog_height(const struct owner *o, struct value *v)
 {
     return get_fog(o, v) && o->lighting.fog.falloff > 0;
+}
+
+/* ---- smoke ---- */
+
+static struct fog medium_of_smoke(const struct smoke_numbers *s)
+{
+    struct fog f = {.anisotropy = s->anisotropy};
+
+    memcpy(f.scatter, s->scatter, sizeof f.scatter);
+    memcpy(f.absorb, s->absorb, sizeof f.absorb);
+    return f;
+}
+
+static bool get_smoke_medium(const struct owner *o, struct value *v)
+{
+    struct fog f = medium_of_smoke(&o->smoke);
+
+    return medium_read(&f, o->row->member, v);
+}
+
+static void set_smoke_medium(struct owner *o, const struct value *v)
+{
+    struct fog f = medium_of_smoke(&o->smoke);
+
+    medium_change(&f, o->row->member, v);
+    memcpy(o->smoke.scatter, f.scatter, sizeof f.scatter);
+    memcpy(o->smoke.absorb, f.absorb, sizeof f.absorb);
+}
+
+/* Reads a double of struct smoke_numbers. */
+static bool get_smoke(const struct owner *o, struct value *v)
+{
+    v->number = *(const double *)(const void *)((const char *)&o->smoke +
+                                                o->row->member);
+    return true;
+}
+
+static void set_smoke(struct owner *o, const struct value *v)
+{
+    *(double *)(void *)((char *)&o->smoke + o->row->member) = v->number;
+}
+
+static bool get_glow(const struct owner *o, struct value *v)
+{
+    return o->smokes->items[o->smoke_number].temperature[0] != '\0' &&
+           get_smoke(o, v);
+}
+
+/* Reads where a smoke is that is not fitted into a box. */
+static bool get_smoke_place(const struct owner *o, struct value *v)
+{
+    return !smoke_has_box(&o->smoke) && get_smoke(o, v);
 }
 
 /* ---- lamps ---- */
@@ -401,6 +455,27 @@ static const struct parameter_row lamp_rows[] = {
     {"angle", OF_DIRECTIONAL, VALUE_NUMBER, &scale_disc, LAMP(angle_deg)},
 };
 
+#define SMOKE_BY(reader, name)         \
+    .get = (reader), .set = set_smoke, \
+    .member = offsetof(struct smoke_numbers, name)
+#define SMOKE(value) \
+    .get = get_smoke_medium, .set = set_smoke_medium, .member = value
+
+/* Rows of each smoke. */
+static const struct parameter_row smoke_rows[] = {
+    {"smoke", ALL, VALUE_NUMBER, &scale_density, SMOKE(MEDIUM_DENSITY)},
+    {"scatters", ALL, VALUE_TRIPLE, &scale_density, SMOKE(MEDIUM_SCATTER)},
+    {"absorbs", ALL, VALUE_TRIPLE, &scale_density, SMOKE(MEDIUM_ABSORB)},
+    {"smoke colour", ALL, VALUE_COLOR, &scale_unit, SMOKE(MEDIUM_COLOR)},
+    {"anisotropy", ALL, VALUE_NUMBER, &scale_anisotropy,
+     SMOKE_BY(get_smoke, anisotropy)},
+    {"glow", ALL, VALUE_NUMBER, &scale_emission, SMOKE_BY(get_glow, glow)},
+    {"x", ALL, VALUE_NUMBER, NULL, SMOKE_BY(get_smoke_place, at[0])},
+    {"y", ALL, VALUE_NUMBER, NULL, SMOKE_BY(get_smoke_place, at[1])},
+    {"z", ALL, VALUE_NUMBER, NULL, SMOKE_BY(get_smoke_place, at[2])},
+    {"scale", ALL, VALUE_NUMBER, &scale_size, SMOKE_BY(get_smoke_place, scale)},
+};
+
 #define COUNT(rows) ((int)(sizeof(rows) / sizeof(rows)[0]))
 
 /* Returns row i of the parameters that all owners of a page have, or NULL.
@@ -421,12 +496,33 @@ static const struct parameter_row *row_at(enum selection_page page, int i,
     return NULL;
 }
 
+/* Chooses row i of those of smokes, then of lamps. */
+static bool choose_item_row(struct owner *o, int i)
+{
+    int smoke = i / COUNT(smoke_rows);
+    int after = i - (int)o->smokes->count * COUNT(smoke_rows);
+    int lamp = after / COUNT(lamp_rows);
+
+    if (smoke < (int)o->smokes->count) {
+        o->row = &smoke_rows[i % COUNT(smoke_rows)];
+        o->smoke_number = (uint32_t)smoke;
+        o->smoke = o->smokes->items[smoke].numbers;
+        return true;
+    }
+    if (lamp >= (int)o->lamps->count || lamp >= PARAMETER_LAMPS)
+        return false;
+    o->row = &lamp_rows[after % COUNT(lamp_rows)];
+    o->lamp_number = (uint32_t)lamp;
+    o->lamp = o->lamps->items[lamp];
+    return true;
+}
+
 bool parameter_choose_row(struct owner *o, int i)
 {
     enum selection_page page = o->selection->page;
     int after;
 
-    o->lamp_number = NO_INDEX;
+    o->lamp_number = o->smoke_number = NO_INDEX;
     o->row = row_at(page, i, &after);
     if (o->row != NULL)
         return true;
@@ -440,13 +536,14 @@ bool parameter_choose_row(struct owner *o, int i)
         o->map = o->selection->new_map;
         return true;
     }
-    if (o->lamps == NULL || after / COUNT(lamp_rows) >= (int)o->lamps->count ||
-        after / COUNT(lamp_rows) >= PARAMETER_LAMPS)
-        return false;
-    o->row = &lamp_rows[after % COUNT(lamp_rows)];
-    o->lamp_number = (uint32_t)(after / COUNT(lamp_rows));
-    o->lamp = o->lamps->items[o->lamp_number];
-    return true;
+    return page == PAGE_LIGHT && choose_item_row(o, after);
+}
+
+uint32_t parameter_heads(const struct owner *o)
+{
+    return o->row == &lamp_rows[0]    ? o->lamp_number + 1
+           : o->row == &smoke_rows[0] ? o->smoke_number + 1
+                                      : 0;
 }
 
 const char *parameter_label(const struct owner *o)
@@ -471,6 +568,7 @@ struct owner parameter_owner(const struct selection *t,
     case PAGE_LIGHT:
         o.lighting = state->view.lighting;
         o.lamps = &state->view.lamps;
+        o.smokes = &state->view.smokes;
         o.place = place_scale(t->scene);
         o.kind = o.lighting.sun.is_on          ? SKY_SUN
                  : o.lighting.sky_path != NULL ? SKY_IMAGE

@@ -64,6 +64,9 @@ struct owner {
     const struct lamps *lamps;      /* all lamps of the light, lent */
     uint32_t lamp_number;           /* of the row's lamp; NO_INDEX: none */
     struct lamp lamp;
+    const struct smokes *smokes; /* of the light, lent */
+    uint32_t smoke_number;       /* of the row's smoke; NO_INDEX: none */
+    struct smoke_numbers smoke;
     struct value_scale place; /* of coordinates: depends on the scene's size */
     uint32_t kind; /* enum material_kind; for the light enum sky_kind */
 };
@@ -98,7 +101,8 @@ struct parameter_row {
     /* Returns false if the owner has no such parameter now. */
     bool (*get)(const struct owner *owner, struct value *value);
     void (*set)(struct owner *owner, const struct value *value);
-    /* offset in material_values, lighting or lamp, or enum medium_value */
+    /* offset in material_values, lighting, lamp or smoke_numbers, or enum
+     * medium_value */
     size_t member;
     size_t result; /* offset of a float in struct material, for get */
     double absent; /* value of a statement that the file does not have */
@@ -119,9 +123,13 @@ struct parameter_row {
 #define CHOICES(array) \
     .names = array, .name_count = sizeof array / sizeof array[0]
 
-/* Sets owner->row to row i of its page: the table's, then those of each map or
- * lamp. Returns false behind the last. */
+/* Sets owner->row to row i of its page: the table's, then those of each map, or
+ * of each lamp and smoke. Returns false behind the last. */
 bool parameter_choose_row(struct owner *owner, int i);
+
+/* Returns the number, from 1, of the lamp or smoke whose first row it is, or
+ * 0. */
+uint32_t parameter_heads(const struct owner *owner);
 
 /* Returns the label of owner->row. */
 const char *parameter_label(const struct owner *owner);

@@ -781,7 +781,7 @@ static void lamps_have_a_first_row(void **state)
                                    .page = PAGE_LIGHT};
     count = parameters_list(&selection, list);
     for (int i = 0; i < count; i++)
-        if (list[i].heads_lamp) {
+        if (list[i].heads > 0) {
             assert_int_equal(list[i].lamp, heads++);
             assert_true(i == 0 || list[i - 1].lamp != list[i].lamp);
         }
