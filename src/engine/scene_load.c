@@ -18,6 +18,7 @@
 #include "film/film.h"
 #include "image/color.h"
 #include "read/child/import.h"
+#include "read/child/voxel_file.h"
 #include "read/gltf/gltf.h"
 #include "read/gltf/gltf_draco.h"
 #include "read/mtl.h"
@@ -207,6 +208,8 @@ static const struct scene_format formats[] = {
      gltf_matches, gltf_parse, true, gltf_draco_missing},
     {"STL", "stl", "z up; ascii and binary", stl_matches, stl_parse, false,
      NULL},
+    {"voxels", "vdb npy", "y up; smoke of OpenVDB and NumPy files",
+     voxel_file_matches, voxel_scene_parse, false, NULL},
     {"others", import_endings, "FBX, COLLADA, 3DS, X3D and more, by libassimp",
      NULL, import_parse, false, import_missing},
 };
@@ -318,6 +321,16 @@ static void turn_lamp(struct lamp *lamp)
     lamp_set_direction(lamp, d);
 }
 
+static void turn_bounds(double low[3], double high[3])
+{
+    double y = low[1];
+
+    low[1] = low[2];
+    low[2] = -high[1];
+    high[1] = high[2];
+    high[2] = -y;
+}
+
 static void turn_z_up(struct scene *scene)
 {
     for (size_t i = 0; i < scene->position_count; i++)
@@ -337,6 +350,9 @@ static void turn_z_up(struct scene *scene)
         turn_float(&scene->tangents[i].d);
     for (uint32_t i = 0; i < scene->instances.count; i++)
         turn_matrix(&scene->instances.items[i].matrix);
+    for (uint32_t i = 0; i < scene->smokes.count; i++)
+        scene->smokes.items[i].up_is_z = true;
+    turn_bounds(scene->bounds_lo, scene->bounds_hi);
 }
 
 static bool read_file(struct scene *scene, const char *path,
@@ -615,10 +631,11 @@ static bool complete_light(const struct scene *scene, struct host_world *host,
 {
     const struct lighting *light = &view->lighting;
 
-    if (scene->tri_count == 0 || light->has_background || host->sky_texels ||
-        has_view_lamps)
+    bool is_empty = scene->tri_count == 0 && host->smoke_count == 0;
+
+    if (is_empty || light->has_background || host->sky_texels || has_view_lamps)
         return true;
-    if (world_has_emitters(host) || has_lamps(host))
+    if (world_has_emitters(host) || has_lamps(host) || host->glow_count > 0)
         return help_light(scene, host, view, report, err);
     if (!scene->is_model)
         warnings_add(report, "scenes without light",
@@ -750,6 +767,15 @@ static bool take_lamps(const struct scene *scene, struct view *view,
     return true;
 }
 
+/* Gives the view the smokes of the scene if it has none. */
+static bool take_smokes(const struct scene *scene, struct view *view,
+                        struct error *err)
+{
+    return view->smokes.count > 0 ||
+           smokes_copy(&view->smokes, &scene->smokes) ||
+           fail(err, "%s: out of memory for its smoke", scene->path);
+}
+
 /* Adds the files of the lamps' profiles to those of the scene, each once. */
 static bool add_profile_paths(struct scene *scene, const struct lamps *lamps,
                               struct error *err)
@@ -796,6 +822,7 @@ bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
         return false;
     has_view_lamps = view->lamps.count > 0;
     if (!take_lamps(scene, view, report, err) ||
+        !take_smokes(scene, view, err) ||
         !add_profile_paths(scene, &view->lamps, err) ||
         !world_init(host, scene, options->thread_count, report, err) ||
         !world_load_sky(host, view, report, err) ||

@@ -2,46 +2,9 @@
 #include "engine/smoke_load.h"
 
 #include <inttypes.h>
-#include <stdio.h>
-#include <stdlib.h>
 
-#include "base/file.h"
-#include "read/child/vdb_read.h"
-#include "read/npy.h"
+#include "read/child/voxel_file.h"
 #include "world/world_smoke.h"
-
-/* Returns true if the file begins as one of NumPy. */
-static bool is_npy(const char *path)
-{
-    char bytes[8];
-    FILE *from = fopen(path, "rb");
-    size_t size_bytes = from != NULL ? fread(bytes, 1, sizeof bytes, from) : 0;
-
-    if (from != NULL)
-        fclose(from);
-    return npy_matches(bytes, size_bytes);
-}
-
-static bool read_npy(struct voxel_grid *grid, const char *path,
-                     const char *name, struct error *err)
-{
-    char *bytes = NULL;
-    size_t size_bytes;
-    struct error own;
-    bool ok;
-
-    if (name[0] != '\0')
-        return fail(err,
-                    "%s: found no grid '%s': a NumPy file is one grid without "
-                    "a name",
-                    path, name);
-    if (!file_read(path, &bytes, &size_bytes, err))
-        return false;
-    ok = npy_parse(grid, bytes, size_bytes, &own) ||
-         fail(err, "%s: %s", path, own.text);
-    free(bytes);
-    return ok;
-}
 
 static bool read_grid(struct host_world *host, const struct scene *scene,
                       const char *path, const char *name,
@@ -52,8 +15,7 @@ static bool read_grid(struct host_world *host, const struct scene *scene,
 
     if (world_has_grid(host, path, name))
         return true;
-    ok = (is_npy(path) ? read_npy(&grid, path, name, err)
-                       : vdb_read(&grid, path, name, scene->program, err)) &&
+    ok = voxel_file_read(&grid, path, name, scene->program, err) &&
          world_add_grid(host, path, name, &grid, err);
     if (ok && grid.replaced_count > 0)
         warnings_add_named(report, "voxels that are no numbers", path,

@@ -4,8 +4,7 @@
  *
  * Ownership: the world owns its arrays
  * Threads:   one, while nobody renders the world
- * Errors:    those of read/child/vdb_read.h and read/npy.h, with the file's
- *            name; those of world/world_smoke.h
+ * Errors:    those of read/child/voxel_file.h and world/world_smoke.h
  */
 #ifndef GLIM_SMOKE_LOAD_H
 #define GLIM_SMOKE_LOAD_H

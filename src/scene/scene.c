@@ -283,6 +283,7 @@ static bool find_bounds(struct scene *scene, struct pool *pool,
 {
     uint32_t plain = plain_count(scene);
     bool ok =
+        scene->smokes.count > 0 ||
         tri_bounds(scene, 0, plain, pool, scene->bounds_lo, scene->bounds_hi);
 
     for (uint32_t i = 0; ok && i < scene->instances.mesh_count; i++) {
@@ -535,6 +536,7 @@ void scene_free(struct scene *scene)
     free(scene->tri_faces);
     free(scene->tri_objects);
     lamps_free(&scene->lamps);
+    smokes_free(&scene->smokes);
     free(scene->placed);
     free(scene->placed_objects);
     free_strings(scene->object_names, scene->object_count);

@@ -22,6 +22,7 @@
 #include "scene/lamp.h"
 #include "scene/material.h"
 #include "scene/pose.h"
+#include "scene/smoke.h"
 #include "kernels/types.h"
 
 /* Place of the first statement that names a texture. */
@@ -111,6 +112,7 @@ struct scene {
     struct lamps lamps;         /* a view without lamps has these */
     enum light_unit light_unit; /* as which the lamps were read */
     bool light_unit_is_guessed;
+    struct smokes smokes; /* a view without smokes has these */
 
     struct material *materials; /* 0 is the default, named "" */
     char **material_names;
@@ -133,7 +135,8 @@ struct scene {
     /* normalised = (file - center) * scale */
     double center[3];
     double scale;
-    double bounds_lo[3], bounds_hi[3]; /* file units; all 0 without triangles */
+    /* file units; without triangles those of smokes, else all 0 */
+    double bounds_lo[3], bounds_hi[3];
 };
 
 /* Returns a pool of the threads that load the scene, for pool_destroy(), or
