@@ -48,7 +48,7 @@ static inline struct vec3 preview_lamps(const struct world *w, struct ray r)
 
 /* The material's colour, brighter the more the surface faces the eye. */
 static inline struct vec3 preview_color(const struct world *w,
-                                        const struct material *m,
+                                        GLOBAL const struct material *m,
                                         const struct bsdf *b,
                                         const struct surface_point *v,
                                         struct vec3 wo)
@@ -67,7 +67,7 @@ static inline struct vec3 direction_numbers(struct vec3 d)
 
 /* Returns the quantity that settings.sample names, at a surface point. */
 static inline struct vec3 aov_value(const struct world *w,
-                                    const struct material *m,
+                                    GLOBAL const struct material *m,
                                     const struct surface_point *v, struct ray r,
                                     struct hit h)
 {
@@ -96,7 +96,7 @@ static inline struct path_sample aov_sample(const struct world *w, struct ray r,
                                             struct hit h)
 {
     struct path_sample out = {{0.0f, 0.0f, 0.0f}, 1, 0};
-    struct material m;
+    GLOBAL const struct material *m;
     struct surface_point v;
 
     r.t_max = h.tri == NO_INDEX ? FLOAT_MAX : h.t;
@@ -107,9 +107,9 @@ static inline struct path_sample aov_sample(const struct world *w, struct ray r,
             out.radiance = v3_add(out.radiance, sky_radiance(w, r.d));
         return out;
     }
-    m = w->materials[tri_material(w, h.tri, instance_of(w, h.tri))];
-    if (surface_at(w, &m, r, h, &v))
-        out.radiance = v3_add(out.radiance, aov_value(w, &m, &v, r, h));
+    m = &w->materials[tri_material(w, h.tri, instance_of(w, h.tri))];
+    if (surface_at(w, m, r, h, &v))
+        out.radiance = v3_add(out.radiance, aov_value(w, m, &v, r, h));
     return out;
 }
 

@@ -43,7 +43,7 @@ struct bump_place {
 /* Cosine to the face normal of a reflection that was turned back. */
 #define BUMP_GRAZING 1e-3f
 
-static inline bool has_bumps(const struct material *m)
+static inline bool has_bumps(GLOBAL const struct material *m)
 {
     return m->normal_texture != NO_INDEX || m->bump_texture != NO_INDEX;
 }
@@ -126,8 +126,9 @@ static inline bool tangents_at(const struct world *w,
 
 /* Slopes of the height map along u and v: central differences over one texel.
  */
-static inline struct vec2
-height_slopes(const struct world *w, const struct material *m, struct vec2 uv)
+static inline struct vec2 height_slopes(const struct world *w,
+                                        GLOBAL const struct material *m,
+                                        struct vec2 uv)
 {
     struct texture t = w->textures[m->bump_texture];
     float x = 0.5f / ((float)t.width * t.scale.x);
@@ -198,7 +199,7 @@ static inline bool turn_normal(const struct world *w, uint32_t texture,
  * before and after. The tangents are of the coordinates of the map of normals.
  */
 static inline struct vec3 bumped_normal(const struct world *w,
-                                        const struct material *m,
+                                        GLOBAL const struct material *m,
                                         const struct bump_place *at,
                                         struct vec3 n)
 {
@@ -222,7 +223,7 @@ static inline struct vec3 bumped_normal(const struct world *w,
 }
 
 /* True if the coat's normal may differ from that of the layers below. */
-static inline bool has_coat_bumps(const struct material *m)
+static inline bool has_coat_bumps(GLOBAL const struct material *m)
 {
     return m->coat > 0.0f &&
            (has_bumps(m) || m->coat_normal_texture != NO_INDEX);
@@ -232,7 +233,7 @@ static inline bool has_coat_bumps(const struct material *m)
  * n with the coat's own map (KHR_materials_clearcoat of glTF). Reflections
  * about it are above the layers below and above the face. */
 static inline struct vec3 coat_normal(const struct world *w,
-                                      const struct material *m,
+                                      GLOBAL const struct material *m,
                                       const struct bump_place *at,
                                       struct vec3 n, struct vec3 below)
 {

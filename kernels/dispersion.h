@@ -19,7 +19,7 @@
 
 /* Refractive index at a wavelength, as KHR_materials_dispersion of glTF has it:
  * Cauchy's equation through the index and the Abbe number of the d line. */
-static inline float ior_at(const struct material *m, float wavelength)
+static inline float ior_at(GLOBAL const struct material *m, float wavelength)
 {
     float change = 523655.0f / (wavelength * wavelength) - 1.5168f;
 
@@ -74,7 +74,7 @@ static inline float wavelength_draw(struct vec3 *weight, float u)
 }
 
 /* Gives a BSDF of a dispersive material the index at a wavelength. */
-static inline void bsdf_disperse(const struct material *m,
+static inline void bsdf_disperse(GLOBAL const struct material *m,
                                  const struct surface_point *v,
                                  float wavelength, struct bsdf *b)
 {

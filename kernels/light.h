@@ -21,7 +21,7 @@
 #include "kernels/surface_point.h"
 
 /* True if a material emits light and is not invisible. */
-static inline bool material_shines(const struct material *m)
+static inline bool material_shines(GLOBAL const struct material *m)
 {
     return (m->emission.x > 0.0f || m->emission.y > 0.0f ||
             m->emission.z > 0.0f) &&
@@ -30,7 +30,7 @@ static inline bool material_shines(const struct material *m)
 
 /* Emitted radiance of a material at a surface point, the same to both sides. */
 static inline struct vec3 emission_at(const struct world *w,
-                                      const struct material *m,
+                                      GLOBAL const struct material *m,
                                       const struct surface_point *v)
 {
     if (!HAS(FEATURE_TEXTURES) || m->emission_texture == NO_INDEX || !v->has_uv)

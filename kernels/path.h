@@ -122,7 +122,7 @@ static inline void path_open(const struct world *w, struct path *p,
 /* Notes the role of a vertex. Returns true if it is a matte one from which on
  * the path leaves out the light that light cells have there. */
 static inline bool path_meet_role(const struct world *w, struct path *p,
-                                  const struct material *m)
+                                  GLOBAL const struct material *m)
 {
     bool has_cells = false;
 
@@ -319,7 +319,8 @@ static inline bool path_cross(struct path *p, uint32_t material,
 
 /* Gives the BSDF of a dispersive material the index at the path's wavelength,
  * which is drawn at the first one. */
-static inline void path_disperse(struct path *p, const struct material *m,
+static inline void path_disperse(struct path *p,
+                                 GLOBAL const struct material *m,
                                  const struct surface_point *v, struct bsdf *b)
 {
     if (p->wavelength == 0.0f)
@@ -343,7 +344,7 @@ static inline struct vec2 path_below_2d(const struct path *p, uint32_t which)
 
 /* Begins a walk below the surface, or leaves the BSDF what does not enter.
  * Returns false if the path does not enter. */
-APART static bool path_enters(struct path *p, const struct material *m,
+APART static bool path_enters(struct path *p, GLOBAL const struct material *m,
                               uint32_t material, const struct surface_point *v,
                               struct bsdf *b)
 {
@@ -381,11 +382,11 @@ static inline bool path_leave(const struct world *w, struct path *p,
                                .kind = MATERIAL_DIFFUSE};
     const struct vec3 wo = v3(0.0f, 0.0f, 1.0f); /* Lambert's needs none */
     uint32_t material = p->below.material;
-    struct material m = w->materials[material];
+    GLOBAL const struct material *m = &w->materials[material];
     struct surface_point v;
     struct vec2 lobe = path_2d(p, DIMENSION_BSDF_LOBE);
 
-    if (!surface_at(w, &m, p->ray, *h, &v))
+    if (!surface_at(w, m, p->ray, *h, &v))
         return false;
     v = surface_turned(v);
     p->below.steps = 0;
@@ -394,7 +395,7 @@ static inline bool path_leave(const struct world *w, struct path *p,
     p->from.transmits = false;
     p->from.is_free = false;
     p->cell = guide_cell_none();
-    p->light.is_lit = path_choose_light(w, p, material, &m, &white, &v, wo);
+    p->light.is_lit = path_choose_light(w, p, material, m, &white, &v, wo);
     return path_scatter(w, p, material, &white, &v, wo,
                         path_2d(p, DIMENSION_BSDF_DIRECTION), lobe.x) &&
            path_advance(w, p, lobe.y);
@@ -443,7 +444,7 @@ APART static bool path_go_below(const struct world *w, struct path *p,
 static inline bool path_extend(const struct world *w, struct path *p,
                                const struct hit *h)
 {
-    struct material m;
+    GLOBAL const struct material *m;
     struct surface_point v;
     struct bsdf b;
     struct vec3 wo, beta;
@@ -480,38 +481,38 @@ static inline bool path_extend(const struct world *w, struct path *p,
      * and nothing before depends on them. */
     path_prepare_2d(p);
     material = tri_material(w, h->tri, instance_of(w, h->tri));
-    m = w->materials[material];
-    if (!surface_at(w, &m, p->ray, *h, &v))
+    m = &w->materials[material];
+    if (!surface_at(w, m, p->ray, *h, &v))
         return false;
     /* Add emission of the surface */
-    path_add_emission(w, p, &m, h->tri, &v);
+    path_add_emission(w, p, m, h->tri, &v);
     first_surface_light(&p->surface, p->vertex, p->out.radiance);
     /* Scatter in the medium on the way, or enter another one */
     if (HAS(FEATURE_MEDIA) && c.is_there) {
         if (p->media.count == 0 && !c.is_in_smoke &&
             first_surface_is_ahead(&p->surface)) {
-            b = bsdf_at(w, &m, &v);
+            b = bsdf_at(w, m, &v);
             first_surface_meet(&p->surface, &b, v.n, h->t);
         }
         return path_collide(w, p, &medium, c.t, beta);
     }
     if (HAS(FEATURE_MEDIA))
         p->beta = beta;
-    if (HAS(FEATURE_MEDIA) && m.is_boundary != 0)
+    if (HAS(FEATURE_MEDIA) && m->is_boundary != 0)
         return path_cross(p, material, &v, h->t);
     if (HAS(FEATURE_LIGHT_PATHS))
-        has_cells = path_meet_role(w, p, &m);
+        has_cells = path_meet_role(w, p, m);
     /* End at the limit of bounces */
     if (path_is_full(w, p))
         return false;
     /* Evaluate the BSDF's parameters and the path guide's cell */
-    b = bsdf_at(w, &m, &v);
+    b = bsdf_at(w, m, &v);
     first_surface_meet(&p->surface, &b, v.n, h->t);
     if (bsdf_is_black(&b))
         return false;
     /* behind the first surface, whose features have no wavelength */
-    if (HAS(FEATURE_DISPERSION) && m.dispersion > 0.0f)
-        path_disperse(p, &m, &v, &b);
+    if (HAS(FEATURE_DISPERSION) && m->dispersion > 0.0f)
+        path_disperse(p, m, &v, &b);
     if (has_cells)
         path_add(p,
                  light_cells_radiance(w, p->half_number, &v, &b,
@@ -519,7 +520,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
                                       random_2d(p->sampler, DIMENSION_CELL)),
                  1.0f);
     if (HAS(FEATURE_SUBSURFACE) && b.subsurface > 0.0f) {
-        if (path_enters(p, &m, material, &v, &b))
+        if (path_enters(p, m, material, &v, &b))
             return true;
     } else if (HAS(FEATURE_RADIANCE_CELLS) &&
                w->settings.has_radiance_cells != 0 &&
@@ -537,7 +538,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
     if (HAS(FEATURE_GUIDE) && guide_helps(&b))
         p->cell = guide_at(w, v.p, v.ng);
     /* Sample a light */
-    p->light.is_lit = path_choose_light(w, p, material, &m, &b, &v, wo);
+    p->light.is_lit = path_choose_light(w, p, material, m, &b, &v, wo);
     /* Sample the BSDF for the next direction; Russian roulette */
     lobe = path_2d(p, DIMENSION_BSDF_LOBE);
     return path_scatter(w, p, material, &b, &v, wo,

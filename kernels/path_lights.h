@@ -162,7 +162,8 @@ static inline void path_add_spheres(const struct world *w, struct path *p,
 }
 
 static inline void path_add_emission(const struct world *w, struct path *p,
-                                     const struct material *m, uint32_t tri,
+                                     GLOBAL const struct material *m,
+                                     uint32_t tri,
                                      const struct surface_point *v)
 {
     float light_pdf = 0.0f;
@@ -269,7 +270,7 @@ static inline bool path_aim(const struct world *w, const struct path *p,
  * or if roulette drops its shadow ray. */
 FLATTENED static inline bool
 path_choose_light(const struct world *w, struct path *p, uint32_t material,
-                  const struct material *m, const struct bsdf *b,
+                  GLOBAL const struct material *m, const struct bsdf *b,
                   const struct surface_point *v, struct vec3 wo)
 {
     struct light_sample l;
@@ -377,7 +378,7 @@ static inline struct vec3 shadow_transmittance(const struct world *w,
     for (uint32_t i = 0; i <= CROSSINGS_MAX; i++) {
         struct medium medium = medium_of(w, &media);
         struct surface_point v;
-        struct material m;
+        GLOBAL const struct material *m;
         uint32_t material;
         struct hit h;
         bool is_end;
@@ -392,10 +393,10 @@ static inline struct vec3 shadow_transmittance(const struct world *w,
         if (is_end)
             return left;
         material = tri_material(w, h.tri, instance_of(w, h.tri));
-        if (w->materials[material].is_boundary == 0 || v3_is_zero(left))
+        m = &w->materials[material];
+        if (m->is_boundary == 0 || v3_is_zero(left))
             break;
-        m = w->materials[material];
-        if (!surface_at(w, &m, r, h, &v))
+        if (!surface_at(w, m, r, h, &v))
             break;
         boundary_cross(&media, material, &v, &r);
         if (r.t_max < FLOAT_MAX)

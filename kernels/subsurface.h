@@ -28,7 +28,7 @@ static inline float subsurface_albedo(float color, float g)
 }
 
 /* Returns the medium below a surface of this color. */
-static inline struct medium subsurface_medium(const struct material *m,
+static inline struct medium subsurface_medium(GLOBAL const struct material *m,
                                               struct vec3 color)
 {
     struct medium medium = m->medium;

@@ -51,7 +51,7 @@ static inline struct vec3 shading_normal(const struct world *w, struct tri t,
 }
 
 /* True if a map turns the grain of the material. */
-static inline bool has_grain_map(const struct material *m,
+static inline bool has_grain_map(GLOBAL const struct material *m,
                                  const struct surface_point *v)
 {
     return HAS(FEATURE_TEXTURE_OPTIONS) && v->has_uv &&
@@ -60,7 +60,7 @@ static inline bool has_grain_map(const struct material *m,
 
 /* The direction of the grain, turned by its map. */
 static inline struct vec2 grain_at(const struct world *w,
-                                   const struct material *m,
+                                   GLOBAL const struct material *m,
                                    const struct surface_point *v)
 {
     struct vec2 grain = m->grain;
@@ -118,9 +118,9 @@ static inline struct vec3 vertex_color(const struct world *w, struct tri t,
  * Returns false for a triangle without a normal. No scene has one, but without
  * this branch compilers order what follows so that scenes of several materials
  * take 4 to 6 % more time (gcc 12). */
-static inline bool surface_at(const struct world *w, const struct material *m,
-                              struct ray r, struct hit h,
-                              struct surface_point *v)
+static inline bool surface_at(const struct world *w,
+                              GLOBAL const struct material *m, struct ray r,
+                              struct hit h, struct surface_point *v)
 {
     uint32_t instance = instance_of(w, h.tri);
     struct tri t = tri_at(w, h.tri, instance);
@@ -201,7 +201,8 @@ static inline float map_number_at(const struct world *w,
 /* Multiplies the stretch of a highlight by a map. The factor squared multiplies
  * how much wider it is along the grain than across, and the width across stays:
  * KHR_materials_anisotropy of glTF. */
-static inline void stretch_at(const struct world *w, const struct material *m,
+static inline void stretch_at(const struct world *w,
+                              GLOBAL const struct material *m,
                               const struct surface_point *v, struct bsdf *b)
 {
     float factor = surface_texel(w, v, m->grain_texture).color.z;
@@ -214,7 +215,7 @@ static inline void stretch_at(const struct world *w, const struct material *m,
 
 /* Multiplies members of a mixture by maps that few materials have. */
 static inline void principled_maps_at(const struct world *w,
-                                      const struct material *m,
+                                      GLOBAL const struct material *m,
                                       const struct surface_point *v,
                                       struct bsdf *b)
 {
@@ -230,7 +231,7 @@ static inline void principled_maps_at(const struct world *w,
 
 /* Fills the members of a BSDF that mixtures have. */
 static inline void principled_at(const struct world *w,
-                                 const struct material *m,
+                                 GLOBAL const struct material *m,
                                  const struct surface_point *v, struct bsdf *b)
 {
     float roughness = map_number_at(w, v, m->coat_alpha_texture);
@@ -268,7 +269,7 @@ static inline float eta_at(const struct bsdf *b, const struct surface_point *v,
 
 /* Fills the members of a BSDF that translucent materials have. */
 static inline void translucency_at(const struct world *w,
-                                   const struct material *m,
+                                   GLOBAL const struct material *m,
                                    const struct surface_point *v,
                                    struct bsdf *b)
 {
@@ -281,7 +282,7 @@ static inline void translucency_at(const struct world *w,
 }
 
 static inline struct bsdf bsdf_at(const struct world *w,
-                                  const struct material *m,
+                                  GLOBAL const struct material *m,
                                   const struct surface_point *v)
 {
     bool has_maps = HAS(FEATURE_TEXTURES) && v->has_uv;

@@ -229,19 +229,20 @@ static inline bool has_coverage(const struct world *w)
 
 /* The opacity times the alphas of the opacity texture and, unless it has the
  * same image, of the colour texture. */
-static inline float opacity_at(const struct world *w, struct material m,
-                               struct tri t, struct hit h)
+static inline float opacity_at(const struct world *w,
+                               GLOBAL const struct material *m, struct tri t,
+                               struct hit h)
 {
     if (HAS(FEATURE_TEXTURES) && t.vt[0] != NO_INDEX &&
-        (m.color_texture != NO_INDEX || m.opacity_texture != NO_INDEX)) {
+        (m->color_texture != NO_INDEX || m->opacity_texture != NO_INDEX)) {
         struct vec2 uv = uv_of(w->uvs, t, h);
 
-        uint32_t color = m.color_is_opaque != 0u ? NO_INDEX : m.color_texture;
+        uint32_t color = m->color_is_opaque != 0u ? NO_INDEX : m->color_texture;
 
-        return m.opacity * alpha_at(w, color, t, h, uv) *
-               alpha_at(w, m.opacity_texture, t, h, uv);
+        return m->opacity * alpha_at(w, color, t, h, uv) *
+               alpha_at(w, m->opacity_texture, t, h, uv);
     }
-    return m.opacity;
+    return m->opacity;
 }
 
 /* The alpha of the vertices at a hit. */
@@ -256,13 +257,13 @@ static inline float vertex_alpha(const struct world *w, struct tri t,
 static inline float coverage_at(const struct world *w, struct hit h)
 {
     struct tri t = tri_at(w, h.tri, instance_of(w, h.tri));
-    struct material m = w->materials[t.material];
+    GLOBAL const struct material *m = &w->materials[t.material];
     float opacity = opacity_at(w, m, t, h);
 
     if (HAS(FEATURE_VERTEX_ALPHAS) && w->settings.alpha_count > 0u)
         opacity *= vertex_alpha(w, t, h);
-    if (m.cutoff > 0.0f)
-        return opacity < m.cutoff ? 0.0f : 1.0f;
+    if (m->cutoff > 0.0f)
+        return opacity < m->cutoff ? 0.0f : 1.0f;
     return opacity;
 }
 
