@@ -101,8 +101,9 @@ static inline void f32x8_store(float *to, f32x8 x)
 #define HAS_WIDE_VECTORS 0
 #endif
 
-/* Keeps a function that few scenes need out of its caller, unless the build is
- * flattened into one: 1 % fewer instructions in most scenes. */
+/* Keeps a function out of its caller, unless the build is flattened into one:
+ * few scenes need it, or registers do not suffice for both. Each has 1 % fewer
+ * instructions in most scenes. */
 #ifdef FLATTEN
 #define APART __attribute__((unused))
 #else

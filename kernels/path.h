@@ -30,10 +30,10 @@
 
 /* Samples the next ray from the BSDF, or from the path guide if it has a table
  * here. Returns false if the path is absorbed. */
-static inline bool path_scatter(const struct world *w, struct path *p,
-                                uint32_t material, const struct bsdf *b,
-                                const struct surface_point *v, struct vec3 wo,
-                                struct vec2 direction, float choice)
+APART static bool path_scatter(const struct world *w, struct path *p,
+                               uint32_t material, const struct bsdf *b,
+                               const struct surface_point *v, struct vec3 wo,
+                               struct vec2 direction, float choice)
 {
     struct bsdf_sample s;
     struct vec3 wi;
