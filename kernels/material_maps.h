@@ -64,6 +64,9 @@
     /* multiplies translucency */                                              \
     MAP(TRANSLUCENCY, translucency_texture, true, FACTOR(translucency),        \
         KEYS("map_Td_weight"))                                                 \
+    /* multiplies subsurface */                                                \
+    MAP(SUBSURFACE, subsurface_texture, true, FACTOR(subsurface),              \
+        KEYS("map_Sf"))                                                        \
     /* red and green turn the grain from where it is at 1, 1/2; blue is a      \
      * factor of its strength */                                               \
     MAP(GRAIN, grain_texture, true, 0, KEYS("map_grain"))                      \

@@ -69,6 +69,11 @@ static inline void media_follow(struct media *s, uint32_t material,
 static inline struct medium medium_of(const struct world *w,
                                       const struct media *s)
 {
+    const struct medium none = {.base = 0.0f};
+
+    if (HAS(FEATURE_SUBSURFACE) && s->count > 0 &&
+        w->materials[s->at[s->count - 1]].subsurface > 0.0f)
+        return none; /* the medium is that of walks */
     return s->count == 0 ? w->settings.fog
                          : w->materials[s->at[s->count - 1]].medium;
 }

@@ -344,26 +344,26 @@ static inline struct vec2 path_below_2d(const struct path *p, uint32_t which)
 
 /* Begins a walk below the surface, or leaves the BSDF what does not enter.
  * Returns false if the path does not enter. */
-APART static bool path_enters(struct path *p, GLOBAL const struct material *m,
-                              uint32_t material, const struct surface_point *v,
-                              struct bsdf *b)
+APART static bool path_enters(const struct world *w, struct path *p,
+                              GLOBAL const struct material *m, uint32_t material,
+                              const struct surface_point *v, struct bsdf *b)
 {
     struct vec3 entry =
         subsurface_entry(b, surface_to_local(v, v3_neg(p->ray.d)));
-    float q = subsurface_probability(b, entry);
+    float share = subsurface_share(w, m, v, b);
+    float q = share * subsurface_chance(b, entry);
     struct surface_point below;
     struct vec3 d;
 
     if (!(path_below_2d(p, 0).x < q)) {
         p->beta = v3_scale(p->beta, 1.0f / (1.0f - q));
-        b->color = v3_scale(b->color, 1.0f - b->subsurface);
-        b->back_color = v3_scale(b->back_color, 1.0f - b->subsurface);
+        b->subsurface = share;
         return false;
     }
     below = surface_turned(surface_of_face(*v));
     d = cosine_around(below.ng,
                       vertex_2d(p->sampler, p->vertex, DIMENSION_ENTRY));
-    p->beta = v3_mul(p->beta, v3_scale(entry, b->subsurface / q));
+    p->beta = v3_mul(p->beta, v3_scale(entry, share / q));
     p->below.medium = subsurface_medium(m, b->color);
     p->below.material = material;
     p->below.steps = 1;
@@ -519,8 +519,8 @@ static inline bool path_extend(const struct world *w, struct path *p,
                                       surface_to_local(&v, v3_neg(p->ray.d)),
                                       random_2d(p->sampler, DIMENSION_CELL)),
                  1.0f);
-    if (HAS(FEATURE_SUBSURFACE) && b.subsurface > 0.0f) {
-        if (path_enters(p, m, material, &v, &b))
+    if (HAS(FEATURE_SUBSURFACE) && m->subsurface > 0.0f) {
+        if (path_enters(w, p, m, material, &v, &b))
             return true;
     } else if (HAS(FEATURE_RADIANCE_CELLS) &&
                w->settings.has_radiance_cells != 0 &&

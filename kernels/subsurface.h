@@ -41,25 +41,58 @@ static inline struct medium subsurface_medium(GLOBAL const struct material *m,
     return medium;
 }
 
-/* Returns the share of light that comes below the highlight of a surface. */
-static inline struct vec3 subsurface_entry(const struct bsdf *b, struct vec3 wo)
+/* Returns the share of the diffuse base that is a walk. Light that has come
+ * through glass does not enter the base from behind. */
+static inline float subsurface_share(const struct world *w,
+                                     const struct material *m,
+                                     const struct surface_point *v,
+                                     const struct bsdf *b)
 {
-    const struct vec3 one = v3(1.0f, 1.0f, 1.0f);
-
-    if (HAS(FEATURE_PLASTIC) && b->kind == MATERIAL_PLASTIC)
-        return v3_sub(one, specular_albedo(b, wo, bsdf_albedo(b, wo)));
-    return one;
+    if (bsdf_is_glass(b) && !v->is_outside)
+        return 0.0f;
+    return HAS(FEATURE_TEXTURE_OPTIONS)
+               ? m->subsurface * map_number_at(w, v, m->subsurface_texture)
+               : m->subsurface;
 }
 
-/* Returns the probability with which a path enters: by the light of both ways.
- * entry: subsurface_entry(). */
-static inline float subsurface_probability(const struct bsdf *b,
-                                           struct vec3 entry)
+/* Returns the share of light that comes below a face of plastic. facets:
+ * bsdf_albedo(). */
+static inline struct vec3 subsurface_below(const struct bsdf *b, struct vec3 wo,
+                                           struct ggx_albedo facets)
+{
+    return v3_sub(v3(1.0f, 1.0f, 1.0f), specular_albedo(b, wo, facets));
+}
+
+/* Returns the share of light that comes below the layers of a mixture, and
+ * beside its metal and its glass. */
+static inline struct vec3 subsurface_entry_mixed(const struct bsdf *b,
+                                                 struct vec3 wo)
+{
+    struct bsdf plastic = has_film(b) ? film_plastic(b, wo) : *b;
+    struct lobes l = principled_lobes(&plastic, wo);
+
+    return v3_scale(subsurface_below(&plastic, wo, l.facets),
+                    f_max(l.weight[LOBE_PLASTIC], 0.0f));
+}
+
+/* Returns the share of light that comes to the diffuse base. */
+static inline struct vec3 subsurface_entry(const struct bsdf *b, struct vec3 wo)
+{
+    if (bsdf_is_principled(b))
+        return subsurface_entry_mixed(b, wo);
+    if (HAS(FEATURE_PLASTIC) && b->kind == MATERIAL_PLASTIC)
+        return subsurface_below(b, wo, bsdf_albedo(b, wo));
+    return v3(1.0f, 1.0f, 1.0f);
+}
+
+/* Returns the probability with which a path enters where the whole base is a
+ * walk: by the light of both ways. entry: subsurface_entry(). */
+static inline float subsurface_chance(const struct bsdf *b, struct vec3 entry)
 {
     float base = v3_max_component(v3_mul(b->color, entry));
-    float specular = 1.0f - f_min(entry.x, f_min(entry.y, entry.z));
+    float rest = 1.0f - f_min(entry.x, f_min(entry.y, entry.z));
 
-    return b->subsurface * base / (base + specular);
+    return base > 0.0f ? base / (base + rest) : 0.0f;
 }
 
 /* Returns the surface from the other side. */

@@ -138,7 +138,7 @@ struct material {
     struct vec2 grain; /* direction of the wider axis, in units of the tangents
                           along u and v */
     float subsurface;  /* weight of subsurface.h */
-    struct medium medium;  /* inside a solid, or below a subsurface */
+    struct medium medium;  /* below a subsurface, else inside a solid */
     uint32_t is_boundary;  /* 1: rays cross it; only its medium is there */
     uint32_t is_thin;      /* 1: glass of MATERIAL_PRINCIPLED is a thin sheet */
     float bump_scale;      /* height of an alpha of 1, in texels */

@@ -486,33 +486,30 @@ static bool make_principled(struct material *m, int illum, bool has_ks,
            (m->metalness > 0 && m->metalness < 1);
 }
 
-/* Sets what is below a diffuse surface, or one of plastic. Sr is the mean free
- * path in each channel, in units of the file. */
+/* Returns true if the material has a diffuse part. */
+static bool has_base(const struct material *m)
+{
+    return m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_ROUGH_DIFFUSE ||
+           m->kind == MATERIAL_PLASTIC ||
+           (m->kind == MATERIAL_PRINCIPLED &&
+            (m->metalness < 1 || m->metal_texture != NO_INDEX) &&
+            (m->transmission < 1 || m->transmission_texture != NO_INDEX));
+}
+
+/* Sets what is below the diffuse part of a surface. Sr is the mean free path in
+ * each channel, in units of the file. */
 static void set_subsurface(struct material *m, const struct material_values *s,
                            const struct statement_place *at)
 {
-    double weight = statement_unit(&s->subsurface, "Sf", at);
+    float weight = (float)statement_unit(&s->subsurface, "Sf", at);
     double g = statement_within(&s->subsurface_anisotropy, "Sg", -1, 1, 0, at);
     struct vec3 path = statement_amounts(&s->subsurface_path, "Sr", at);
 
-    if (!(weight > 0))
+    if (!(weight > 0) || !has_base(m) || !(v3_max_component(path) > 0) ||
+        !v3_is_zero(m->medium.extinction))
         return;
-    if (m->kind != MATERIAL_DIFFUSE && m->kind != MATERIAL_ROUGH_DIFFUSE &&
-        m->kind != MATERIAL_PLASTIC) {
-        warnings_add(at->report, "statements without effect",
-                     "%s:%" PRIu64 ": found Sf, which diffuse surfaces and "
-                     "plastic use: ignored",
-                     at->path, s->subsurface.line);
-        return;
-    }
-    if (!(v3_max_component(path) > 0)) {
-        warnings_add(at->report, "statements without effect",
-                     "%s:%" PRIu64 ": found Sf without Sr, expected a mean "
-                     "free path above 0: ignored",
-                     at->path, s->subsurface.line);
-        return;
-    }
-    m->subsurface = (float)weight;
+    m->subsurface = weight;
+    m->subsurface_texture = material_values_map(s, MTL_MAP_SUBSURFACE);
     m->medium = (struct medium){
         .extinction = {1 / path.x, 1 / path.y, 1 / path.z},
         .anisotropy = medium_anisotropy(g),
@@ -595,6 +592,26 @@ static void check_translucency(const struct material_values *s,
                      "%s:%" PRIu64 ": found Td, which diffuse surfaces, "
                      "plastic and mixtures use: ignored",
                      at->path, line);
+}
+
+/* Reports light below a surface that the material does not have. */
+static void check_subsurface(const struct material_values *s,
+                             const struct material *m,
+                             const struct statement_place *at)
+{
+    uint64_t line = s->subsurface.line;
+
+    if (!((float)s->subsurface.value > 0) || m->subsurface > 0 ||
+        line == MTL_IMPLIED)
+        return;
+    warnings_add(at->report, "statements without effect",
+                 "%s:%" PRIu64 ": found Sf%s: ignored", at->path, line,
+                 !has_base(m)
+                     ? ", which diffuse surfaces, plastic and mixtures "
+                       "with a diffuse part use"
+                 : !v3_is_zero(m->medium.extinction)
+                     ? " beside a medium of glass, which is used instead"
+                     : " without Sr, expected a mean free path above 0");
 }
 
 /* Reports statements about a medium that do nothing here. */
@@ -720,6 +737,7 @@ struct material material_from_source(const struct material_values *source,
                      path, s->illum.line);
     check_medium(s, &m, &at);
     check_translucency(s, &m, &at);
+    check_subsurface(s, &m, &at);
     m.emission = statement_amounts(&light, "Ke", &at);
     m.is_boundary = is_boundary(&m);
     m.role = role_of(&m);
@@ -800,6 +818,7 @@ static bool needs_options(const struct material *m,
         if (maps[i] != NO_INDEX && has_options(&textures[maps[i]]))
             return true;
     return m->specular_weight_texture != NO_INDEX ||
+           m->subsurface_texture != NO_INDEX ||
            m->sheen_alpha_texture != NO_INDEX || m->film_texture != NO_INDEX ||
            m->film_thickness_texture != NO_INDEX ||
            m->grain_texture != NO_INDEX;

@@ -54,7 +54,7 @@
  * and Pf; map_Pf_thickness goes from Pf_thinnest to Pf_thickness. map_grain
  * turns the grain and reduces aniso. map_Pc_norm bends the normal of the coat,
  * which norm and map_Bump do not. map_Td and map_Td_weight multiply Td and
- * Td_weight.
+ * Td_weight, and map_Sf multiplies Sf.
  *
  * In files of Blender (enum mtl_dialect), Ks never is a colour of metal; Pm is
  * Ka with illum 3 and 6 if there is no Pm; roughness is 1 - sqrt(Ns / 1000);

@@ -414,11 +414,10 @@ static bool get_back_color(const struct owner *o, struct value *v)
 
 static void set_subsurface(struct owner *o, const struct value *v)
 {
-    double path = SUBSURFACE_PATH * body_size(o->selection);
-
     put_number(&o->source.subsurface, v->number);
     if (o->source.subsurface_path.line == 0)
-        put_grey(&o->source.subsurface_path, decimal_shortened(path));
+        put_grey(&o->source.subsurface_path,
+                 decimal_shortened(SUBSURFACE_PATH * body_size(o->selection)));
 }
 
 static bool get_mean_path(const struct owner *o, struct value *v)
@@ -737,10 +736,10 @@ const struct parameter_row material_parameters[] = {
      .result = offsetof(struct material, translucency)},
     {"back colour", DIFFUSE | PLASTIC | MIXED, VALUE_COLOR, &scale_unit,
      .get = get_back_color, WRITES_COLOR(back_color)},
-    {"subsurface", DIFFUSE | PLASTIC, VALUE_NUMBER, &scale_unit,
+    {"subsurface", DIFFUSE | PLASTIC | MIXED, VALUE_NUMBER, &scale_unit,
      .get = get_statement, .set = set_subsurface,
      .result = offsetof(struct material, subsurface)},
-    {"mean path", DIFFUSE | PLASTIC, VALUE_TRIPLE, &scale_density,
+    {"mean path", DIFFUSE | PLASTIC | MIXED, VALUE_TRIPLE, &scale_density,
      .get = get_mean_path, WRITES_COLOR(subsurface_path)},
     {"coat", MIXED | PLASTIC | METAL, VALUE_NUMBER, &scale_unit,
      .get = get_coat, .set = set_coat},

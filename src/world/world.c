@@ -109,8 +109,11 @@ static struct material in_world(const struct scene *scene, struct material m)
     m.medium = medium_scaled(m.medium, (float)(1 / scene->scale));
     if (f_min(m.medium.extinction.x,
               f_min(m.medium.extinction.y, m.medium.extinction.z)) >
-        SUBSURFACE_MAX)
+            SUBSURFACE_MAX &&
+        m.subsurface > 0) {
         m.subsurface = 0; /* light leaves where it has entered */
+        m.medium = (struct medium){.base = 0};
+    }
     return m;
 }
 

@@ -48,7 +48,7 @@
       M(material, cutoff) M(material, role) M(material, dispersion)           \
       M(material, subsurface) M(material, back_color)                         \
       M(material, translucency) M(material, back_texture)                     \
-      M(material, translucency_texture)                                       \
+      M(material, translucency_texture) M(material, subsurface_texture)       \
     S(media) M(media, count) M(media, at)                                     \
     S(medium) M(medium, extinction) M(medium, scattering)                     \
       M(medium, anisotropy) M(medium, base) M(medium, falloff)                \

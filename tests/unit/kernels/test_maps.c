@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "kernels/subsurface.h"
 #include "tests/unit/mapped.h"
 
 /* Returns the share of 10,000 rays that a point stops. */
@@ -177,6 +178,48 @@ static void rare_maps_multiply(void **state)
     check_close((double)b.translucency, 0.5 * 0.2, 1e-6);
     check_close((double)b.color.y, 0.5, 0);
     assert_int_equal(l.world.settings.features & FEATURE_COVERAGE, 0);
+    unload(&l);
+}
+
+/* map_Sf multiplies the weight of what enters, which is 1 beside it. */
+static void maps_of_bodies_multiply(void **state)
+{
+    const uint8_t pixel[4] = {51, 102, 153, 204};
+    const struct surface_point v = {.uv = {{0.3f, 0.3f}, {0, 0}},
+                                    .has_uv = true,
+                                    .is_outside = true};
+    struct loaded l;
+    struct bsdf b;
+
+    (void)state;
+    write_image("two.tga", 1, 1, 4, pixel);
+    for (int i = 0; i < 2; i++) {
+        load(&l, i == 0 ? "Kd .5\nSr 1 1 1\nmap_Sf -imfchan g two.tga"
+                        : "Kd .5\nSf .5\nSr 1 1 1\nPc 1\n"
+                          "map_Sf -imfchan g two.tga");
+        b = surface(&l, 0.3f, 0.3f);
+        check_close((double)subsurface_share(&l.world, &l.material, &v, &b),
+                    i == 0 ? 0.4 : 0.2, 1e-6);
+        check_close((double)b.subsurface, 0, 0);
+        assert_true(material_features(&l.material, l.world.textures) &
+                    FEATURE_TEXTURE_OPTIONS);
+        unload(&l);
+    }
+}
+
+/* Light leaves where it has entered if its mean free path is next to nothing,
+ * and there is no medium then. */
+static void short_paths_are_none(void **state)
+{
+    struct loaded l;
+
+    (void)state;
+    load(&l, "Kd .5\nTf .5\nPr .2\nSf 1\nSr 1e-5 1e-6 1e-6");
+    check_close((double)l.material.subsurface, 0, 0);
+    assert_true(v3_is_zero(l.material.medium.extinction));
+    unload(&l);
+    load(&l, "Kd .5\nTf .5\nPr .2\nSf 1\nSr 1e-2 1e-6 1e-6");
+    check_close((double)l.material.subsurface, 1, 0);
     unload(&l);
 }
 
@@ -563,6 +606,8 @@ int main(void)
         cmocka_unit_test(options_rotate),
         cmocka_unit_test(numbers_come_from_their_channels),
         cmocka_unit_test(rare_maps_multiply),
+        cmocka_unit_test(maps_of_bodies_multiply),
+        cmocka_unit_test(short_paths_are_none),
         cmocka_unit_test(maps_turn_and_scale_the_grain),
         cmocka_unit_test(second_coordinates_are_used),
         cmocka_unit_test(options_move_and_scale),

@@ -155,6 +155,88 @@ static void mirrors_lie_above_bodies(void **state)
                               .paths = 3000});
 }
 
+/* A mixture with a body below it. */
+static struct material mixed(float grey, float metalness, float transmission)
+{
+    struct material m = polished(grey, 0.05f, 0);
+
+    m.kind = MATERIAL_PRINCIPLED;
+    m.metalness = metalness;
+    m.transmission = transmission;
+    m.ior = 1.5f;
+    return m;
+}
+
+/* A white mixture is white, whatever its layers, as it is without a body. */
+static void white_mixtures_stay_white(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 7; i++) {
+        struct material m = mixed(1, i == 1 || i == 6 ? 0.4f : 0,
+                                  i == 2 || i == 3 || i == 6 ? 0.3f : 0);
+
+        m.is_thin = i == 3;
+        m.coat = i == 4 || i == 6 ? 0.7f : 0;
+        m.coat_alpha = 0.2f;
+        m.alpha = i == 5 || i == 6 ? 0.3f : 0;
+        if (i == 5) {
+            m.sheen = v3(0.5f, 0.5f, 0.5f);
+            m.sheen_alpha = 0.25f;
+        }
+        if (i == 0) {
+            m.specular = v3(0.5f, 0.5f, 0.5f);
+            m.film = 1;
+        }
+        m.film_ior = 1.4f;
+        m.film_thickness = 400;
+        m.subsurface = i == 6 ? 0.5f : 1;
+        check_body(&m, true,
+                   (struct claim){.eye = {0, 1, 1},
+                                  .truth = GREY(1),
+                                  .systematic = 0.01,
+                                  .paths = 3000,
+                                  .without = 1 << DIRECT_LIGHTS});
+    }
+}
+
+/* Seen along its normal, a mirror of .04 above a mixture of metal and plastic.
+ * Only the plastic has a body. */
+static void mixtures_lie_above_bodies(void **state)
+{
+    const float metal = 0.25f;
+    const double grey = 0.2;
+    struct material m = mixed((float)grey, metal, 0);
+    double plastic = 0.04 + 0.96 * grey;
+    double truth =
+        0.04 + 0.96 * ((double)metal * grey + (1 - (double)metal) * plastic);
+
+    (void)state;
+    m.coat = 1;
+    m.medium.extinction = v3(100, 100, 100);
+    check_body(&m, false,
+               (struct claim){.eye = {0, 2, 0},
+                              .truth = GREY(truth),
+                              .systematic = 0.006,
+                              .paths = 3000});
+}
+
+/* What does not enter a rough diffuse surface is scaled as a whole, so that a
+ * white one is white. */
+static void rough_surfaces_mix(void **state)
+{
+    struct material m = skin(v3(1, 1, 1), 0.05f, 0);
+
+    (void)state;
+    m.kind = MATERIAL_ROUGH_DIFFUSE;
+    m.alpha = 0.8f;
+    m.subsurface = 0.5f;
+    check_body(&m, true,
+               (struct claim){.eye = {0, 1, 1},
+                              .truth = GREY(1),
+                              .systematic = 0.004,
+                              .paths = 1000});
+}
+
 /* Light that walks out of an open mesh, or into another material, is lost. */
 static void open_meshes_lose_the_light(void **state)
 {
@@ -187,6 +269,9 @@ int main(void)
         cmocka_unit_test(weights_mix),
         cmocka_unit_test(highlights_take_their_share),
         cmocka_unit_test(mirrors_lie_above_bodies),
+        cmocka_unit_test(white_mixtures_stay_white),
+        cmocka_unit_test(mixtures_lie_above_bodies),
+        cmocka_unit_test(rough_surfaces_mix),
         cmocka_unit_test(open_meshes_lose_the_light),
     };
 

@@ -132,7 +132,10 @@ static const char media_mtl[] =
     "newmtl core\nillum 7\nNi 1\nTf_scatter 9 3 1\nTf_anisotropy -.4\n"
     "newmtl milk\nillum 7\nNi 1.34\nTf .8\nTf_distance .3\n"
     "Tf_attenuation .2 .3 .4\nTf_multiscatter .9 .8 .7\n"
-    "newmtl frosted\nillum 7\nNi 1.5\nPr .5\nTf_scatter 2\nTf_absorb 0 .1 1\n";
+    "newmtl frosted\nillum 7\nNi 1.5\nPr .5\nTf_scatter 2\nTf_absorb 0 .1 1\n"
+    "newmtl wax\nKd .9 .8 .6\nKs .5\nPr .3\nPm .2\nTf .2\nPc .5\nPs .3\nPf .4\n"
+    "Sf .8\nSr .1 .07 .05\nSg .3\n"
+    "newmtl chalk\nKd .9 .8 .8\nKd_roughness .6\nSf .4\nSr .02 .02 .03\n";
 
 /* Writes a box whose faces point outwards. */
 static void put_box(FILE *f, const char *material, const double low[3],
@@ -151,7 +154,8 @@ static void put_box(FILE *f, const char *material, const double low[3],
 }
 
 /* Writes bodies on a floor: smoke around a core, milk in smooth and in rough
- * glass, which touches the floor, and a lamp over them if it is wanted. */
+ * glass, which touches the floor, two bodies with light below their surface,
+ * and a lamp over them if it is wanted. */
 static void put_media(const char *view, bool has_lamp)
 {
     char path[sizeof folder + 32];
@@ -174,6 +178,10 @@ static void put_media(const char *view, bool has_lamp)
             (const double[3]){1, 1, 0});
     put_box(f, "frosted", (const double[3]){.2, 0, .3},
             (const double[3]){.8, .5, .9});
+    put_box(f, "wax", (const double[3]){-.6, 0, .7},
+            (const double[3]){-.3, .4, 1});
+    put_box(f, "chalk", (const double[3]){-.2, 0, .8},
+            (const double[3]){0, .3, 1});
     if (has_lamp)
         fprintf(f, "usemtl lamp\nv -.5 2 .5\nv -.5 2 -.5\nv .5 2 -.5\n"
                    "v .5 2 .5\nf -4 -3 -2 -1\n");
@@ -217,6 +225,7 @@ static void media_are_equal(void **state)
         snprintf(path, sizeof path, "%s/media.obj", folder);
         open_pair(&p, path, 48, 36);
         assert_true((world_features(&p.world) & FEATURE_MEDIA) != 0);
+        assert_true((world_features(&p.world) & FEATURE_SUBSURFACE) != 0);
         render_both(&p, (struct rect){0, 0, 48, 36}, 5, i);
         p.has_surfaces = true;
         render_both(&p, (struct rect){0, 0, 48, 36}, 2, i);

@@ -531,10 +531,26 @@ static void solids_absorb_their_colour(void **state)
     only_material("Kd .5\nTf_distance 2", 1);
 }
 
-/* Sf is the weight of light below diffuse surfaces and plastic, Sr its mean
+/* Sf is the weight of light below the diffuse part of a surface, Sr its mean
  * free path. */
 static void surfaces_have_light_below(void **state)
 {
+    static const struct {
+        const char *text;
+        double subsurface;
+        int warnings;
+    } cases[] = {
+        {"Kd .7\nSr 1 1 1", 0, 0},
+        {"Kd .7\nSf 1", 0, 1},
+        {"Kd .7\nSf 1\nSr 0 0 0", 0, 1},
+        {"Pm 1\nSf 1\nSr 1 1 1", 0, 1},
+        {"illum 7\nSf 1\nSr 1 1 1", 0, 1},
+        {"Pm .5\nSf 1\nSr 1 1 1", 1, 0},
+        {"Pm 1\nPc 1\nSf 1\nSr 1 1 1", 0, 1},
+        {"Tf .5\nPr .2\nSf 1\nSr 1 1 1", 1, 0},
+        {"Tf 1 1 1\nPr .2\nSf 1\nSr 1 1 1", 0, 1},
+        {"Tf .5\nPr .2\nTf_scatter 1\nSf 1\nSr 1 1 1", 0, 1},
+    };
     struct material m = only_material("Kd .7\nSf .5\nSr .1 .2 .4\nSg -.5", 0);
 
     (void)state;
@@ -548,10 +564,10 @@ static void surfaces_have_light_below(void **state)
     check_color(m.medium.extinction, 1, (double)1e30f, (double)1e30f);
     assert_true(material_features(&m, NULL) & FEATURE_SUBSURFACE);
     assert_false(material_features(&m, NULL) & FEATURE_ATTENUATION);
-    assert_true(only_material("Kd .7\nSr 1 1 1", 0).subsurface == 0);
-    assert_true(only_material("Kd .7\nSf 1", 1).subsurface == 0);
-    assert_true(only_material("Kd .7\nSf 1\nSr 0 0 0", 1).subsurface == 0);
-    assert_true(only_material("Pm 1\nSf 1\nSr 1 1 1", 1).subsurface == 0);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        check_close(
+            (double)only_material(cases[i].text, cases[i].warnings).subsurface,
+            cases[i].subsurface, 0);
     assert_true(only_material("Kd .7\nSf 7\nSr 1 1 1", 1).subsurface == 1);
     assert_true(
         only_material("Kd .7\nSf 1\nSr 1 1 1\nSg 2", 1).medium.anisotropy == 0);

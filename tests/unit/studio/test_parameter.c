@@ -210,10 +210,14 @@ static void set_values_reach_the_material(void **state)
         set(&s, "grain turn", &(struct value){.number = .25});
         set(&s, "translucent", &(struct value){.number = .375});
         set(&s, "back colour", &color);
+        set(&s, "mean path", &color);
+        set(&s, "subsurface", &(struct value){.number = .625});
         m = material_of(&s);
         if (m.kind != MATERIAL_METAL && m.kind != MATERIAL_GLASS &&
             m.kind != MATERIAL_THIN_GLASS) {
             check_close((double)m.translucency, .375, 0);
+            check_close((double)m.subsurface, .625, 0);
+            assert_true(m.medium.extinction.x > 0);
             check_color(m.back_color, color.rgb);
         }
         if (m.kind == MATERIAL_PRINCIPLED) {
