@@ -264,101 +264,224 @@ static bool read_glossiness(struct reader *r, const struct gltf_value *v,
 
 /* ---- layers ---- */
 
-/* Reads the color and the mean cosine of scattering: those of
- * KHR_materials_scatter, else of KHR_materials_volume_scatter, the draft before
- * it. Both spellings of the color are in use. It is black if nothing is
- * scattered. A surface that is no boundary of a solid does not use them. */
-static bool read_scatter(struct reader *r, bool is_solid, double color[3],
-                         double *cosine)
+/* What is in a body, or in a thin wall. */
+struct inside {
+    bool is_thick;
+    double distance, tint[3];          /* of attenuation */
+    double color[3], strength, cosine; /* of scattering */
+    bool may_be_thin;                  /* the draft has thin walls */
+    bool has_maps;                     /* of scattering */
+};
+
+/* Reads scattering: that of KHR_materials_scatter, else of
+ * KHR_materials_volume_scatter, the draft before it. Both spellings of the
+ * color are in use. The strength is 0 without either. */
+static bool read_scatter(struct reader *r, struct inside *in)
 {
     struct gltf_value v, older;
-    double strength;
 
     if (!gltf_extension(&r->v, "KHR_materials_scatter", &v, r->err) ||
         !gltf_extension(&r->v, "KHR_materials_volume_scatter", &older, r->err))
         return false;
-    strength = v.json == NULL;
+    in->may_be_thin = v.json != NULL;
+    in->strength = v.json == NULL;
     for (int i = 0; i < 3; i++)
-        color[i] = v.json != NULL;
+        in->color[i] = v.json != NULL;
     if (v.json == NULL)
         v = older;
-    if (!read_number(r, &v, "scatterStrengthFactor", &strength) ||
-        !gltf_numbers(&v, "multiscatterColor", 3, color, r->err) ||
-        !gltf_numbers(&v, "multiscatterColorFactor", 3, color, r->err) ||
-        !read_number(r, &v, "scatterAnisotropy", cosine))
+    if (!read_number(r, &v, "scatterStrengthFactor", &in->strength) ||
+        !gltf_numbers(&v, "multiscatterColor", 3, in->color, r->err) ||
+        !gltf_numbers(&v, "multiscatterColorFactor", 3, in->color, r->err) ||
+        !read_number(r, &v, "scatterAnisotropy", &in->cosine))
         return false;
+    in->strength = statement_clamped(in->strength);
+    if (is_black(in->color))
+        in->strength = 0;
     for (int i = 0; i < 3; i++)
-        color[i] *= statement_clamped(strength);
-    if (is_black(color))
-        return true;
-    if (!is_solid)
+        in->color[i] = fmin(fmax(in->color[i], 0), 1);
+    in->cosine = fmin(fmax(in->cosine, -1), 1);
+    in->has_maps =
+        json_object_get(v.json, "multiscatterColorTexture") != NULL ||
+        json_object_get(v.json, "scatterStrengthTexture") != NULL;
+    return true;
+}
+
+static bool read_inside(struct reader *r, struct inside *in)
+{
+    double thickness = 0;
+    struct gltf_value v;
+
+    *in = (struct inside){.distance = INFINITY, .tint = {1, 1, 1}};
+    if (!gltf_extension(&r->v, "KHR_materials_volume", &v, r->err) ||
+        !read_number(r, &v, "thicknessFactor", &thickness) ||
+        !read_number(r, &v, "attenuationDistance", &in->distance) ||
+        !gltf_numbers(&v, "attenuationColor", 3, in->tint, r->err))
+        return false;
+    in->is_thick = thickness > 0;
+    return read_scatter(r, in);
+}
+
+/* Says that scattering has no place in this material. */
+static void warn_of_scatter(struct reader *r, const struct inside *in)
+{
+    if (in->strength > 0)
         warn(r, "media without a body",
              "scattering without KHR_materials_transmission and a thick "
              "KHR_materials_volume: ignored");
-    else if (json_object_get(v.json, "multiscatterColorTexture") != NULL ||
-             json_object_get(v.json, "scatterStrengthTexture") != NULL)
+}
+
+static void warn_of_scatter_maps(struct reader *r, const struct inside *in)
+{
+    if (in->strength > 0 && in->has_maps)
         warn(r, "maps of media", "textures of scattering: not used");
-    return true;
 }
 
-/* Reads the inside of a solid: what it absorbs, scatters and disperses. Its
- * attenuation is the extinction, of which a part scatters. */
-static bool read_volume(struct reader *r)
+/* Sets the inside of a solid: what it absorbs and scatters. Its attenuation is
+ * the extinction, of which a part scatters. */
+static void set_solid(struct reader *r, const struct inside *in)
 {
     struct material_values *s = &r->source;
-    double thickness = 0, distance = INFINITY, tint[3] = {1, 1, 1};
-    double dispersion = 0, color[3], cosine = 0;
-    struct gltf_value volume, spread;
-    bool is_solid;
+    double color[3];
 
-    if (!gltf_extension(&r->v, "KHR_materials_volume", &volume, r->err) ||
-        !read_number(r, &volume, "thicknessFactor", &thickness) ||
-        !read_number(r, &volume, "attenuationDistance", &distance) ||
-        !gltf_numbers(&volume, "attenuationColor", 3, tint, r->err) ||
-        !gltf_extension(&r->v, "KHR_materials_dispersion", &spread, r->err) ||
-        !read_number(r, &spread, "dispersion", &dispersion))
-        return false;
-    is_solid = thickness > 0;
-    if (!read_scatter(r, is_solid, color, &cosine))
-        return false;
-    if (!is_solid) {
-        set_number(&s->thinness, 1);
-        return true;
-    }
-    if (dispersion > 0)
-        set_number(&s->abbe, DISPERSION_ABBE / dispersion);
-    if (!(distance > 0 && distance < (double)INFINITY))
-        return true;
-    set_number(&s->attenuation_distance, distance);
-    set_color(&s->attenuation, tint);
-    if (is_black(color))
-        return true;
+    warn_of_scatter_maps(r, in);
+    if (!(in->distance > 0 && in->distance < (double)INFINITY))
+        return;
+    set_number(&s->attenuation_distance, in->distance);
+    set_color(&s->attenuation, in->tint);
+    if (!(in->strength > 0))
+        return;
+    for (int i = 0; i < 3; i++)
+        color[i] = in->color[i] * in->strength;
     set_color(&s->medium_color, color);
-    if (cosine != 0)
-        set_number(&s->medium_anisotropy, fmin(fmax(cosine, -1), 1));
+    if (in->cosine != 0)
+        set_number(&s->medium_anisotropy, in->cosine);
+}
+
+/* Makes a part of what goes through a thin wall diffuse: the strength is its
+ * share. It has the color of scattering to both sides, and (1 + cosine) / 2 of
+ * it goes on. What is opaque has the base color, so that reflection has a mean
+ * of both. Returns the rest of the weight. */
+static double scatter_in_wall(struct reader *r, const struct inside *in,
+                              double weight)
+{
+    struct material_values *s = &r->source;
+    double rest = statement_clamped(weight) * (1 - in->strength);
+    double share =
+        rest < 1 ? (statement_clamped(weight) - rest) / (1 - rest) : 0;
+    double behind = share * (1 + in->cosine) / 2;
+    double color[3];
+
+    warn_of_scatter_maps(r, in);
+    if (!(share > 0))
+        return rest;
+    for (int i = 0; i < 3; i++)
+        color[i] = behind < 1 ? ((1 - share) * s->base_color.rgb[i] +
+                                 (share - behind) * in->color[i]) /
+                                    (1 - behind)
+                              : in->color[i];
+    set_color(&s->base_color, color);
+    set_unit(&s->translucency, behind);
+    set_color(&s->back_color, in->color);
+    return rest;
+}
+
+static bool read_dispersion(struct reader *r)
+{
+    double dispersion = 0;
+    struct gltf_value v;
+
+    if (!gltf_extension(&r->v, "KHR_materials_dispersion", &v, r->err) ||
+        !read_number(r, &v, "dispersion", &dispersion))
+        return false;
+    if (dispersion > 0)
+        set_number(&r->source.abbe, DISPERSION_ABBE / dispersion);
     return true;
 }
 
-static bool read_transmission(struct reader *r)
+static bool read_transmission(struct reader *r, const struct inside *in)
 {
     struct material_values *s = &r->source;
-    double weight = 0, color[3], cosine;
+    bool is_wall = !in->is_thick && in->may_be_thin && in->strength > 0;
+    double weight = 0;
     struct gltf_value v;
 
     if (!gltf_extension(&r->v, "KHR_materials_transmission", &v, r->err) ||
         !read_number(r, &v, "transmissionFactor", &weight))
         return false;
     if (!(weight > 0))
-        return read_scatter(r, false, color, &cosine);
+        return true;
+    if (is_wall)
+        weight = scatter_in_wall(r, in, weight);
+    else if (!in->is_thick)
+        warn_of_scatter(r, in);
+    if (!(weight > 0))
+        return read_map(r, &v, "transmissionTexture", of_red,
+                        MTL_MAP_TRANSLUCENCY);
     set_color(&s->transmission, (const double[3]){weight, weight, weight});
-    return read_volume(r) &&
+    if (in->is_thick)
+        set_solid(r, in);
+    else
+        set_number(&s->thinness, 1);
+    return (!in->is_thick || read_dispersion(r)) &&
            read_map(r, &v, "transmissionTexture", of_red, MTL_MAP_TRANSMISSION);
 }
 
-static bool read_diffuse_transmission(struct reader *r)
+/* Longest mean free path: that of channels that nothing takes light from. */
+#define PATH_MAX 1e30
+
+/* Returns true if there is a medium, and its mean free paths. */
+static bool mean_paths(const struct inside *in, double path[3])
+{
+    bool is_there = false;
+
+    for (int i = 0; i < 3; i++) {
+        double depth = log(1 / fmin(fmax(in->tint[i], 1e-30), 1));
+
+        path[i] = fmin(in->distance / depth, PATH_MAX);
+        is_there = is_there || path[i] < PATH_MAX;
+    }
+    return in->distance > 0 && is_there;
+}
+
+/* Sets a medium behind diffuse transmission: light below the surface, whose
+ * color is that of scattering after two ways through the surface. What is
+ * reflected has the base color, and a thick body the mean of both. v: the
+ * extension of diffuse transmission, with its weight and color. */
+static bool set_below(struct reader *r, const struct inside *in,
+                      const struct gltf_value *v, double weight,
+                      const double through[3])
 {
     struct material_values *s = &r->source;
-    double weight = 0, color[3] = {1, 1, 1};
+    double share = statement_clamped(weight), color[3];
+
+    s->subsurface_path.line = LINE;
+    mean_paths(in, s->subsurface_path.rgb);
+    warn_of_scatter_maps(r, in);
+    for (int i = 0; i < 3; i++) {
+        double t = fmin(fmax(through[i], 0), 1);
+
+        color[i] = (1 - share) * s->base_color.rgb[i] +
+                   share * in->color[i] * in->strength * t * t;
+    }
+    set_color(&s->base_color, color);
+    set_unit(&s->subsurface, share);
+    if (in->cosine != 0)
+        set_number(&s->subsurface_anisotropy, in->cosine);
+    if (s->maps[MTL_MAP_COLOR] != NO_INDEX)
+        warn(r, "maps of colors below surfaces",
+             "baseColorTexture, which also multiplies the color of scattering "
+             "behind KHR_materials_diffuse_transmission");
+    else if (!read_map(r, v, "diffuseTransmissionColorTexture", of_color,
+                       MTL_MAP_COLOR))
+        return false;
+    return read_map(r, v, "diffuseTransmissionTexture", of_alpha,
+                    MTL_MAP_SUBSURFACE);
+}
+
+static bool read_diffuse_transmission(struct reader *r, const struct inside *in)
+{
+    struct material_values *s = &r->source;
+    double weight = 0, color[3] = {1, 1, 1}, path[3];
     struct gltf_value v;
 
     if (!gltf_extension(&r->v, "KHR_materials_diffuse_transmission", &v,
@@ -366,8 +489,14 @@ static bool read_diffuse_transmission(struct reader *r)
         !read_number(r, &v, "diffuseTransmissionFactor", &weight) ||
         !gltf_numbers(&v, "diffuseTransmissionColorFactor", 3, color, r->err))
         return false;
+    if (s->transmission.line == 0 && s->translucency.line == 0 &&
+        !(weight > 0 && in->is_thick))
+        warn_of_scatter(r, in);
     if (!(weight > 0))
         return true;
+    if (s->transmission.line == 0 && in->is_thick && in->strength > 0 &&
+        mean_paths(in, path))
+        return set_below(r, in, &v, weight, color);
     set_unit(&s->translucency, weight);
     set_color(&s->back_color, color);
     return read_map(r, &v, "diffuseTransmissionTexture", of_alpha,
@@ -492,8 +621,11 @@ static bool make_unlit(struct reader *r, uint32_t alpha_flag)
 
 static bool read_layers(struct reader *r)
 {
-    return read_transmission(r) && read_diffuse_transmission(r) &&
-           read_coat(r) && read_sheen(r) && read_anisotropy(r) && read_film(r);
+    struct inside in;
+
+    return read_inside(r, &in) && read_transmission(r, &in) &&
+           read_diffuse_transmission(r, &in) && read_coat(r) && read_sheen(r) &&
+           read_anisotropy(r) && read_film(r);
 }
 
 static bool read_statements(struct reader *r)

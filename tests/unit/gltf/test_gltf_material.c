@@ -523,15 +523,140 @@ static void drafts_scatter_what_is_attenuated(void **state)
     }
 }
 
+/* A diffuse surface of color 0.5, 0.25, 1 with diffuse transmission of color 1,
+ * 0.5, 1 before an attenuation of 0.5 0.25 1 after a distance of 2. */
+#define LEAF(thickness, weight, core, drafts)                              \
+    "{\"pbrMetallicRoughness\":{" core "\"metallicFactor\":0,"             \
+    "\"baseColorFactor\":[0.5,0.25,1,1]},"                                 \
+    "\"extensions\":{\"KHR_materials_diffuse_transmission\":{"             \
+    "\"diffuseTransmissionFactor\":" weight                                \
+    ",\"diffuseTransmissionColorFactor\":[1,0.5,1],"                       \
+    "\"diffuseTransmissionTexture\":{\"index\":0},"                        \
+    "\"diffuseTransmissionColorTexture\":{\"index\":1}},"                  \
+    "\"KHR_materials_volume\":{\"thicknessFactor\":" thickness             \
+    ",\"attenuationDistance\":2,\"attenuationColor\":[0.5,0.25,1]}" drafts \
+    "}}"
+
+/* A medium behind diffuse transmission is one below the surface. A thick body
+ * has the color of scattering after two ways through the surface, and what the
+ * surface reflects. */
+static void media_lie_behind_diffuse_transmission(void **state)
+{
+    static const struct {
+        const char *material;
+        double weight;
+    } cases[] = {
+        {LEAF("1", "1", "",
+              OLDER("\"multiscatterColor\":[0.9,0.8,0.4],"
+                    "\"scatterAnisotropy\":0.4")),
+         1},
+        {LEAF("1", "0.25", "",
+              OLDER("\"multiscatterColorFactor\":[0.9,0.8,0.4],"
+                    "\"scatterAnisotropy\":0.4")),
+         0.25},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        double w = cases[i].weight;
+        const struct material *m;
+        struct loaded l;
+
+        load_text(&l, cases[i].material);
+        assert_true(l.ok);
+        assert_int_equal(l.report.entry_count, 0);
+        m = &l.scene.materials[1];
+        check_close((double)m->subsurface, w, 0);
+        check_close((double)m->translucency, 0, 0);
+        check_close((double)m->medium.extinction.x, log(2) / 2, 1e-6);
+        check_close((double)m->medium.extinction.y, log(2), 1e-6);
+        check_close((double)m->medium.extinction.z, 0, 1e-29);
+        check_close((double)m->medium.anisotropy, 0.4, 1e-6);
+        check_close((double)m->color.x, (1 - w) * 0.5 + w * 0.9, 1e-6);
+        check_close((double)m->color.y, (1 - w) * 0.25 + w * 0.2, 1e-6);
+        check_close((double)m->color.z, (1 - w) + w * 0.4, 1e-6);
+        assert_int_equal(texture_of(&l, m->subsurface_texture)->channel,
+                         CHANNEL_ALPHA);
+        assert_int_equal(texture_of(&l, m->color_texture)->is_data, 0);
+        unload(&l);
+    }
+}
+
+/* A white attenuation means that there is no medium. */
+static void leaves_without_a_medium_transmit(void **state)
+{
+    struct loaded l;
+
+    (void)state;
+    load_text(&l, "{\"pbrMetallicRoughness\":{\"metallicFactor\":0},"
+                  "\"extensions\":{\"KHR_materials_diffuse_transmission\":"
+                  "{\"diffuseTransmissionFactor\":1},\"KHR_materials_volume\":"
+                  "{\"thicknessFactor\":1,\"attenuationDistance\":1}" OLDER(
+                      "\"multiscatterColor\":[1,1,1]") "}}");
+    assert_true(l.ok);
+    assert_int_equal(l.report.entry_count, 0);
+    check_close((double)l.scene.materials[1].subsurface, 0, 0);
+    check_close((double)l.scene.materials[1].translucency, 1, 0);
+    unload(&l);
+}
+
+/* Thin walls that scatter: of what is transmitted, the strength is diffuse. It
+ * has the color of scattering, and (1 + cosine) / 2 of it goes on. */
+static void thin_walls_scatter(void **state)
+{
+    static const double weights[] = {1, 0.75, 1, 0.5};
+    static const double strengths[] = {1, 0.5, 0.25, 1};
+    static const double cosines_of[] = {0.5, -0.5, 1, 1};
+
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        double t = weights[i], strength = strengths[i], g = cosines_of[i];
+        double rest = t * (1 - strength), front, behind;
+        char text[512];
+        const struct material *m;
+        struct loaded l;
+
+        snprintf(
+            text, sizeof text,
+            "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
+            "\"baseColorFactor\":[0.2,0.2,0.2,1]},\"extensions\":{"
+            "\"KHR_materials_transmission\":{\"transmissionFactor\":%g}" NEWER(
+                "\"scatterStrengthFactor\":%g,"
+                "\"multiscatterColorFactor\":[0.9,0.8,0.4],"
+                "\"scatterAnisotropy\":%g") "}}",
+            t, strength, g);
+        load_text(&l, text);
+        assert_true(l.ok);
+        assert_int_equal(l.report.entry_count, 0);
+        m = &l.scene.materials[1];
+        check_close((double)m->transmission, rest, 1e-6);
+        assert_int_equal(m->is_thin, rest > 0);
+        behind = (1 - rest) * (double)(m->translucency * m->back_color.x);
+        front = (1 - rest) * (double)((1 - m->translucency) * m->color.x);
+        check_close(behind, t * strength * 0.9 * (1 + g) / 2, 1e-6);
+        check_close(front, (1 - t) * 0.2 + t * strength * 0.9 * (1 - g) / 2,
+                    1e-6);
+        unload(&l);
+    }
+}
+
 /* What a draft says and glim does not render is named. */
 static void drafts_are_used_with_warnings(void **state)
 {
     static const struct {
         const char *material, *warning;
     } cases[] = {
-        {BODY("0", NEWER("\"scatterStrengthFactor\":1")),
+        {"{\"extensions\":{\"KHR_materials_volume\":{\"thicknessFactor\":"
+         "1}" NEWER("\"scatterStrengthFactor\":1") "}}",
          "a.gltf: found scattering without KHR_materials_transmission and a "
          "thick KHR_materials_volume: ignored"},
+        {LEAF("0", "1", "", OLDER("\"multiscatterColor\":[1,1,1]")),
+         "a.gltf: found scattering without KHR_materials_transmission and a "
+         "thick KHR_materials_volume: ignored"},
+        {LEAF("1", "1", "\"baseColorTexture\":{\"index\":0},",
+              OLDER("\"multiscatterColor\":[1,1,1]")),
+         "a.gltf: found baseColorTexture, which also multiplies the color of "
+         "scattering behind KHR_materials_diffuse_transmission"},
         {BODY("0", OLDER("\"multiscatterColor\":[1,1,1]")),
          "a.gltf: found scattering without KHR_materials_transmission and a "
          "thick KHR_materials_volume: ignored"},
@@ -677,6 +802,9 @@ int main(void)
         cmocka_unit_test(factors_become_values),
         cmocka_unit_test(leaves_have_two_textures),
         cmocka_unit_test(drafts_scatter_what_is_attenuated),
+        cmocka_unit_test(media_lie_behind_diffuse_transmission),
+        cmocka_unit_test(leaves_without_a_medium_transmit),
+        cmocka_unit_test(thin_walls_scatter),
         cmocka_unit_test(drafts_are_used_with_warnings),
         cmocka_unit_test(saved_materials_are_the_same),
         cmocka_unit_test(wrong_values_have_messages),

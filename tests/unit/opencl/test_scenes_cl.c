@@ -246,7 +246,7 @@ static void media_are_equal(void **state)
                 FEATURE_THIN_FILM | FEATURE_INSTANCES |                        \
                 FEATURE_TEXTURE_OPTIONS | FEATURE_VERTEX_ALPHAS |              \
                 FEATURE_TANGENTS | FEATURE_COAT_NORMALS | FEATURE_DISPERSION | \
-                FEATURE_MEDIA | FEATURE_TRANSLUCENT))
+                FEATURE_MEDIA | FEATURE_TRANSLUCENT | FEATURE_SUBSURFACE))
 
 /* Random files have each feature of glTF, some of them without instances. */
 static void random_files_are_equal(void **state)
