@@ -62,9 +62,15 @@ static inline void cancel_reset(struct cancel *c)
     atomic_store_explicit(&c->requested, 0, memory_order_relaxed);
 }
 
+/* True if a stop is requested at once, not at a time. */
+static inline bool cancel_requested_at_once(const struct cancel *c)
+{
+    return atomic_load_explicit(&c->requested, memory_order_relaxed) != 0;
+}
+
 static inline bool cancel_requested(const struct cancel *c)
 {
-    return atomic_load_explicit(&c->requested, memory_order_relaxed) != 0 ||
+    return cancel_requested_at_once(c) ||
            (c->deadline_ns != 0 && clock_ns() >= c->deadline_ns &&
             (!c->is_due || c->is_due()));
 }

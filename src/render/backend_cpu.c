@@ -152,12 +152,14 @@ static void add_light(const struct job *j, struct batch *b, uint32_t count)
 static bool batch_render(struct batch *b, const struct job *j)
 {
     const struct backend_cpu *c = j->backend;
+    const struct sample_options options = {.cancel = j->cancel};
     uint32_t done = 0, count = b->count, n;
 
     for (; done < count && !cancel_requested(j->cancel); done += n) {
         n = u32_min(count - done, SAMPLE_STREAM);
-        c->kernel->samples(&c->world, b->ids + done, n, b->samples + done,
-                           b->surfaces + done, NULL);
+        if (!c->kernel->samples(&c->world, b->ids + done, n, b->samples + done,
+                                b->surfaces + done, &options))
+            break;
     }
     if (j->pass.light != NULL && j->pass.light->pixel_count > 0)
         add_light(j, b, done);

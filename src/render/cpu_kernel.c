@@ -27,12 +27,12 @@
 #ifdef FLATTEN
 __attribute__((flatten))
 #endif
-static void
+static bool
 samples(const struct world *w, const struct sample_id *places, uint32_t count,
         struct path_sample *out, struct first_surface *surfaces,
-        struct cell_estimates *estimates)
+        const struct sample_options *options)
 {
-    path_samples(w, places, count, out, surfaces, estimates);
+    return path_samples(w, places, count, out, surfaces, options);
 }
 
 const struct cpu_kernel PATHS = {PATHS_NAME, FEATURES, samples};

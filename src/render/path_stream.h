@@ -18,7 +18,9 @@
 #define GLIM_PATH_STREAM_H
 
 #include "base/min_max.h"
+#include "base/thread_pool.h"
 #include "kernels/path.h"
+#include "render/cpu_kernel.h"
 
 /* Paths, with the hits of their rays. */
 struct path_stream {
@@ -59,9 +61,11 @@ stream_intersect(const struct world *w, struct path_stream *s,
         hit_closest(w, s->paths[list[k]].ray, &s->hits[list[k]]);
 }
 
-/* Traces all paths to their ends, a vertex of all at a time. */
-static inline void stream_trace(const struct world *w, struct path_stream *s,
-                                uint32_t count)
+/* Traces all paths to their ends, a vertex of all at a time. Walks below
+ * surfaces have up to SUBSURFACE_STEPS_MAX steps: returns false if they are
+ * halted. cancel: NULL without them. */
+static inline bool stream_trace(const struct world *w, struct path_stream *s,
+                                uint32_t count, const struct cancel *cancel)
 {
     uint8_t list[SAMPLE_STREAM], lit[SAMPLE_STREAM];
 
@@ -70,6 +74,9 @@ static inline void stream_trace(const struct world *w, struct path_stream *s,
     while (count > 0) {
         uint32_t left = 0, lit_count = 0;
 
+        if (HAS(FEATURE_SUBSURFACE) && cancel != NULL &&
+            cancel_requested_at_once(cancel))
+            return false;
         for (uint32_t k = 0; k < count; k++) {
             uint8_t i = list[k];
             bool goes_on = path_extend(w, &s->paths[i], &s->hits[i]);
@@ -83,21 +90,28 @@ static inline void stream_trace(const struct world *w, struct path_stream *s,
         stream_intersect(w, s, list, left);
         count = left;
     }
+    return true;
 }
 
 /* Computes at most SAMPLE_STREAM samples, their first surfaces if the world's
- * samples have some, and estimates for radiance cells unless that is NULL.
- * Samples of one pixel, or of neighbours, take less time together. */
-static inline void path_samples(const struct world *w,
+ * samples have some, and estimates for radiance cells if the options have room
+ * for them. Samples of one pixel, or of neighbours, take less time together.
+ * Returns false if they are halted, and incomplete. */
+static inline bool path_samples(const struct world *w,
                                 const struct sample_id *places, uint32_t count,
                                 struct path_sample *out,
                                 struct first_surface *surfaces,
-                                struct cell_estimates *estimates)
+                                const struct sample_options *options)
 {
+    const struct sample_options none = {NULL, NULL};
     struct sampler samplers[SAMPLE_STREAM];
     struct vec2 points[SAMPLE_STREAM];
     struct path_stream s;
+    bool has_walks = HAS(FEATURE_SUBSURFACE) &&
+                     (w->settings.features & FEATURE_SUBSURFACE) != 0;
 
+    if (options == NULL)
+        options = &none;
     path_points(&w->settings, places, count, samplers, points);
     for (uint32_t i = 0; i < count; i++) {
         s.camera[i] = camera_sample_ray(&w->settings, places[i].x, places[i].y,
@@ -110,18 +124,20 @@ static inline void path_samples(const struct world *w,
     if (samples_are_aovs(w)) {
         for (uint32_t i = 0; i < count; i++)
             out[i] = aov_sample(w, s.camera[i], s.hits[i]);
-        return;
+        return true;
     }
     for (uint32_t i = 0; i < count; i++) {
         struct camera_sample start = {s.camera[i], samplers[i],
                                       (uint32_t)places[i].index & 1u};
 
         path_open(w, &s.paths[i], start,
-                  estimates != NULL ? estimates + i : NULL);
+                  options->estimates != NULL ? options->estimates + i : NULL);
     }
-    stream_trace(w, &s, count);
+    if (!stream_trace(w, &s, count, has_walks ? options->cancel : NULL))
+        return false;
     for (uint32_t i = 0; i < count; i++)
         out[i] = path_close(w, &s.paths[i], s.camera[i], surfaces + i);
+    return true;
 }
 
 #endif

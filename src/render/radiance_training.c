@@ -61,12 +61,13 @@ static void train(void *context, uint32_t block, int worker)
     struct path_sample samples[SAMPLE_BLOCK];
     struct first_surface surfaces[SAMPLE_BLOCK];
     struct cell_estimates estimates[SAMPLE_BLOCK];
+    const struct sample_options options = {.estimates = estimates};
     uint32_t begin = block * SAMPLE_BLOCK, n = t->count - begin;
 
     n = n < SAMPLE_BLOCK ? n : SAMPLE_BLOCK;
     for (uint32_t i = 0; i < n; i++)
         ids[i] = path_id(&w->settings, t->first + begin + i);
-    t->kernel->samples(w, ids, n, samples, surfaces, estimates);
+    t->kernel->samples(w, ids, n, samples, surfaces, &options);
     for (uint32_t i = 0; i < n; i++)
         light_cells_estimate(t->cells, worker, (int)(i & 1), begin + i,
                              &estimates[i]);

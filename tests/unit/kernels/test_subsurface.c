@@ -3,6 +3,9 @@
  * test_subsurface.c - walks below surfaces: thick bodies have the color of
  * their surface, white ones keep the light, and open meshes lose it
  */
+#include "base/thread_pool.h"
+#include "render/cpu_dispatch.h"
+
 #include "tests/unit/files.h"
 #include "tests/unit/lambert.h"
 #include "tests/unit/truth.h"
@@ -260,6 +263,44 @@ static void open_meshes_lose_the_light(void **state)
     mesh_free(&m);
 }
 
+/* A halt ends walks at once; without one the samples have the same bits. Other
+ * worlds finish their samples. */
+static void halts_end_walks(void **state)
+{
+    const struct sample_id ids[2] = {{3, 3, 0}, {3, 3, 1}};
+    struct cancel cancel = {.deadline_ns = 0};
+    const struct sample_options options = {.cancel = &cancel};
+    const struct cpu_kernel *kernel = cpu_kernel_best();
+    struct path_sample a[2], b[2];
+    struct first_surface surfaces[2];
+    struct lit_mesh s = {0};
+    struct world *w = &s.mesh.world;
+
+    (void)state;
+    s.mesh.materials[0] = skin(v3(0.8f, 0.5f, 0.2f), 0.05f, 0);
+    w->settings.sky.color = v3(1, 1, 1);
+    w->settings.camera = (struct camera){.eye = {0, 0, 2},
+                                         .width = 8,
+                                         .height = 8,
+                                         .forward = {0, 0, -1},
+                                         .right = {0.1f, 0, 0},
+                                         .up = {0, 0.1f, 0}};
+    mesh_add_sphere(&s.mesh, v3(0, 0, 0), 0.5f, 40, 60, 0);
+    lit_mesh_finish(&s);
+    lit_mesh_lend(&s, DIRECT_MIS);
+    w->settings.features = FEATURE_SUBSURFACE;
+    assert_true(kernel->samples(w, ids, 2, a, surfaces, NULL));
+    assert_true(kernel->samples(w, ids, 2, b, surfaces, &options));
+    assert_true(a[0].rays > 3 && a[0].radiance.x > 0);
+    assert_memory_equal(a, b, sizeof a);
+    cancel_request(&cancel);
+    assert_false(kernel->samples(w, ids, 2, b, surfaces, &options));
+    w->settings.features = 0;
+    assert_true(kernel->samples(w, ids, 2, b, surfaces, &options));
+    assert_memory_equal(a, b, sizeof a);
+    lit_mesh_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -273,6 +314,7 @@ int main(void)
         cmocka_unit_test(mixtures_lie_above_bodies),
         cmocka_unit_test(rough_surfaces_mix),
         cmocka_unit_test(open_meshes_lose_the_light),
+        cmocka_unit_test(halts_end_walks),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
