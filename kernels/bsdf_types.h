@@ -28,7 +28,8 @@ struct bsdf {
     float film;       /* weight of a thin film on a mixture: thin_film.h */
     float film_ior, film_thickness; /* refractive index; nanometres */
     struct vec3 coat_normal;        /* unit; zero: that of the base */
-    float subsurface; /* share of the base that walks take: path_enters() */
+    float subsurface; /* share of the base that is a walk; below 0: minus the
+                         share that walks have taken. subsurface.h */
     struct vec3 back_color; /* albedo of diffuse transmission: diffuse.h */
     float translucency;     /* its weight in the diffuse base */
 };

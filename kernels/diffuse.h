@@ -8,8 +8,7 @@
  *
  * A translucent base, such as paper, is a mixture: with the weight
  * `translucency` it transmits by Lambert's law with the albedo back_color, and
- * otherwise it reflects as an opaque base does. Both are scaled by what walks
- * below the surface leave of the base.
+ * otherwise it reflects as an opaque base does.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
  */
@@ -47,32 +46,23 @@ static inline struct vec3 base_side(const struct bsdf *m, struct vec3 wi)
     return is_translucent(m) ? v3_above(wi) : wi;
 }
 
-/* Returns what walks below the surface leave of an albedo: subsurface.h. */
-static inline struct vec3 base_rest(const struct bsdf *m, struct vec3 albedo)
-{
-    return HAS(FEATURE_SUBSURFACE) ? v3_scale(albedo, 1.0f - m->subsurface)
-                                   : albedo;
-}
-
 /* Albedo of reflection. */
 static inline struct vec3 base_front(const struct bsdf *m)
 {
-    return base_rest(m, is_translucent(m)
-                            ? v3_scale(m->color, 1.0f - m->translucency)
-                            : m->color);
+    return is_translucent(m) ? v3_scale(m->color, 1.0f - m->translucency)
+                             : m->color;
 }
 
 /* Albedo of transmission by a translucent base. */
 static inline struct vec3 base_back(const struct bsdf *m)
 {
-    return base_rest(m, v3_scale(m->back_color, m->translucency));
+    return v3_scale(m->back_color, m->translucency);
 }
 
 /* Albedo of both. */
 static inline struct vec3 base_albedo(const struct bsdf *m)
 {
-    return is_translucent(m) ? v3_add(base_front(m), base_back(m))
-                             : base_rest(m, m->color);
+    return is_translucent(m) ? v3_add(base_front(m), base_back(m)) : m->color;
 }
 
 /* Albedo of the part that sends light from wi to the eye. */
@@ -186,7 +176,7 @@ static inline struct vec3 eon_terms(const struct bsdf *m, struct vec3 wo,
     if (is_translucent(m))
         cosine *= 1.0f - m->translucency;
     if (HAS(FEATURE_SUBSURFACE))
-        cosine *= 1.0f - m->subsurface;
+        cosine *= 1.0f + f_min(m->subsurface, 0.0f);
     return v3_mul(v3_scale(rho, cosine),
                   v3_add(v3(single, single, single), v3_scale(echo, multiple)));
 }

@@ -71,11 +71,12 @@ static inline struct medium medium_of(const struct world *w,
 {
     const struct medium none = {.base = 0.0f};
 
-    if (HAS(FEATURE_SUBSURFACE) && s->count > 0 &&
+    if (s->count == 0)
+        return w->settings.fog;
+    if (HAS(FEATURE_SUBSURFACE) &&
         w->materials[s->at[s->count - 1]].subsurface > 0.0f)
         return none; /* the medium is that of walks */
-    return s->count == 0 ? w->settings.fog
-                         : w->materials[s->at[s->count - 1]].medium;
+    return w->materials[s->at[s->count - 1]].medium;
 }
 
 /* ---- along a ray ---- */

@@ -357,7 +357,7 @@ APART static bool path_enters(const struct world *w, struct path *p,
 
     if (!(path_below_2d(p, 0).x < q)) {
         p->beta = v3_scale(p->beta, 1.0f / (1.0f - q));
-        b->subsurface = share;
+        subsurface_leave(b, share);
         return false;
     }
     below = surface_turned(surface_of_face(*v));
@@ -519,7 +519,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
                                       surface_to_local(&v, v3_neg(p->ray.d)),
                                       random_2d(p->sampler, DIMENSION_CELL)),
                  1.0f);
-    if (HAS(FEATURE_SUBSURFACE) && m->subsurface > 0.0f) {
+    if (HAS(FEATURE_SUBSURFACE) && b.subsurface > 0.0f) {
         if (path_enters(w, p, m, material, &v, &b))
             return true;
     } else if (HAS(FEATURE_RADIANCE_CELLS) &&

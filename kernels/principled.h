@@ -147,13 +147,33 @@ static inline bool principled_is_solid(const struct bsdf *m)
     return m->metalness == 0.0f && m->transmission == 1.0f && m->is_thin == 0;
 }
 
+/* True if walks have taken a share of the base: subsurface.h. */
+static inline bool has_walks(const struct bsdf *m)
+{
+    return HAS(FEATURE_SUBSURFACE) && m->subsurface < 0.0f;
+}
+
+/* Returns the plastic with what walks leave of its base. */
+static inline struct bsdf principled_rest(const struct bsdf *m)
+{
+    struct bsdf plastic = *m;
+
+    plastic.color = v3_scale(m->color, 1.0f + m->subsurface);
+    return plastic;
+}
+
 /* Returns an estimate of the plastic's albedo. */
 static inline float principled_plastic_albedo(const struct bsdf *m,
                                               struct vec3 wo,
                                               struct ggx_albedo facets)
 {
     struct vec3 e = specular_albedo(m, wo, facets);
+    struct bsdf rest;
 
+    if (has_walks(m)) {
+        rest = principled_rest(m);
+        m = &rest;
+    }
     return mean_channel(
         v3_add(e,
                v3_mul(base_albedo(m), v3(1.0f - e.x, 1.0f - e.y, 1.0f - e.z))));
@@ -224,6 +244,7 @@ static inline bool principled_is_delta(const struct bsdf *m)
                           !principled_has_glass_delta(m)))
         return false;
     return !(dielectric * (1.0f - m->transmission) > 0.0f) ||
+           (has_walks(m) && m->subsurface == -1.0f) ||
            v3_is_zero(base_albedo(m));
 }
 
@@ -293,6 +314,12 @@ static inline struct vec3 principled_terms_of(const struct bsdf *m,
         principled_add(l, LOBE_METAL, f, lobe_pdf, &sum, pdf);
     }
     if (l->weight[LOBE_PLASTIC] > 0.0f) {
+        struct bsdf rest;
+
+        if (has_walks(m)) {
+            rest = principled_rest(m);
+            m = &rest;
+        }
         f = plastic_terms(m, wo, wi, &e, &lobe_pdf);
         principled_add(l, LOBE_PLASTIC, f, lobe_pdf, &sum, pdf);
     }
@@ -357,7 +384,7 @@ static inline bool principled_direction(const struct bsdf *m,
                                         const struct lobes *l, struct vec3 wo,
                                         struct vec2 u, struct bsdf_sample *s)
 {
-    struct bsdf glass;
+    struct bsdf glass, rest;
 
     if (l->chosen == LOBE_SHEEN) {
         sample_direction(s, sheen_direction(u), 1.0f);
@@ -367,6 +394,10 @@ static inline bool principled_direction(const struct bsdf *m,
         return metal_direction(m, l->metal, wo, u, l->choice < l->facets.loss,
                                s);
     if (l->chosen == LOBE_PLASTIC) {
+        if (has_walks(m)) {
+            rest = principled_rest(m);
+            m = &rest;
+        }
         if (!plastic_direction(m, wo, l->facets, u, l->choice, s))
             return false;
         if (is_translucent(m) && m->transmission > 0.0f && m->is_thin == 0)

@@ -51,8 +51,8 @@ static inline float subsurface_share(const struct world *w,
     if (bsdf_is_glass(b) && !v->is_outside)
         return 0.0f;
     return HAS(FEATURE_TEXTURE_OPTIONS)
-               ? m->subsurface * map_number_at(w, v, m->subsurface_texture)
-               : m->subsurface;
+               ? b->subsurface * map_number_at(w, v, m->subsurface_texture)
+               : b->subsurface;
 }
 
 /* Returns the share of light that comes below a face of plastic. facets:
@@ -65,8 +65,8 @@ static inline struct vec3 subsurface_below(const struct bsdf *b, struct vec3 wo,
 
 /* Returns the share of light that comes below the layers of a mixture, and
  * beside its metal and its glass. */
-static inline struct vec3 subsurface_entry_mixed(const struct bsdf *b,
-                                                 struct vec3 wo)
+RARE static struct vec3 subsurface_entry_mixed(const struct bsdf *b,
+                                               struct vec3 wo)
 {
     struct bsdf plastic = has_film(b) ? film_plastic(b, wo) : *b;
     struct lobes l = principled_lobes(&plastic, wo);
@@ -93,6 +93,19 @@ static inline float subsurface_chance(const struct bsdf *b, struct vec3 entry)
     float rest = 1.0f - f_min(entry.x, f_min(entry.y, entry.z));
 
     return base > 0.0f ? base / (base + rest) : 0.0f;
+}
+
+/* Scales the base by what a walk leaves of it. Mixtures, whose metal and glass
+ * have the color too, and EON, which is not linear in it, scale themselves. */
+static inline void subsurface_leave(struct bsdf *b, float share)
+{
+    bool is_eon =
+        HAS(FEATURE_ROUGH_DIFFUSE) && b->kind == MATERIAL_ROUGH_DIFFUSE;
+
+    b->subsurface = -share;
+    if (!bsdf_is_principled(b) && !is_eon)
+        b->color = v3_scale(b->color, 1.0f - share);
+    b->back_color = v3_scale(b->back_color, 1.0f - share);
 }
 
 /* Returns the surface from the other side. */

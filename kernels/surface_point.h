@@ -307,6 +307,8 @@ static inline struct bsdf bsdf_at(const struct world *w,
         b.alpha *= roughness * roughness;
     }
     b.kind = m->kind;
+    if (HAS(FEATURE_SUBSURFACE))
+        b.subsurface = m->subsurface;
     if (bsdf_is_principled(&b))
         principled_at(w, m, v, &b);
     if (HAS(FEATURE_TRANSLUCENT) && m->translucency > 0.0f)
