@@ -202,6 +202,20 @@ static inline struct medium smoke_sum(const struct world *w, struct medium fog)
     return fog;
 }
 
+/* Returns the probabilities with which the channels decide where smokes stop a
+ * path: half by what they would scatter, as in fog, and half by what passes, or
+ * light in a channel that is not scattered would come from rare paths. */
+static inline struct vec3
+smoke_shares(const struct world *w, const struct medium *fog, struct vec3 beta)
+{
+    const struct medium none = {.falloff = 0.0f};
+    struct medium sum = smoke_sum(w, *fog);
+
+    return v3_scale(v3_add(collision_shares(&sum, beta),
+                           collision_shares(&none, beta)),
+                    0.5f);
+}
+
 /* Takes the path along a distance t of its ray as path_travel() does, through
  * smokes and the fog *m, which becomes the medium in which the path is
  * scattered. Light at the end is seen if no smoke stops the path. */
@@ -213,8 +227,7 @@ APART static struct collision path_travel_smoke(const struct world *w,
     const struct vec3 one = v3(1.0f, 1.0f, 1.0f);
     const struct vec3 none = v3(0.0f, 0.0f, 0.0f);
     struct collision c = {t, one, false, false};
-    struct medium sum = smoke_sum(w, *m);
-    struct vec3 q = collision_shares(&sum, p->beta);
+    struct vec3 q = smoke_shares(w, m, p->beta);
     struct vec2 u = path_medium_2d(p, DIMENSION_MEDIUM);
     struct smoke_ray ray = {.r = p->ray,
                             .fog = *m,

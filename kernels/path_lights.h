@@ -71,6 +71,19 @@ static inline uint32_t smoke_key(const struct path *p)
     return hash_u32(ray_key(p->sampler, SMOKE_KEY + p->vertex) + p->crossings);
 }
 
+/* Estimates the share of light that comes through smokes along a distance t of
+ * a ray. `light` is its value in the pixel. */
+static inline struct vec3 path_smoke_share(const struct world *w,
+                                           struct path *p, struct ray r,
+                                           float t, struct vec3 light,
+                                           uint32_t key)
+{
+    struct smoke_passage a = {
+        .r = r, .t = t, .weights = light, .key = key, .cut = &p->out.cut};
+
+    return smoke_transmittance(w, a);
+}
+
 /* True if light paths bring light of lamps that comes by way of surfaces that
  * cast, so that the path leaves it out. */
 static inline bool path_begins_matte(const struct path *p)
@@ -130,8 +143,9 @@ static inline void path_add_sphere(const struct world *w, struct path *p,
     }
     if (is_in_smokes(w, &p->media))
         radiance =
-            radiance_share(radiance,
-                           smoke_transmittance(w, r, t, smoke_key(p) ^ ~i));
+            radiance_share(radiance, path_smoke_share(w, p, r, t,
+                                                      v3_mul(p->beta, radiance),
+                                                      smoke_key(p) ^ ~i));
     if (p->pdf > 0.0f)
         pdf = sphere_pdf_at(w, &p->from, i);
     path_add(p, radiance, bsdf_mis_weight(w, p->pdf, pdf));
@@ -388,8 +402,9 @@ static inline struct vec3 shadow_transmittance(const struct world *w,
         left = attenuated(left, &medium, r, is_end ? r.t_max : h.t);
         if (is_in_smokes(w, &media))
             left =
-                v3_mul(left, smoke_transmittance(w, r, is_end ? r.t_max : h.t,
-                                                 hash_u32(shadow_key(p) + i)));
+                v3_mul(left, path_smoke_share(w, p, r, is_end ? r.t_max : h.t,
+                                              v3_mul(left, p->light.radiance),
+                                              hash_u32(shadow_key(p) + i)));
         if (is_end)
             return left;
         material = tri_material(w, h.tri, instance_of(w, h.tri));
@@ -422,7 +437,8 @@ static inline void path_add_light(const struct world *w, struct path *p)
 
         p->light.radiance =
             radiance_share(p->light.radiance,
-                           smoke_transmittance(w, r, r.t_max, shadow_key(p)));
+                           path_smoke_share(w, p, r, r.t_max, p->light.radiance,
+                                            shadow_key(p)));
     }
     p->out.radiance = v3_add(p->out.radiance, p->light.radiance);
 }

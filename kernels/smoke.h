@@ -22,6 +22,7 @@
 #define KERNELS_SMOKE_H
 
 #include "kernels/medium.h"
+#include "kernels/rng.h"
 
 /* Tentative collisions along a ray after which a path is cut. */
 #define SMOKE_STEPS_MAX 65536u
@@ -134,17 +135,19 @@ static inline float brick_exit(float o, float d, uint32_t at, uint32_t side)
     return ((float)(plane * BRICK_SIDE) - o) / d;
 }
 
-/* Narrows an interval of distances to that between two planes. */
+/* Narrows an interval of distances to that between two planes. Nothing is left
+ * of it where coordinates are beyond floats. */
 static inline void interval_cut(float o, float d, float low, float high,
                                 struct vec2 *interval)
 {
     float a = (low - o) / d, b = (high - o) / d;
 
-    if (d == 0.0f) {
-        if (!(o >= low && o <= high))
-            interval->y = -1.0f;
+    if (d == 0.0f ? !(o >= low && o <= high) : !(a <= b || a > b)) {
+        interval->y = -1.0f;
         return;
     }
+    if (d == 0.0f)
+        return;
     interval->x = f_max(interval->x, f_min(a, b));
     interval->y = f_min(interval->y, f_max(a, b));
 }
@@ -233,7 +236,7 @@ static inline bool brick_walk_go(const struct world *w,
         depth -= most * way;
         if (!(end < b->t_max))
             return false;
-        b->t = end;
+        b->t = f_max(end, b->t);
         brick_walk_step(w, &s->density, b);
     }
 }
@@ -269,42 +272,71 @@ static inline struct vec3 smoke_passing(GLOBAL const struct smoke_medium *s,
               f_max(1.0f - s->extinction.z * part, 0.0f));
 }
 
-/* Estimates the share of radiance that comes through one smoke. */
+/* A request for the share of light that comes along a ray, whose direction is a
+ * unit vector. */
+struct smoke_passage {
+    struct ray r;
+    float t;             /* the distance */
+    struct vec3 weights; /* of the channels, of which the largest is 1: where
+                            nothing that counts is left, roulette ends it */
+    uint32_t key;
+    uint32_t *cut; /* becomes 1 if light is lost after too many steps */
+};
+
+/* Estimates the share that comes through one smoke. */
 static inline struct vec3 smoke_share(const struct world *w,
                                       GLOBAL const struct smoke_medium *s,
-                                      struct ray r, float t, uint32_t key)
+                                      const struct smoke_passage *a)
 {
     struct vec3 left = v3(1.0f, 1.0f, 1.0f);
-    struct vec2 u = smoke_2d(key, 0);
+    struct vec2 u = smoke_2d(a->key, 0);
     struct brick_walk b;
 
-    if (!brick_walk_begin(w, &s->density, r, t, &b))
+    if (!brick_walk_begin(w, &s->density, a->r, a->t, &b))
         return left;
     while (brick_walk_go(w, s, collision_depth(1.0f, u.x), &b)) {
         float most;
 
         left = v3_mul(left, smoke_passing(s, brick_walk_density(w, s, &b),
                                           b.majorant));
-        most = v3_max_component(left);
-        u = smoke_2d(key, b.steps);
-        if (most < SMOKE_SHARE_MIN && u.y < most)
-            left = v3_scale(left, 1.0f / most);
-        else if (most < SMOKE_SHARE_MIN || b.steps == SMOKE_STEPS_MAX)
+        most = v3_max_component(v3_mul(left, a->weights));
+        u = smoke_2d(a->key, b.steps);
+        if (most < SMOKE_SHARE_MIN && !(u.y < most))
             return v3(0.0f, 0.0f, 0.0f);
+        if (most < SMOKE_SHARE_MIN)
+            left = v3_scale(left, 1.0f / most);
+        if (b.steps == SMOKE_STEPS_MAX) {
+            *a->cut = 1;
+            return v3(0.0f, 0.0f, 0.0f);
+        }
     }
     return left;
 }
 
-/* Estimates the share of radiance that comes a distance t along the ray, whose
- * direction is a unit vector, through all smokes. */
-APART static struct vec3
-smoke_transmittance(const struct world *w, struct ray r, float t, uint32_t key)
+/* Returns weights of which the largest is 1, or 0. */
+static inline struct vec3 relative_weights(struct vec3 weights)
 {
-    struct vec3 left = v3(1.0f, 1.0f, 1.0f);
+    struct vec3 w = v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), weights);
+    float most = v3_max_component(w);
 
-    for (uint32_t i = 0; i < w->settings.smoke_count && !v3_is_zero(left); i++)
-        left = v3_mul(left,
-                      smoke_share(w, &w->smokes[i], r, t, hash_u32(key + i)));
+    return most > 0.0f ? v3(w.x / most, w.y / most, w.z / most) : w;
+}
+
+/* Estimates the share of light that comes through all smokes. The weights may
+ * have any scale. */
+APART static struct vec3 smoke_transmittance(const struct world *w,
+                                             struct smoke_passage a)
+{
+    struct vec3 left = v3(1.0f, 1.0f, 1.0f), weights = a.weights;
+    uint32_t key = a.key;
+
+    for (uint32_t i = 0; i < w->settings.smoke_count; i++) {
+        a.weights = relative_weights(v3_mul(left, weights));
+        if (v3_is_zero(a.weights))
+            return v3(0.0f, 0.0f, 0.0f);
+        a.key = hash_u32(key + i);
+        left = v3_mul(left, smoke_share(w, &w->smokes[i], &a));
+    }
     return left;
 }
 
