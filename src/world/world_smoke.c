@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "world/world_smoke.h"
 
+#include <float.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,9 +21,11 @@
 /* A grid of a file in voxel_places and voxels. */
 struct world_grid {
     char *path, *name;
-    struct affine to_file; /* from voxels, counted from the first brick's */
-    double first[3], last[3];
-    uint32_t sides[3];
+    struct affine to_file;    /* from voxels, counted from the first brick's */
+    double first[3], last[3]; /* active voxels: the box of the grid */
+    double low[3], high[3];   /* those of them that bricks hold */
+    uint32_t sides[3];        /* in bricks, and those of the file before */
+    uint32_t before[3];
     uint32_t first_place;
     float most;    /* largest value, at least 0 */
     bool is_empty; /* it has no active voxel */
@@ -45,63 +49,113 @@ bool world_has_grid(const struct host_world *host, const char *path,
     return find_grid(host, path, name) != NULL;
 }
 
-/* Makes room for more items behind `count`. */
+/* Makes room for more items behind `count`. There is always room for one, since
+ * realloc() of nothing would free. */
 static bool grow(void *array, uint64_t count, uint64_t more, size_t item_bytes)
 {
     void *items, *grown;
 
     memcpy(&items, array, sizeof items);
-    grown = realloc(items, (count + more) * item_bytes);
+    grown = realloc(items, (count + more + 1) * item_bytes);
     if (grown == NULL)
         return false;
     memcpy(array, &grown, sizeof grown);
     return true;
 }
 
+/* Rounds a voxel down to the first one of its brick. */
+static int64_t brick_floor(int64_t voxel)
+{
+    return voxel & ~(int64_t)(BRICK_SIDE - 1);
+}
+
+/* Makes a grid without bricks. Active voxels outside of the file's bricks are
+ * background. They need bricks if that is a density; otherwise nothing is
+ * there. */
 static struct world_grid make_grid(const struct voxel_grid *g)
 {
-    struct affine local = {.m = {{1, 0, 0, g->origin[0]},
-                                 {0, 1, 0, g->origin[1]},
-                                 {0, 0, 1, g->origin[2]}}};
-    struct world_grid made = {.to_file = affine_join(&g->to_world, &local)};
+    struct affine local = {.m = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    struct world_grid made = {.is_empty = false};
 
-    for (int a = 0; a < 3; a++) {
-        made.first[a] = (double)g->first[a] - g->origin[a];
-        made.last[a] = (double)g->last[a] - g->origin[a];
-        made.sides[a] = g->sides[a];
+    for (int a = 0; a < 3; a++)
         made.is_empty = made.is_empty || g->first[a] > g->last[a];
+    for (int a = 0; a < 3; a++) {
+        int64_t begin = g->origin[a];
+        int64_t end = begin + (int64_t)g->sides[a] * BRICK_SIDE;
+
+        if (!made.is_empty && g->background > 0) {
+            int64_t first = brick_floor(g->first[a]);
+            int64_t last = brick_floor(g->last[a]) + BRICK_SIDE;
+
+            if (begin == end)
+                begin = end = first;
+            begin = begin < first ? begin : first;
+            end = end > last ? end : last;
+        }
+        local.m[a][3] = (double)begin;
+        made.before[a] = (uint32_t)((g->origin[a] - begin) / BRICK_SIDE);
+        made.sides[a] = (uint32_t)((end - begin) / BRICK_SIDE);
+        made.first[a] = (double)(g->first[a] - begin);
+        made.last[a] = (double)(g->last[a] - begin);
+        made.low[a] = fmax(made.first[a], 0);
+        made.high[a] = fmin(made.last[a], (double)(end - begin - 1));
     }
+    made.to_file = affine_join(&g->to_world, &local);
     return made;
+}
+
+static uint64_t place_count(const struct world_grid *g)
+{
+    return (uint64_t)g->sides[0] * g->sides[1] * g->sides[2];
+}
+
+/* Returns a place of the made grid, which the file may lack. */
+static struct voxel_place place_of(const struct voxel_grid *g,
+                                   const struct world_grid *made, uint64_t i)
+{
+    const uint32_t *n = g->sides, *m = made->sides;
+    uint64_t x = i / m[2] / m[1] - made->before[0];
+    uint64_t y = i / m[2] % m[1] - made->before[1];
+    uint64_t z = i % m[2] - made->before[2];
+    uint64_t at = (x * n[1] + y) * n[2] + z;
+
+    if (x >= n[0] || y >= n[1] || z >= n[2])
+        return (struct voxel_place){BRICK_EMPTY, fmaxf(g->background, 0)};
+    return (struct voxel_place){g->index[at], fmaxf(g->majorants[at], 0)};
 }
 
 /* Appends the bricks of a grid. The arrays have room. */
 static void add_bricks(struct host_world *host, const struct voxel_grid *g,
                        struct world_grid *made)
 {
-    uint32_t places = (uint32_t)voxel_grid_place_count(g);
     uint32_t first_brick = host->voxel_count / BRICK_VOXELS;
 
     made->first_place = host->voxel_place_count;
-    for (uint32_t i = 0; i < places; i++) {
-        float majorant = fmaxf(g->majorants[i], 0);
+    for (uint64_t i = 0; i < place_count(made); i++) {
+        struct voxel_place place = place_of(g, made, i);
 
-        host->voxel_places[made->first_place + i] =
-            (struct voxel_place){first_brick + g->index[i], majorant};
-        made->most = fmaxf(made->most, majorant);
+        made->most = fmaxf(made->most, place.majorant);
+        place.brick += first_brick;
+        host->voxel_places[host->voxel_place_count++] = place;
     }
     memcpy(host->voxels + host->voxel_count, g->values,
            (size_t)g->brick_count * BRICK_VOXELS * sizeof *g->values);
-    host->voxel_place_count += places;
     host->voxel_count += g->brick_count * BRICK_VOXELS;
 }
 
 bool world_add_grid(struct host_world *host, const char *path, const char *name,
                     const struct voxel_grid *grid, struct error *err)
 {
-    uint64_t places = voxel_grid_place_count(grid);
-    uint64_t voxels = (uint64_t)grid->brick_count * BRICK_VOXELS;
     struct world_grid made = make_grid(grid);
+    uint64_t places = place_count(&made);
+    uint64_t voxels = (uint64_t)grid->brick_count * BRICK_VOXELS;
 
+    if (places > BRICK_PLACES_MAX)
+        return fail(err,
+                    "%s: found a box of %" PRIu32 " x %" PRIu32 " x %" PRIu32
+                    " active bricks, expected at most %" PRIu64 " in all",
+                    path, made.sides[0], made.sides[1], made.sides[2],
+                    BRICK_PLACES_MAX);
     if (host->voxel_count + voxels > VOXELS_MAX ||
         host->voxel_place_count + places > UINT32_MAX)
         return fail(err,
@@ -223,8 +277,8 @@ static bool make_field(const struct scene *scene, const struct world_grid *g,
     }
     to->origin =
         v3((float)back.m[0][3], (float)back.m[1][3], (float)back.m[2][3]);
-    to->first = as_floats(g->first);
-    to->last = as_floats(g->last);
+    to->first = as_floats(g->low);
+    to->last = as_floats(g->high);
     to->first_place = g->first_place;
     return true;
 }
@@ -312,6 +366,8 @@ static bool make_smoke(const struct host_world *host, const struct scene *scene,
         (&m->extinction.x)[k] = scatter + absorb;
     }
     m->most = v3_max_component(m->extinction);
+    if (!(m->most >= FLT_MIN)) /* its inverse is beyond floats */
+        return true;
     place = placing(s, g);
     if (!make_field(scene, g, &place, &m->density) ||
         !make_glow(host, scene, s, &place, m, made))
