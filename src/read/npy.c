@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "read/npy.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/decimal.h"
 #include "base/memory.h"
 #include "read/vdb_bytes.h"
 
@@ -66,7 +64,7 @@ static bool read_type(struct npy *n, const char *p, const char *end,
 {
     if (p != NULL && end - p >= 5 && (*p == '\'' || *p == '"'))
         for (int i = 0; i < TYPES; i++) {
-            if (strchr("<>|=", p[1]) == NULL ||
+            if (memchr("<>|=", p[1], 4) == NULL ||
                 memcmp(p + 2, types[i].name, 2) != 0 || p[4] != p[0])
                 continue;
             n->type = (enum npy_type)i;
@@ -77,6 +75,22 @@ static bool read_type(struct npy *n, const char *p, const char *end,
                      "u1 or u2");
 }
 
+/* Reads a side from 1 to SIDE_MAX, of digits before the end. */
+static bool read_side(const char **p, const char *end, uint32_t *side)
+{
+    *side = 0;
+    while (*p < end && **p >= '0' && **p <= '9' && *side <= SIDE_MAX)
+        *side = 10 * *side + (uint32_t)(*(*p)++ - '0');
+    return *side >= 1 && *side <= SIDE_MAX;
+}
+
+static const char *skip_blanks(const char *p, const char *end)
+{
+    while (p < end && (*p == ' ' || *p == ','))
+        p++;
+    return p;
+}
+
 /* Reads a shape such as (16, 16, 8), whose last number is that of x. */
 static bool read_shape(struct npy *n, const char *p, const char *end,
                        struct error *err)
@@ -84,17 +98,9 @@ static bool read_shape(struct npy *n, const char *p, const char *end,
     int count = 0;
 
     if (p != NULL && p < end && *p++ == '(')
-        while (count < 3) {
-            uint64_t side = 0;
-
-            while (p < end && (*p == ' ' || *p == ','))
-                p++;
-            if (p == end || !digits_parse(&p, 10, SIDE_MAX, &side) || side == 0)
-                break;
-            n->size[2 - count++] = (uint32_t)side;
-        }
-    while (p != NULL && p < end && (*p == ' ' || *p == ','))
-        p++;
+        for (p = skip_blanks(p, end);
+             count < 3 && read_side(&p, end, &n->size[2 - count]); count++)
+            p = skip_blanks(p, end);
     return (count == 3 && p < end && *p == ')') ||
            fail(err,
                 "found an array of another shape, expected 3 axes of 1 to "
@@ -110,7 +116,8 @@ static bool read_order(struct npy *n, const char *p, const char *end,
 
     if (!x_is_first &&
         !(p != NULL && end - p >= 5 && memcmp(p, "False", 5) == 0))
-        return fail(err, "found no order of axes in its header");
+        return fail(err, "found no order of axes in its header, expected "
+                         "'fortran_order': True or False");
     for (int i = 0; i < 3; i++) {
         int axis = x_is_first ? 2 - i : i;
 
