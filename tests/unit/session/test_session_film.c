@@ -13,13 +13,14 @@
 #include "session/session_film.h"
 
 #include "tests/unit/files.h"
+#include "tests/unit/npy_file.h"
 
 #define OBJ  "mtllib s.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"
 #define MTL  "newmtl m\nKd 0.5 0.5 0.5\n"
 #define VIEW "eye 0 0 5\nat 0 0 0\nbackground 1 1 1\n"
 
-static const char *const names[] = {"s.obj", "s.mtl", "s.view", "s.film",
-                                    "c.film"};
+static const char *const names[] = {"s.obj",  "s.mtl",  "s.view",
+                                    "s.film", "c.film", "s.npy"};
 
 /* A disk that does not answer until it is released. */
 static atomic_bool is_slow, is_writing, is_released;
@@ -118,6 +119,92 @@ static void only_the_picture_counts(void **state)
     check_files(OBJ, MTL, VIEW "max_bounces 3\n", "bounces");
 }
 
+/* ---- smokes ---- */
+
+#define SMOKE VIEW "medium s.npy scatter 1 2 3 absorb 1 1 1 scale 2\n"
+
+/* Writes a grid of which one voxel has this number. */
+static void put_grid(float number)
+{
+    const float numbers[8] = {1, 2, 3, 4, 5, 6, number, 8};
+    size_t size;
+    char *bytes = npy_file_of((const uint32_t[3]){2, 2, 2}, numbers, &size);
+
+    put_bytes("s.npy", bytes, size);
+    free(bytes);
+}
+
+/* Returns the film of a view with a smoke. */
+static struct film_identity smoke_film(const char *view, float number)
+{
+    struct options o = some_options();
+
+    put_files(OBJ, MTL, view);
+    put_grid(number);
+    return identity_of(&o);
+}
+
+/* Coefficients, places and each voxel count. */
+static void smokes_count(void **state)
+{
+    static const struct {
+        const char *view;
+        float number;
+    } others[] = {
+        {VIEW, 7},
+        {SMOKE, 7.01f},
+        {VIEW "medium s.npy scatter 1 2 3 absorb 1 1 1.01 scale 2\n", 7},
+        {VIEW "medium s.npy scatter 1 2 3 absorb 1 1 1 scale 2 at 0 0 .1\n", 7},
+        {VIEW "medium s.npy scatter 1 2 3 absorb 1 1 1 scale 2 anisotropy .1\n",
+         7},
+        {SMOKE "medium s.npy absorb .1 0 0\n", 7},
+    };
+    struct film_identity a = smoke_film(SMOKE, 7), b;
+    struct error err = {""};
+
+    (void)state;
+    b = smoke_film(SMOKE, 7);
+    check_or_say(film_identity_check(&b, "b", &a, "a", &err), err.text);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        b = smoke_film(others[i].view, others[i].number);
+        assert_false(film_identity_check(&b, "b", &a, "a", &err));
+        check_has(err.text, "light");
+    }
+}
+
+/* A film of a smoke goes on with the same smoke alone. */
+static void films_go_on_with_their_smoke(void **state)
+{
+    struct options o = some_options();
+
+    (void)state;
+    o.has_spp = true;
+    o.spp = 2;
+    put_files(OBJ, MTL, SMOKE);
+    for (int i = 0; i < 3; i++) {
+        struct film_file *from = NULL;
+        struct session_film f;
+        struct session s;
+        struct error err = {""};
+
+        put_grid(i < 2 ? 7 : 6);
+        o.resume_path = i == 0 ? NULL : "s.film";
+        check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
+        check_or_say(session_film_begin(&f, &s, &err), err.text);
+        if (i == 0) {
+            check_or_say(session_restart(&s, options_limits(&o), &err),
+                         err.text);
+            assert_true(render_wait(s.engine.render, 60000));
+            check_or_say(session_film_write(&f, &err), err.text);
+        } else {
+            assert_int_equal(session_film_resume(&f, &from, &err), i == 1);
+            check_has(err.text, i == 1 ? "" : "light");
+        }
+        session_film_end(&f);
+        session_close(&s);
+    }
+}
+
 static void options_count(void **state)
 {
     struct options o = some_options(), other;
@@ -205,6 +292,7 @@ static void renders_do_not_wait_for_the_disk(void **state)
     o.spp = 1000000000;
     check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
     check_or_say(session_film_begin(&f, &s, &err), err.text);
+    atomic_store(&is_writing, false);
     atomic_store(&is_slow, true);
     check_or_say(session_restart(&s, options_limits(&o), &err), err.text);
     check_or_say(session_film_watch(&f, &err), err.text);
@@ -228,6 +316,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_the_picture_counts),
+        cmocka_unit_test(smokes_count),
+        cmocka_unit_test(films_go_on_with_their_smoke),
         cmocka_unit_test(options_count),
         cmocka_unit_test(shares_cover_all_samples),
         cmocka_unit_test(renders_do_not_wait_for_the_disk),
