@@ -7,6 +7,7 @@
 #include "tests/unit/folder.h"
 #include "tests/unit/opencl/pair.h"
 #include "tests/unit/opencl/random_gltf.h"
+#include "tests/unit/smoke_world.h"
 #include "world/world_lamps.h"
 #include "world/world_materials.h"
 
@@ -236,6 +237,114 @@ static void media_are_equal(void **state)
     }
 }
 
+/* ---- smokes ---- */
+
+/* Returns one of two grids of random numbers with empty bricks. */
+static struct voxel_grid random_grid(int which, float most)
+{
+    static const uint32_t size[3] = {13, 19, 10};
+    static float numbers[13 * 19 * 10];
+    uint64_t seed = 3;
+
+    for (uint32_t k = 0; k < 13 * 19 * 10; k++)
+        numbers[k] = k / 247 / 8 == (uint32_t)which || k / 13 % 19 / 8 == 1
+                         ? 0
+                         : most * (float)check_random(&seed);
+    return grid_of(size, numbers);
+}
+
+/* Writes both grids, as NumPy files. */
+static void put_grids(void)
+{
+    static const uint32_t size[3] = {13, 19, 10};
+    static float numbers[13 * 19 * 10];
+
+    for (int i = 0; i < 2; i++) {
+        struct voxel_grid grid = random_grid(i, 1);
+        char path[sizeof folder + 32];
+        size_t size_bytes;
+        char *bytes;
+
+        for (uint32_t k = 0; k < 13 * 19 * 10; k++)
+            numbers[k] =
+                voxel_grid_value(&grid, k % 13, k / 13 % 19, k / 13 / 19);
+        bytes = npy_file_of(size, numbers, &size_bytes);
+        snprintf(path, sizeof path, "%s/%d.npy", folder, i);
+        put_bytes(path, bytes, size_bytes);
+        free(bytes);
+        voxel_grid_free(&grid);
+    }
+}
+
+/* Gives smokes temperatures, which no NumPy file has. */
+static void set_fire(struct pair *p)
+{
+    struct error err;
+
+    for (uint32_t i = 0; i < p->view.smokes.count; i++) {
+        struct smoke *s = &p->view.smokes.items[i];
+        struct voxel_grid heat = random_grid((int)i, 2500);
+
+        free(s->temperature);
+        s->temperature = strdup("heat");
+        s->numbers.glow = 3;
+        check_or_say(world_add_grid(&p->world, s->path, "heat", &heat, &err),
+                     err.text);
+        voxel_grid_free(&heat);
+    }
+    check_or_say(world_set_smokes(&p->world, &p->scene, &p->view.smokes, &err),
+                 err.text);
+    assert_true(p->world.glow_count > 0);
+}
+
+#define SMOKE                                                          \
+    "medium 0.npy scatter 3 2 1 absorb 0 .5 1 anisotropy .6 up z box " \
+    "-1.5 0 -1.5 1.5 1.8 1\n"
+#define OTHER                                                                \
+    "medium 1.npy scatter .5 0 4 absorb .2 .1 0 anisotropy -.4 scale .1 at " \
+    "-.3 .2 0\n"
+
+/* Smokes of several colours and fire, beside bodies and in fog, under each kind
+ * of light. */
+static void smokes_are_equal(void **state)
+{
+    static const struct {
+        const char *view;
+        bool has_lamp, is_hot;
+    } cases[] = {
+        {OUTSIDE "background .5 .6 .7\n" SMOKE, true, false},
+        {OUTSIDE "light point 1 2 1 intensity 3 3 3\n" SMOKE OTHER
+                 "fog scatter .1 .2 .3 absorb .1 0 0 anisotropy .7\n",
+         false, true},
+        {"eye -.3 1.2 .8\nat .6 .5 -.3\nlight spot 0 2 2 at 0 0 0 radius .2\n"
+         "light directional 20 50 angle 2\n" SMOKE OTHER,
+         true, true},
+        {OUTSIDE "sun 120 30\nfog absorb .3 .2 .1 height .5 falloff .4\n" OTHER,
+         false, false},
+    };
+
+    (void)state;
+    put_grids();
+    for (uint32_t i = 0; device && i < sizeof cases / sizeof cases[0]; i++) {
+        char path[sizeof folder + 32];
+        struct pair p;
+
+        put_media(cases[i].view, cases[i].has_lamp);
+        snprintf(path, sizeof path, "%s/media.obj", folder);
+        open_pair(&p, path, 48, 36);
+        if (cases[i].is_hot)
+            set_fire(&p);
+        assert_true((world_features(&p.world) & FEATURE_GRIDS) != 0);
+        render_both(&p, (struct rect){0, 0, 48, 36}, 5, i);
+        p.has_surfaces = true;
+        render_both(&p, (struct rect){0, 0, 48, 36}, 2, i);
+        p.has_surfaces = false;
+        if (check_is_thorough())
+            render_special(&p, (struct rect){0, 0, 48, 36}, 3, i);
+        close_pair(&p);
+    }
+}
+
 /* What the random files are for. */
 #define RANDOM_FEATURES                                                        \
     ((uint64_t)(FEATURE_COVERAGE | FEATURE_TEXTURES | FEATURE_ROUGH |          \
@@ -291,6 +400,7 @@ int main(void)
         cmocka_unit_test(edited_worlds_are_equal),
         cmocka_unit_test(lamps_are_equal),
         cmocka_unit_test(media_are_equal),
+        cmocka_unit_test(smokes_are_equal),
         cmocka_unit_test(random_files_are_equal),
     };
 
