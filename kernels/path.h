@@ -358,8 +358,9 @@ static inline struct vec2 path_below_2d(const struct path *p, uint32_t which)
 /* Begins a walk below the surface, or leaves the BSDF what does not enter.
  * Returns false if the path does not enter. */
 APART static bool path_enters(const struct world *w, struct path *p,
-                              GLOBAL const struct material *m, uint32_t material,
-                              const struct surface_point *v, struct bsdf *b)
+                              GLOBAL const struct material *m,
+                              uint32_t material, const struct surface_point *v,
+                              struct bsdf *b)
 {
     struct vec3 entry =
         subsurface_entry(b, surface_to_local(v, v3_neg(p->ray.d)));

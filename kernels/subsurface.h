@@ -44,7 +44,7 @@ static inline struct medium subsurface_medium(GLOBAL const struct material *m,
 /* Returns the share of the diffuse base that is a walk. Light that has come
  * through glass does not enter the base from behind. */
 static inline float subsurface_share(const struct world *w,
-                                     const struct material *m,
+                                     GLOBAL const struct material *m,
                                      const struct surface_point *v,
                                      const struct bsdf *b)
 {
