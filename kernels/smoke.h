@@ -301,7 +301,8 @@ static inline struct vec3 smoke_share(const struct world *w,
                                           b.majorant));
         most = v3_max_component(v3_mul(left, a->weights));
         u = smoke_2d(a->key, b.steps);
-        if (most < SMOKE_SHARE_MIN && !(u.y < most))
+        /* the number is the middle of its step: 0 saves nothing */
+        if (most < SMOKE_SHARE_MIN && !(u.y + 0x1p-25f < most))
             return v3(0.0f, 0.0f, 0.0f);
         if (most < SMOKE_SHARE_MIN)
             left = v3_scale(left, 1.0f / most);
@@ -313,13 +314,23 @@ static inline struct vec3 smoke_share(const struct world *w,
     return left;
 }
 
+/* Returns a weight in parts of the largest one. Below 1e-20 nothing counts, so
+ * that what roulette multiplies stays finite. */
+static inline float relative_weight(float weight, float most)
+{
+    float part = weight / most;
+
+    return part > 1e-20f ? part : 0.0f;
+}
+
 /* Returns weights of which the largest is 1, or 0. */
 static inline struct vec3 relative_weights(struct vec3 weights)
 {
     struct vec3 w = v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), weights);
     float most = v3_max_component(w);
 
-    return most > 0.0f ? v3(w.x / most, w.y / most, w.z / most) : w;
+    return v3(relative_weight(w.x, most), relative_weight(w.y, most),
+              relative_weight(w.z, most));
 }
 
 /* Estimates the share of light that comes through all smokes. The weights may
@@ -332,8 +343,11 @@ APART static struct vec3 smoke_transmittance(const struct world *w,
 
     for (uint32_t i = 0; i < w->settings.smoke_count; i++) {
         a.weights = relative_weights(v3_mul(left, weights));
-        if (v3_is_zero(a.weights))
-            return v3(0.0f, 0.0f, 0.0f);
+        left = v3(a.weights.x > 0.0f ? left.x : 0.0f,
+                  a.weights.y > 0.0f ? left.y : 0.0f,
+                  a.weights.z > 0.0f ? left.z : 0.0f);
+        if (v3_is_zero(left))
+            return left;
         a.key = hash_u32(key + i);
         left = v3_mul(left, smoke_share(w, &w->smokes[i], &a));
     }
