@@ -189,6 +189,8 @@ static struct ray any_ray(uint64_t *seed)
             d.z = 0;
     } while (v3_is_zero(d));
     r.d = v3_unit(d);
+    if (check_random(seed) < 0.1) /* beside the box, perhaps */
+        at.y += 60 * (float)check_random(seed) - 30;
     r.o = away < 0.4   ? at
           : away < 0.9 ? v3_sub(at, v3_scale(r.d, 60))
                        : v3_sub(at, v3_scale(r.d, 1000));
@@ -361,7 +363,8 @@ static void light_that_passes_obeys_beer(void **state)
 {
     static const struct vec3 extinctions[] = {{0.01f, 0.01f, 0.01f},
                                               {0.05f, 0.2f, 0.1f},
-                                              {0, 0.03f, 1}};
+                                              {0, 0.03f, 1},
+                                              {0.3f, 0.6f, 0.4f}};
     uint64_t seed = 3;
     struct grid g;
 
