@@ -28,6 +28,7 @@
 #include "render/opencl/cl_api.h"
 #include "session/session.h"
 #include "tests/unit/check.h"
+#include "tests/unit/npy_file.h"
 #include "world/world.h"
 
 #define EXTREMES_RENDERERS 5
@@ -250,6 +251,52 @@ static inline void put_any_fog(FILE *f, uint64_t *seed)
     fprintf(f, "\n");
 }
 
+/* Writes a grid of at most 20 voxels on a side, in half of the cases with
+ * numbers of any size. */
+static inline void put_any_grid(const char *name, uint64_t *seed)
+{
+    uint32_t size[3] = {1 + one_of(seed, 20), 1 + one_of(seed, 12),
+                        1 + one_of(seed, 3)};
+    static float numbers[20 * 12 * 3];
+    bool is_extreme = check_random(seed) < 0.5;
+    size_t size_bytes;
+    char *bytes;
+    FILE *f = extremes_file(name);
+
+    for (uint32_t i = 0; i < size[0] * size[1] * size[2]; i++)
+        numbers[i] =
+            (float)(is_extreme ? coordinate(seed) : check_random(seed));
+    bytes = npy_file_of(size, numbers, &size_bytes);
+    fwrite(bytes, 1, size_bytes, f);
+    fclose(f);
+    free(bytes);
+}
+
+/* Writes a smoke in a box around the middle of the scene, or anywhere. */
+static inline void put_any_smoke(FILE *f, uint64_t *seed)
+{
+    const char *name = check_random(seed) < 0.5 ? "a.npy" : "b.npy";
+
+    fprintf(f, "medium %s", name);
+    put_any_grid(name, seed);
+    put_words(f, " scatter", 3, up_to_1e30, seed);
+    put_words(f, " absorb", 3, up_to_1e30, seed);
+    put_words(f, " anisotropy", 1, cosine, seed);
+    if (check_random(seed) < 0.5)
+        fprintf(f, " up z");
+    if (check_random(seed) < 0.3)
+        put_words(f, " at", 3, place, seed);
+    if (check_random(seed) < 0.3)
+        fprintf(f, " scale %.9g", fmax(up_to_1e30(seed), 1e-30));
+    if (check_random(seed) < 0.5) {
+        double size = fmax(up_to_1e30(seed), 1e-6);
+
+        fprintf(f, " box %.9g %.9g %.9g %.9g %.9g %.9g", -size, -size, -size,
+                size, size, size);
+    }
+    fprintf(f, "\n");
+}
+
 static inline void put_view(uint64_t *seed)
 {
     FILE *f = extremes_file("a.view");
@@ -277,6 +324,9 @@ static inline void put_view(uint64_t *seed)
         fprintf(f, "max_bounces %d\n", (int)one_of(seed, 9));
     if (check_random(seed) < 0.3)
         put_any_fog(f, seed);
+    if (check_random(seed) < 0.25)
+        for (uint32_t count = 1 + one_of(seed, 3); count > 0; count--)
+            put_any_smoke(f, seed);
     fclose(f);
 }
 
@@ -321,8 +371,8 @@ static inline void extremes_open(struct extremes *x, bool on_device)
 
 static inline void extremes_close(struct extremes *x)
 {
-    static const char *const files[] = {"a.obj", "a.mtl", "a.view", "t.tga",
-                                        "sky.pfm"};
+    static const char *const files[] = {"a.obj",   "a.mtl", "a.view", "t.tga",
+                                        "sky.pfm", "a.npy", "b.npy"};
 
     for (int i = 0; i < x->count; i++) {
         render_destroy(x->renders[i]);
