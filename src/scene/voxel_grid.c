@@ -84,6 +84,22 @@ float voxel_grid_sample(const struct voxel_grid *grid, const double p[3])
                    t[0]);
 }
 
+void voxel_box_bounds(const double first[3], const double last[3],
+                      const struct affine *to, double low[3], double high[3])
+{
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3], q[3];
+
+        for (int a = 0; a < 3; a++)
+            p[a] = (corner >> a & 1) != 0 ? last[a] + 0.5 : first[a] - 0.5;
+        affine_point(to, p, q);
+        for (int a = 0; a < 3; a++) {
+            low[a] = corner == 0 ? q[a] : fmin(low[a], q[a]);
+            high[a] = corner == 0 ? q[a] : fmax(high[a], q[a]);
+        }
+    }
+}
+
 /* ---- majorants ---- */
 
 /* Range of voxels of a brick along one axis that touch the neighbour at this

@@ -61,6 +61,11 @@ bool voxel_grid_bound(struct voxel_grid *grid);
 float voxel_grid_value(const struct voxel_grid *grid, int64_t i, int64_t j,
                        int64_t k);
 
+/* Sets the bounds, behind a map, of the box of these voxels: it ends half a
+ * voxel beyond their centres. */
+void voxel_box_bounds(const double first[3], const double last[3],
+                      const struct affine *to, double low[3], double high[3]);
+
 /* Returns the value at a point of index space, interpolated in three directions
  * between the centres of eight voxels. */
 float voxel_grid_sample(const struct voxel_grid *grid, const double p[3]);

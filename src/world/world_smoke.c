@@ -202,24 +202,6 @@ static bool invert(const struct affine *a, struct affine *to)
     return true;
 }
 
-/* Sets the bounds of a grid's box behind a map. */
-static void find_bounds(const struct world_grid *g, const struct affine *to,
-                        double low[3], double high[3])
-{
-    for (int corner = 0; corner < 8; corner++) {
-        double p[3], q[3];
-
-        for (int a = 0; a < 3; a++)
-            p[a] =
-                (corner >> a & 1) != 0 ? g->last[a] + 0.5 : g->first[a] - 0.5;
-        affine_point(to, p, q);
-        for (int a = 0; a < 3; a++) {
-            low[a] = corner == 0 ? q[a] : fmin(low[a], q[a]);
-            high[a] = corner == 0 ? q[a] : fmax(high[a], q[a]);
-        }
-    }
-}
-
 /* Returns the map from the file of the grid to the scene. `density` is the grid
  * whose box counts. */
 static struct affine placing(const struct smoke *s,
@@ -239,7 +221,7 @@ static struct affine placing(const struct smoke *s,
         struct affine to = affine_join(&up, &density->to_file);
         double low[3], high[3];
 
-        find_bounds(density, &to, low, high);
+        voxel_box_bounds(density->first, density->last, &to, low, high);
         for (int a = 0; a < 3; a++) {
             double factor = (n->box[a + 3] - n->box[a]) / (high[a] - low[a]);
 

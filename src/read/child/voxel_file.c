@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/decimal.h"
 #include "base/file.h"
 #include "read/child/vdb_read.h"
 #include "read/mesh_finish.h"
@@ -75,18 +74,13 @@ bool voxel_file_read(struct voxel_grid *grid, const char *path,
 static void find_bounds(const struct voxel_grid *g, double low[3],
                         double high[3])
 {
-    for (int corner = 0; corner < 8; corner++) {
-        double p[3], q[3];
+    double first[3], last[3];
 
-        for (int a = 0; a < 3; a++)
-            p[a] =
-                (corner >> a & 1) != 0 ? g->last[a] + 0.5 : g->first[a] - 0.5;
-        affine_point(&g->to_world, p, q);
-        for (int a = 0; a < 3; a++) {
-            low[a] = corner == 0 ? q[a] : fmin(low[a], q[a]);
-            high[a] = corner == 0 ? q[a] : fmax(high[a], q[a]);
-        }
+    for (int a = 0; a < 3; a++) {
+        first[a] = g->first[a];
+        last[a] = g->last[a];
     }
+    voxel_box_bounds(first, last, &g->to_world, low, high);
 }
 
 /* Returns two digits of a number. */
