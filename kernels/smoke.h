@@ -142,7 +142,7 @@ static inline void interval_cut(float o, float d, float low, float high,
 {
     float a = (low - o) / d, b = (high - o) / d;
 
-    if (d == 0.0f ? !(o >= low && o <= high) : !(a <= b || a > b)) {
+    if (d == 0.0f ? !(o >= low && o <= high) : isnan(a) || isnan(b)) {
         interval->y = -1.0f;
         return;
     }

@@ -49,18 +49,25 @@ bool world_has_grid(const struct host_world *host, const char *path,
     return find_grid(host, path, name) != NULL;
 }
 
-/* Makes room for more items behind `count`. There is always room for one, since
- * realloc() of nothing would free. */
-static bool grow(void *array, uint64_t count, uint64_t more, size_t item_bytes)
+/* Makes room for one more grid, and for its places and voxels. There is always
+ * room for one of each, since realloc() of nothing would free. */
+static bool make_room(struct host_world *host, uint64_t places, uint64_t voxels)
 {
-    void *items, *grown;
+    struct world_grid *grids =
+        realloc(host->grids, (host->grid_count + 1ull) * sizeof *grids);
+    struct voxel_place *all =
+        realloc(host->voxel_places,
+                (host->voxel_place_count + places + 1) * sizeof *all);
+    float *values = realloc(host->voxels,
+                            (host->voxel_count + voxels + 1) * sizeof *values);
 
-    memcpy(&items, array, sizeof items);
-    grown = realloc(items, (count + more + 1) * item_bytes);
-    if (grown == NULL)
-        return false;
-    memcpy(array, &grown, sizeof grown);
-    return true;
+    if (grids != NULL)
+        host->grids = grids;
+    if (all != NULL)
+        host->voxel_places = all;
+    if (values != NULL)
+        host->voxels = values;
+    return grids != NULL && all != NULL && values != NULL;
 }
 
 /* Rounds a voxel down to the first one of its brick. */
@@ -165,10 +172,7 @@ bool world_add_grid(struct host_world *host, const char *path, const char *name,
     made.path = strdup(path);
     made.name = strdup(name);
     if (made.path == NULL || made.name == NULL ||
-        !grow(&host->grids, host->grid_count, 1, sizeof made) ||
-        !grow(&host->voxel_places, host->voxel_place_count, places,
-              sizeof *host->voxel_places) ||
-        !grow(&host->voxels, host->voxel_count, voxels, sizeof *host->voxels)) {
+        !make_room(host, places, voxels)) {
         free(made.path);
         free(made.name);
         return fail(err, "%s: out of memory for its voxels", path);
@@ -235,6 +239,13 @@ static struct affine placing(const struct smoke *s,
 static struct vec3 as_floats(const double v[3])
 {
     return v3((float)v[0], (float)v[1], (float)v[2]);
+}
+
+static struct vec3 scaled(const double v[3], double factor)
+{
+    const double to[3] = {v[0] * factor, v[1] * factor, v[2] * factor};
+
+    return as_floats(to);
 }
 
 /* Makes the field of a grid that has this map from its file to the scene. */
@@ -340,13 +351,8 @@ static bool make_smoke(const struct host_world *host, const struct scene *scene,
     per_unit *= fmin(1, limit / most);
     *m = (struct smoke_medium){.anisotropy =
                                    medium_anisotropy(s->numbers.anisotropy)};
-    for (int k = 0; k < 3; k++) {
-        float scatter = (float)(s->numbers.scatter[k] * per_unit);
-        float absorb = (float)(s->numbers.absorb[k] * per_unit);
-
-        (&m->scattering.x)[k] = scatter;
-        (&m->extinction.x)[k] = scatter + absorb;
-    }
+    m->scattering = scaled(s->numbers.scatter, per_unit);
+    m->extinction = v3_add(m->scattering, scaled(s->numbers.absorb, per_unit));
     m->most = v3_max_component(m->extinction);
     if (!(m->most >= FLT_MIN)) /* its inverse is beyond floats */
         return true;
