@@ -11,6 +11,9 @@
 
 #define MAGIC "\x20\x42\x44\x56\0\0\0\0"
 
+/* Beginning of files of another format, which hold the same grids. */
+#define NANOVDB "NanoVDB"
+
 /* First version whose nodes say which inactive values they have. */
 #define VERSION_MIN 222
 
@@ -44,18 +47,32 @@ static bool words_equal(struct word a, struct word b)
 
 /* ---- the head ---- */
 
-/* Skips metadata, whose values have sizes whatever their types are. */
-static bool skip_metadata(struct vdb_reader *r)
-{
-    uint32_t count, size_bytes;
-    struct word name, type;
+/* What metadata say of a grid. */
+struct metadata {
+    bool is_level_set; /* distances from a surface, below 0 inside */
+    bool is_of_blender;
+};
 
+/* Reads metadata, whose values have sizes whatever their types are. The fluids
+ * of Blender alone write a base resolution. */
+static bool take_metadata(struct vdb_reader *r, struct metadata *m)
+{
+    uint32_t count;
+
+    *m = (struct metadata){.is_level_set = false};
     if (!vdb_take_u32(r, &count))
         return false;
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
+        struct word name, type, value;
+
         if (!vdb_take_text(r, &name) || !vdb_take_text(r, &type) ||
-            !vdb_take_u32(r, &size_bytes) || vdb_take(r, size_bytes) == NULL)
+            !vdb_take_text(r, &value))
             return false;
+        if (word_equals(name, "class"))
+            m->is_level_set = word_equals(value, "level set");
+        if (word_equals(name, "file_base_resolution"))
+            m->is_of_blender = true;
+    }
     return true;
 }
 
@@ -64,9 +81,12 @@ static bool take_head(struct vdb_reader *r)
 {
     const uint8_t *magic = vdb_take(r, 8);
     uint32_t version, major, minor, has_offsets;
+    struct metadata unused;
 
     if (magic == NULL)
         return false;
+    if (memcmp(magic, NANOVDB, strlen(NANOVDB)) == 0)
+        return fail(r->err, "found a NanoVDB file, expected an OpenVDB file");
     if (memcmp(magic, MAGIC, 8) != 0)
         return fail(r->err, "found no OpenVDB file");
     if (!vdb_take_u32(r, &version))
@@ -82,7 +102,7 @@ static bool take_head(struct vdb_reader *r)
     if (has_offsets == 0)
         return fail(r->err, "found a stream of OpenVDB, expected a file with "
                             "the places of its grids");
-    return vdb_take(r, UUID_BYTES) != NULL && skip_metadata(r);
+    return vdb_take(r, UUID_BYTES) != NULL && take_metadata(r, &unused);
 }
 
 /* ---- the list of grids ---- */
@@ -118,18 +138,37 @@ static bool is_readable(const struct description *d)
     return word_equals(d->type, TYPE) || word_equals(d->type, TYPE HALF);
 }
 
+/* Returns the bit of a grid in fire_grids, or 0. */
+static uint32_t fire_bit(const struct description *d)
+{
+    for (uint32_t i = 0; i < FIRE_NAMES; i++)
+        if (is_readable(d) && word_equals(d->name, voxel_fire_names[i]))
+            return 1u << i;
+    return 0;
+}
+
 /* Names of grids for a message, which is cut. */
 struct names {
     char text[200];
     size_t length;
 };
 
-static void add_name(struct names *names, struct word name)
+/* Returns the length of a text for a message, which is cut. */
+static int cut_length(struct word text)
 {
+    return text.length < 60 ? (int)text.length : 60;
+}
+
+/* Adds the name of a grid, with its type if it cannot be read. */
+static void add_name(struct names *names, const struct description *d)
+{
+    bool has_type = !is_readable(d);
     int length = snprintf(names->text + names->length,
-                          sizeof names->text - names->length, "%s%.*s",
-                          names->length > 0 ? ", " : "",
-                          name.length < 60 ? (int)name.length : 60, name.start);
+                          sizeof names->text - names->length, "%s%.*s%s%.*s%s",
+                          names->length > 0 ? ", " : "", cut_length(d->name),
+                          d->name.start, has_type ? " (" : "",
+                          has_type ? cut_length(d->type) : 0, d->type.start,
+                          has_type ? ")" : "");
 
     names->length += (size_t)length;
     if (names->length >= sizeof names->text)
@@ -137,9 +176,10 @@ static void add_name(struct names *names, struct word name)
 }
 
 /* Finds the grid of this name or, with "", the default. *d has length 0 as its
- * type if there is none. */
+ * type if there is none. Sets the grids of fire that the file has. */
 static bool find_grid(struct vdb_reader *r, const char *name,
-                      struct description *d, struct names *names)
+                      struct description *d, struct names *names,
+                      uint32_t *fire_grids)
 {
     bool has_name = name[0] != '\0', is_found = false;
     uint32_t count;
@@ -153,7 +193,8 @@ static bool find_grid(struct vdb_reader *r, const char *name,
 
         if (!take_description(r, &next))
             return false;
-        add_name(names, next.name);
+        add_name(names, &next);
+        *fire_grids |= fire_bit(&next);
         is_named = word_equals(next.name, has_name ? name : "density") &&
                    (has_name || is_readable(&next));
         if (is_found || !(is_named || (!has_name && d->type.length == 0 &&
@@ -166,14 +207,14 @@ static bool find_grid(struct vdb_reader *r, const char *name,
 }
 
 static bool choose_grid(struct vdb_reader *r, const char *name,
-                        struct description *d)
+                        struct description *d, uint32_t *fire_grids)
 {
     struct names names = {.length = 0};
 
-    if (!find_grid(r, name, d, &names))
+    if (!find_grid(r, name, d, &names, fire_grids))
         return false;
     if (d->type.length == 0 && name[0] == '\0')
-        return fail(r->err, "found no grid of floats (%s), expected one",
+        return fail(r->err, "found %s, expected a grid of floats",
                     names.length > 0 ? names.text : "no grids");
     if (d->type.length == 0)
         return fail(r->err, "found no grid '%s', expected one of: %s", name,
@@ -182,8 +223,7 @@ static bool choose_grid(struct vdb_reader *r, const char *name,
         return fail(r->err,
                     "found grid '%s' of type '%.*s', expected " TYPE
                     " or " TYPE HALF,
-                    name, (int)(d->type.length < 60 ? d->type.length : 60),
-                    d->type.start);
+                    name, cut_length(d->type), d->type.start);
     return true;
 }
 
@@ -207,7 +247,7 @@ static bool find_parent(struct vdb_reader *r, uint64_t list_at,
     return fail(r->err,
                 "found an instance of grid '%.*s', expected this grid with "
                 "floats",
-                (int)(name.length < 60 ? name.length : 60), name.start);
+                cut_length(name), name.start);
 }
 
 /* ---- transforms ---- */
@@ -275,7 +315,7 @@ static bool take_transform(struct vdb_reader *r, struct affine *to)
         return fail(r->err,
                     "found a transform of type '%.*s', expected scale, "
                     "translation or an affine map",
-                    (int)(name.length < 60 ? name.length : 60), name.start);
+                    cut_length(name), name.start);
     if (!vdb_take_doubles(r, numbers, map_kinds[i].count))
         return false;
     *to = map_of(&map_kinds[i], numbers);
@@ -288,7 +328,8 @@ static bool take_transform(struct vdb_reader *r, struct affine *to)
 
 /* Reads compression, metadata and transform at the beginning of a grid. */
 static bool take_grid_head(struct vdb_reader *r, const struct description *d,
-                           uint32_t *flags, struct affine *to_world)
+                           uint32_t *flags, struct metadata *metadata,
+                           struct affine *to_world)
 {
     r->at = (uint64_t)d->grid_at;
     if (!vdb_take_u32(r, flags))
@@ -298,7 +339,7 @@ static bool take_grid_head(struct vdb_reader *r, const struct description *d,
                     "byte %" PRId64 ": found compression %" PRIu32
                     ", expected at most %d",
                     d->grid_at, *flags, VDB_FLAGS);
-    return skip_metadata(r) && take_transform(r, to_world);
+    return take_metadata(r, metadata) && take_transform(r, to_world);
 }
 
 static bool take_grid(struct vdb_reader *r, const struct description *d,
@@ -307,19 +348,33 @@ static bool take_grid(struct vdb_reader *r, const struct description *d,
     struct vdb_storage storage = {
         .is_half = word_equals(d->type, TYPE HALF),
     };
+    struct metadata metadata;
 
-    return take_grid_head(r, d, &storage.flags, &grid->to_world) &&
-           vdb_tree_read(grid, r, storage) &&
-           (r->at == (uint64_t)d->end_at ||
-            fail(r->err,
-                 "found the grid's end at byte %" PRIu64 ", expected %" PRId64,
-                 r->at, d->end_at));
+    if (!take_grid_head(r, d, &storage.flags, &metadata, &grid->to_world) ||
+        !vdb_tree_read(grid, r, storage))
+        return false;
+    if (r->at != (uint64_t)d->end_at)
+        return fail(r->err,
+                    "found the grid's end at byte %" PRIu64
+                    ", expected %" PRId64,
+                    r->at, d->end_at);
+    grid->up_is_z = metadata.is_of_blender;
+    if (!metadata.is_level_set)
+        return true;
+    if (!(grid->background > 0))
+        return fail(r->err,
+                    "found a level set with a background of %g, expected the "
+                    "width of its band",
+                    (double)grid->background);
+    return voxel_grid_fill_level_set(grid) ||
+           fail(r->err, "out of memory for its voxels");
 }
 
 bool vdb_parse(struct voxel_grid *grid, const void *bytes, size_t size_bytes,
                const char *name, struct error *err)
 {
     struct vdb_reader r = {.bytes = bytes, .size = size_bytes, .err = err};
+    struct metadata metadata;
     struct affine to_world;
     struct description d;
     uint64_t list_at;
@@ -329,11 +384,12 @@ bool vdb_parse(struct voxel_grid *grid, const void *bytes, size_t size_bytes,
     if (!take_head(&r))
         return false;
     list_at = r.at;
-    if (!choose_grid(&r, name != NULL ? name : "", &d))
+    if (!choose_grid(&r, name != NULL ? name : "", &d, &grid->fire_grids))
         return false;
+    grid->own_fire = fire_bit(&d);
     if (d.parent.length == 0)
         return take_grid(&r, &d, grid);
-    if (!take_grid_head(&r, &d, &flags, &to_world) ||
+    if (!take_grid_head(&r, &d, &flags, &metadata, &to_world) ||
         !find_parent(&r, list_at, &d) || !take_grid(&r, &d, grid))
         return false;
     grid->to_world = to_world;

@@ -5,7 +5,8 @@
  * The reader takes grids of floats, also those that are saved as half floats,
  * in trees 5-4-3, from version 222 of the file on, plain or packed with zip,
  * active masks and blosc. Values are those that OpenVDB's getValue() returns,
- * also of inactive voxels. Metadata are skipped.
+ * also of inactive voxels. A level set becomes the density of what it encloses,
+ * as OpenVDB's sdfToFogVolume() makes it. Other metadata tell which axis is up.
  *
  * The parser checks every count and offset. Its memory is bounded by the size
  * of the file and by BRICK_PLACES_MAX. But libblosc is not as careful:

@@ -7,6 +7,10 @@
 
 #include "base/memory.h"
 
+const char *const voxel_fire_names[FIRE_NAMES] = {
+    "flame", "flames", "flame_noise", "temperature", "heat",
+};
+
 void voxel_grid_free(struct voxel_grid *grid)
 {
     free(grid->index);
@@ -218,4 +222,17 @@ bool voxel_grid_bound(struct voxel_grid *grid)
             grid->majorants[i] = rounded_up(grid->background);
     free(parts);
     return true;
+}
+
+/* ---- level sets ---- */
+
+bool voxel_grid_fill_level_set(struct voxel_grid *grid)
+{
+    float width = grid->background;
+
+    for (size_t i = 0; i < (size_t)grid->brick_count * BRICK_VOXELS; i++)
+        grid->values[i] = fminf(fmaxf(-grid->values[i] / width, 0), 1);
+    grid->background = 0;
+    free(grid->majorants);
+    return voxel_grid_bound(grid);
 }

@@ -32,6 +32,11 @@
 /* Largest magnitude of a value, so that squares stay finite. */
 #define VOXEL_VALUE_MAX 1e30f
 
+/* Grids that files of fire have beside the density: first names of flames, then
+ * of temperatures, each with those that are preferred first. */
+enum { FLAME_NAMES = 3, FIRE_NAMES = 5, VOXEL_NAME_BYTES = 16 };
+extern const char *const voxel_fire_names[FIRE_NAMES];
+
 struct voxel_grid {
     /* First and last voxel that is active in the file; first > last: none. */
     int32_t first[3], last[3];
@@ -47,6 +52,9 @@ struct voxel_grid {
     float *values; /* BRICK_VOXELS for each brick; z is fastest, then y */
     struct affine to_world;
     uint32_t replaced_count; /* values that were no numbers: 0 */
+    /* Bits of voxel_fire_names: grids that the file has, and this one or 0. */
+    uint32_t fire_grids, own_fire;
+    uint32_t up_is_z; /* 1: the program that wrote it has z up */
 };
 
 void voxel_grid_free(struct voxel_grid *grid);
@@ -56,6 +64,10 @@ uint64_t voxel_grid_place_count(const struct voxel_grid *grid);
 
 /* Allocates and fills the majorants. */
 bool voxel_grid_bound(struct voxel_grid *grid);
+
+/* Makes distances from a surface, whose background is the width of their band,
+ * densities: 1 inside, and less from the surface on to the band's width. */
+bool voxel_grid_fill_level_set(struct voxel_grid *grid);
 
 /* Returns the value of a voxel; outside of the box the background. */
 float voxel_grid_value(const struct voxel_grid *grid, int64_t i, int64_t j,

@@ -43,7 +43,9 @@ struct vdb_grid {
     int32_t first[3], last[3]; /* box of the leaves; first > last: none */
     const struct vdb_tile *tiles;
     int tile_count;
-    const char *map; /* NULL: a scale of 1 */
+    const char *class;  /* "level set", .., or NULL */
+    bool is_of_blender; /* has what Blender's fluids add */
+    const char *map;    /* NULL: a scale of 1 */
     const double *map_numbers;
     int map_count;
 };
@@ -394,15 +396,27 @@ static inline void vdb_put_flag(struct vdb_file *f, const char *name,
     fputc(1, f->to);
 }
 
+static inline void vdb_put_string(struct vdb_file *f, const char *name,
+                                  const char *value)
+{
+    vdb_put_text(f, name);
+    vdb_put_text(f, "string");
+    vdb_put_text(f, value);
+}
+
 /* OpenVDB reads half floats if the metadata of the grid say so, too. */
 static inline void vdb_put_metadata(struct vdb_file *f)
 {
-    bool is_half = f->grid != NULL && f->grid->is_half;
+    static const struct vdb_grid none = {.name = NULL};
+    const struct vdb_grid *g = f->grid != NULL ? f->grid : &none;
+    bool is_half = g->is_half;
 
-    vdb_put_u32(f, is_half ? 3 : 2);
-    vdb_put_text(f, "creator");
-    vdb_put_text(f, "string");
-    vdb_put_text(f, "a test");
+    vdb_put_u32(f, 2 + is_half + (g->class != NULL) + g->is_of_blender);
+    vdb_put_string(f, "creator", "a test");
+    if (g->class != NULL)
+        vdb_put_string(f, "class", g->class);
+    if (g->is_of_blender)
+        vdb_put_flag(f, "file_base_resolution", "a type of Blender");
     if (is_half)
         vdb_put_flag(f, "is_saved_as_half_float", "bool");
     vdb_put_flag(f, "flag", "a type of tomorrow");

@@ -495,8 +495,8 @@ static void grids_are_chosen_by_name(void **state)
     }
     assert_false(vdb_parse(&grid, bytes, size, "smoke", &err));
     assert_string_equal(err.text,
-                        "found no grid 'smoke', expected one of: velocity, "
-                        "heat, density, density, moved");
+                        "found no grid 'smoke', expected one of: velocity "
+                        "(Tree_vec3s_5_4_3), heat, density, density, moved");
     voxel_grid_free(&grid);
     assert_false(vdb_parse(&grid, bytes, size, "velocity", &err));
     assert_string_equal(err.text,
@@ -539,11 +539,140 @@ static void first_scalar_grid_is_the_default(void **state)
         } else {
             assert_false(vdb_parse(&grid, bytes, size, NULL, &err));
             assert_string_equal(
-                err.text, "found no grid of floats (flame), expected one");
+                err.text,
+                "found flame (Tree_vec3s_5_4_3), expected a grid of floats");
         }
         voxel_grid_free(&grid);
         free(bytes);
     }
+}
+
+/* ---- what a file says of its grids ---- */
+
+static void fire_has_names(void **state)
+{
+    static const struct {
+        const char *names[4];
+        uint32_t grids, own; /* bits */
+    } cases[] = {
+        {{"density", "flame", "shadow", "temperature"}, 1 << 0 | 1 << 3, 0},
+        {{"density_noise", "flame_noise"}, 1 << 2, 0},
+        {{"flames", "heat"}, 1 << 1 | 1 << 4, 1 << 1},
+        {{"flame\x1e"
+          "0",
+          "temperatures", "Heat"},
+         1 << 0,
+         1 << 0},
+    };
+    struct voxel_grid grid;
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *const *names = cases[i].names;
+        struct vdb_file f;
+        uint32_t count = 0;
+        size_t size;
+        char *bytes;
+
+        while (count < 4 && names[count] != NULL)
+            count++;
+        vdb_file_begin(&f, 224, count + 1);
+        for (uint32_t k = 0; k <= count; k++) {
+            const struct vdb_grid g = {.name = k < count ? names[k] : "heat",
+                                       .type = k < count ? NULL
+                                                         : "Tree_vec3s_5_4_3",
+                                       .first = {1, 1, 1}};
+
+            vdb_file_add(&f, &g);
+        }
+        bytes = vdb_file_end(&f, &size);
+        parse(&grid, bytes, size, NULL);
+        assert_int_equal(grid.fire_grids, cases[i].grids);
+        assert_int_equal(grid.own_fire, cases[i].own);
+        voxel_grid_free(&grid);
+        free(bytes);
+    }
+}
+
+static void fluids_of_blender_have_z_up(void **state)
+{
+    struct voxel_grid grid;
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        const struct vdb_grid g = {.name = "density",
+                                   .class = "fog volume",
+                                   .is_of_blender = i != 0,
+                                   .first = {1, 1, 1}};
+        size_t size;
+        char *bytes = vdb_file_of(&g, &size);
+
+        parse(&grid, bytes, size, NULL);
+        assert_int_equal(grid.up_is_z, i);
+        voxel_grid_free(&grid);
+        free(bytes);
+    }
+}
+
+/* Distance from a ball of radius 9 in a band of 3 voxels. */
+static float ball_voxel(const void *unused, const int32_t v[3], bool *active)
+{
+    float d = sqrtf((float)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])) - 9;
+
+    (void)unused;
+    *active = fabsf(d) < 3;
+    return fminf(fmaxf(d, -3), 3);
+}
+
+static void level_sets_are_full_inside(void **state)
+{
+    struct vdb_grid g = {.name = "surface",
+                         .class = "level set",
+                         .background = 3,
+                         .voxel = ball_voxel,
+                         .first = {-12, -12, -12},
+                         .last = {12, 12, 12}};
+    struct voxel_grid grid;
+    struct error err;
+    size_t size;
+    char *bytes = vdb_file_of(&g, &size);
+    int32_t v[3];
+    bool is_active;
+
+    (void)state;
+    parse(&grid, bytes, size, NULL);
+    check_close(grid.background, 0, 0);
+    for (v[0] = -20; v[0] <= 20; v[0]++)
+        for (v[1] = -20; v[1] <= 20; v[1]++)
+            for (v[2] = -20; v[2] <= 20; v[2]++) {
+                float d = ball_voxel(NULL, v, &is_active);
+
+                check_close(voxel_grid_value(&grid, v[0], v[1], v[2]),
+                            d < 0 ? -d / 3 : 0, 1e-7);
+            }
+    check_majorants(&grid);
+    voxel_grid_free(&grid);
+    free(bytes);
+    g.background = 0;
+    bytes = vdb_file_of(&g, &size);
+    assert_false(vdb_parse(&grid, bytes, size, NULL, &err));
+    assert_string_equal(err.text, "found a level set with a background of 0, "
+                                  "expected the width of its band");
+    voxel_grid_free(&grid);
+    free(bytes);
+}
+
+static void other_formats_have_a_message(void **state)
+{
+    static const char bytes[] = "NanoVDB0 and the rest";
+    struct voxel_grid grid;
+    struct error err;
+
+    (void)state;
+    assert_false(vdb_parse(&grid, bytes, sizeof bytes, NULL, &err));
+    assert_string_equal(err.text,
+                        "found a NanoVDB file, expected an OpenVDB file");
+    voxel_grid_free(&grid);
 }
 
 /* ---- broken files ---- */
@@ -651,7 +780,7 @@ static void broken_files_have_messages(void **state)
          "grids"},
         {"456789abcdef", 0, 4, UINT32_MAX, "found its end at byte "},
         {"456789abcdef", 4, 4, UINT32_MAX, "found its end at byte "},
-        {"tomorrow", 5, 4, 0, "found no grid of floats (no grids), expected"},
+        {"tomorrow", 5, 4, 0, "found no grids, expected a grid of floats"},
         {"tomorrow", 5, 4, UINT32_MAX, "found its end at byte "},
         {"_5_4_3", 4, 4, 7, ": found a grid from byte 7 to "},
         {"_5_4_3", 4 + 16, 4, UINT32_MAX, ": found a grid from byte "},
@@ -788,6 +917,10 @@ int main(void)
         cmocka_unit_test(transforms_lead_to_the_world),
         cmocka_unit_test(grids_are_chosen_by_name),
         cmocka_unit_test(first_scalar_grid_is_the_default),
+        cmocka_unit_test(fire_has_names),
+        cmocka_unit_test(fluids_of_blender_have_z_up),
+        cmocka_unit_test(level_sets_are_full_inside),
+        cmocka_unit_test(other_formats_have_a_message),
         cmocka_unit_test(files_that_end_early_have_a_message),
         cmocka_unit_test(turned_bits_do_no_harm),
         cmocka_unit_test(broken_files_have_messages),
