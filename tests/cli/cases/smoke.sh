@@ -26,5 +26,7 @@ npy '1, 1, 3' '\377\100' >short.npy
 run $b short.npy
 printf ' BDV\000\000\000\000' >short.vdb
 run $b short.vdb
+printf 'NanoVDB0\000\000\000\000' >smoke.nvdb
+run $b smoke.nvdb
 npy '1, 1, 2' '\000\000' >empty.npy
 run_untimed $b empty.npy

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_smoke_load.c - the grids that a view names, and files that fail. This
- * test is the program that reads OpenVDB files: see main().
+ * test_smoke_load.c - the grids that a view names, files that fail, and models
+ * of files. This test is the program that reads OpenVDB files: see main().
  */
 #include "engine/smoke_load.h"
 
 #include <math.h>
 
 #include "read/child/vdb_read.h"
+#include "read/child/voxel_file.h"
 #include "tests/unit/files.h"
 #include "tests/unit/smoke_world.h"
 #include "tests/unit/vdb_file.h"
@@ -140,6 +141,136 @@ static void failures_are_one_line(void **state)
     }
 }
 
+/* ---- models ---- */
+
+/* All voxels have one value. */
+static float even_voxel(const void *value, const int32_t v[3], bool *active)
+{
+    (void)v;
+    *active = true;
+    return *(const float *)value;
+}
+
+struct grid_of_file {
+    const char *name;
+    float value;
+};
+
+/* Opens a file of grids of 8^3 voxels as a scene. */
+static void open_model(struct scene *scene, const struct grid_of_file *grids,
+                       uint32_t count)
+{
+    static char program[] = "/proc/self/exe";
+    struct warnings report = {.entry_count = 0};
+    struct vdb_file f;
+    struct error err;
+    size_t size;
+    char *bytes;
+
+    vdb_file_begin(&f, 224, count);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct vdb_grid g = {.name = grids[i].name,
+                                   .voxel = even_voxel,
+                                   .context = &grids[i].value,
+                                   .is_of_blender = true};
+
+        vdb_file_add(&f, &g);
+    }
+    bytes = vdb_file_end(&f, &size);
+    put_bytes("model.vdb", bytes, size);
+    *scene = (struct scene){.program = program};
+    check_or_say(voxel_scene_parse(scene, bytes, size, "model.vdb", &report,
+                                   &err),
+                 err.text);
+    warnings_free(&report);
+    free(bytes);
+    assert_true(scene->up_is_z);
+}
+
+static void check_smoke(const struct smoke *s, const char *grid, double scatter,
+                        double absorb)
+{
+    assert_string_equal(s->path, "model.vdb");
+    assert_string_equal(s->grid, grid);
+    check_close(s->numbers.scatter[1], scatter, 1e-12);
+    check_close(s->numbers.absorb[1], absorb, 1e-12);
+}
+
+static void check_heat(const struct smoke *s, const char *grid, double kelvin)
+{
+    assert_string_equal(s->temperature, grid);
+    check_close(s->numbers.kelvin, kelvin, 0);
+}
+
+/* The flame is 3 deep across 8 voxels, and 3000 kelvins hot. Smoke beside it is
+ * as dense as its values say, up to 24. */
+static void flames_glow(void **state)
+{
+    static const struct {
+        struct grid_of_file heat;
+        double kelvin;
+        const char *name; /* of the grid that gives the temperature */
+    } cases[] = {
+        {{"temperature", 3}, 1000, "temperature"},
+        {{"heat", 1}, 3000, "heat"},
+        {{"temperature", 1800}, 1, "temperature"},
+        {{"temperature", 0}, 6000, "flame"},
+        {{"shadow", 7}, 6000, "flame"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const struct grid_of_file grids[] = {cases[i].heat,
+                                             {"flame", .5f},
+                                             {"density", .25f}};
+        struct scene scene;
+
+        open_model(&scene, grids, 3);
+        assert_int_equal(scene.smokes.count, 2);
+        check_smoke(&scene.smokes.items[0], "", 3, .06);
+        check_heat(&scene.smokes.items[0], "", 1);
+        check_smoke(&scene.smokes.items[1], "flame", 0, .75);
+        check_heat(&scene.smokes.items[1], cases[i].name, cases[i].kelvin);
+        check_close(scene.smokes.items[1].numbers.glow, 8, 0);
+        scene_free(&scene);
+    }
+}
+
+static void flames_need_no_smoke(void **state)
+{
+    static const struct grid_of_file grids[] = {{"flames", .5f}, {"heat", 1}};
+    struct scene scene;
+
+    (void)state;
+    open_model(&scene, grids, 2);
+    assert_int_equal(scene.smokes.count, 1);
+    check_smoke(&scene.smokes.items[0], "flames", 0, .75);
+    check_heat(&scene.smokes.items[0], "heat", 3000);
+    scene_free(&scene);
+}
+
+/* Smoke without a flame is white, unless it has kelvins. */
+static void smoke_glows_at_kelvins(void **state)
+{
+    static const float temperatures[] = {0, 1, 499, 500, 2000};
+
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        const struct grid_of_file grids[] = {{"flame", 0},
+                                             {"density", .25f},
+                                             {"temperature", temperatures[i]}};
+        bool has_glow = temperatures[i] >= 500;
+        struct scene scene;
+
+        open_model(&scene, grids, 3);
+        assert_int_equal(scene.smokes.count, 1);
+        check_smoke(&scene.smokes.items[0], "", 12, .24);
+        check_heat(&scene.smokes.items[0], has_glow ? "temperature" : "", 1);
+        check_close(scene.smokes.items[0].numbers.glow, has_glow ? 8 : 1, 0);
+        scene_free(&scene);
+    }
+}
+
 static int open_files(void **state)
 {
     if (enter_folder(state) != 0)
@@ -153,6 +284,9 @@ int main(int count, char **arguments)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(grids_are_read_once),
         cmocka_unit_test(failures_are_one_line),
+        cmocka_unit_test(flames_glow),
+        cmocka_unit_test(flames_need_no_smoke),
+        cmocka_unit_test(smoke_glows_at_kelvins),
     };
     const struct library_limits limits = {20, (uint64_t)1 << 40};
 
