@@ -65,8 +65,9 @@ uint64_t voxel_grid_place_count(const struct voxel_grid *grid);
 /* Allocates and fills the majorants. */
 bool voxel_grid_bound(struct voxel_grid *grid);
 
-/* Makes distances from a surface, whose background is the width of their band,
- * densities: 1 inside, and less from the surface on to the band's width. */
+/* Turns distances from a surface, whose background is the width of their band,
+ * into densities: 0 outside and at the surface, and up to 1 at this width
+ * inside. */
 bool voxel_grid_fill_level_set(struct voxel_grid *grid);
 
 /* Returns the value of a voxel; outside of the box the background. */

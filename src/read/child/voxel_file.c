@@ -224,6 +224,28 @@ static bool add_model(struct scene *scene, const struct voxel_grid *grid,
            add_flame(scene, &flame, heat.most > 0 ? &heat : &flame, err);
 }
 
+static bool is_empty(const struct voxel_grid *grid)
+{
+    return grid->first[0] > grid->last[0];
+}
+
+/* Reads the grid whose box the model has: the density or, if that is empty, the
+ * flame. */
+static bool read_model(struct voxel_grid *grid, const char *path,
+                       const char *program, struct error *err)
+{
+    if (!voxel_file_read(grid, path, NULL, program, err))
+        return false;
+    for (int i = 0; i < FLAME_NAMES && is_empty(grid); i++) {
+        if ((grid->fire_grids >> i & 1) == 0)
+            continue;
+        voxel_grid_free(grid);
+        if (!voxel_file_read(grid, path, voxel_fire_names[i], program, err))
+            return false;
+    }
+    return true;
+}
+
 bool voxel_scene_parse(struct scene *scene, const char *bytes,
                        size_t size_bytes, const char *path,
                        struct warnings *report, struct error *err)
@@ -234,11 +256,11 @@ bool voxel_scene_parse(struct scene *scene, const char *bytes,
 
     (void)bytes;
     (void)size_bytes;
-    ok = voxel_file_read(&grid, path, NULL, scene->program, err) &&
+    ok = read_model(&grid, path, scene->program, err) &&
          mesh_begin(scene, path, err);
     if (ok) {
         scene->up_is_z = grid.up_is_z != 0;
-        ok = grid.first[0] > grid.last[0] || add_model(scene, &grid, err);
+        ok = is_empty(&grid) || add_model(scene, &grid, err);
     }
     voxel_grid_free(&grid);
     return ok && mesh_finish(scene, NULL, &no_textures, report, err);

@@ -154,6 +154,7 @@ static float even_voxel(const void *value, const int32_t v[3], bool *active)
 struct grid_of_file {
     const char *name;
     float value;
+    bool is_empty;
 };
 
 /* Opens a file of grids of 8^3 voxels as a scene. */
@@ -172,7 +173,8 @@ static void open_model(struct scene *scene, const struct grid_of_file *grids,
         const struct vdb_grid g = {.name = grids[i].name,
                                    .voxel = even_voxel,
                                    .context = &grids[i].value,
-                                   .is_of_blender = true};
+                                   .is_of_blender = true,
+                                   .first[0] = grids[i].is_empty};
 
         vdb_file_add(&f, &g);
     }
@@ -211,18 +213,18 @@ static void flames_glow(void **state)
         double kelvin;
         const char *name; /* of the grid that gives the temperature */
     } cases[] = {
-        {{"temperature", 3}, 1000, "temperature"},
-        {{"heat", 1}, 3000, "heat"},
-        {{"temperature", 1800}, 1, "temperature"},
-        {{"temperature", 0}, 6000, "flame"},
-        {{"shadow", 7}, 6000, "flame"},
+        {{"temperature", 3, false}, 1000, "temperature"},
+        {{"heat", 1, false}, 3000, "heat"},
+        {{"temperature", 1800, false}, 1, "temperature"},
+        {{"temperature", 0, false}, 6000, "flame"},
+        {{"shadow", 7, false}, 6000, "flame"},
     };
 
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const struct grid_of_file grids[] = {cases[i].heat,
-                                             {"flame", .5f},
-                                             {"density", .25f}};
+                                             {"flame", .5f, false},
+                                             {"density", .25f, false}};
         struct scene scene;
 
         open_model(&scene, grids, 3);
@@ -238,15 +240,19 @@ static void flames_glow(void **state)
 
 static void flames_need_no_smoke(void **state)
 {
-    static const struct grid_of_file grids[] = {{"flames", .5f}, {"heat", 1}};
+    static const struct grid_of_file grids[] = {{"flames", .5f, false},
+                                                {"heat", 1, false},
+                                                {"density", 1, true}};
     struct scene scene;
 
     (void)state;
-    open_model(&scene, grids, 2);
-    assert_int_equal(scene.smokes.count, 1);
-    check_smoke(&scene.smokes.items[0], "flames", 0, .75);
-    check_heat(&scene.smokes.items[0], "heat", 3000);
-    scene_free(&scene);
+    for (uint32_t count = 2; count <= 3; count++) {
+        open_model(&scene, grids, count);
+        assert_int_equal(scene.smokes.count, 1);
+        check_smoke(&scene.smokes.items[0], "flames", 0, .75);
+        check_heat(&scene.smokes.items[0], "heat", 3000);
+        scene_free(&scene);
+    }
 }
 
 /* Smoke without a flame is white, unless it has kelvins. */
@@ -256,9 +262,10 @@ static void smoke_glows_at_kelvins(void **state)
 
     (void)state;
     for (int i = 0; i < 5; i++) {
-        const struct grid_of_file grids[] = {{"flame", 0},
-                                             {"density", .25f},
-                                             {"temperature", temperatures[i]}};
+        const struct grid_of_file grids[] = {{"flame", 0, false},
+                                             {"density", .25f, false},
+                                             {"temperature", temperatures[i],
+                                              false}};
         bool has_glow = temperatures[i] >= 500;
         struct scene scene;
 
