@@ -103,3 +103,11 @@ textured()
         printf 'newmtl m%s\nmap_Kd %s.tga\n' "$i" "$i"
     done >textured.mtl
 }
+
+# Writes a NumPy file of bytes: their shape, and the bytes as printf has them.
+npy() # SHAPE BYTES
+{
+    printf '\223NUMPY\001\000\166\000%-117s\n' \
+        "{'descr': '|u1', 'fortran_order': False, 'shape': ($1), }"
+    printf "$2"
+}

@@ -30,6 +30,19 @@ for options in '-s 40' '-s 24 --adaptive --denoise' '-e 20%'; do
     same many.png one.png
 done
 
+# so do they with media, whose files rank 0 alone reads
+npy '2, 2, 2' '\377\100\000\020\200\100\377\000' >smoke.npy
+cp box.obj smoke.obj
+cat - box.view >smoke.view <<END
+fog scatter .1 .2 .3 anisotropy .5 height .5 falloff 1
+medium smoke.npy scatter .01 .02 .03 absorb .01 0 0 box -1 0 -1 1 2 1
+END
+for scene in smoke.obj "$root/scenes/fog.obj" "$root/scenes/prism.obj"; do
+    glim $b -s 9 -o one.pfm "$scene" 2>/dev/null
+    ranks 2 $b -s 9 -o many.pfm "$scene" >/dev/null
+    same many.pfm one.pfm
+done
+
 # so do they for the pictures of a series, whose scene changes
 take moving
 for options in '--turntable 2 box.obj' '--frames 1:2 moving.gltf' \

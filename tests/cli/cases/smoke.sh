@@ -1,12 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Grids: opened themselves, as a medium of a view, and wrong ones.
 b="-b -w 8 -h 4 -s 1 -o out.png"
-npy() # SHAPE BYTES
-{
-    printf '\223NUMPY\001\000\166\000%-117s\n' \
-        "{'descr': '|u1', 'fortran_order': False, 'shape': ($1), }"
-    printf "$2"
-}
 npy '1, 1, 2' '\377\100' >smoke.npy
 run_untimed $b smoke.npy
 run_untimed $b --up z smoke.npy
