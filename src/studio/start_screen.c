@@ -91,6 +91,7 @@ static void take_signals(struct start *s)
 
     while ((number = tty_signal()) != 0) {
         if (number == SIGWINCH) {
+            tty_relayout(true);
             lay_out(s);
         } else if (number == SIGTSTP) {
             tty_suspend();

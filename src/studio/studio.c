@@ -896,7 +896,7 @@ static void take_signals(struct studio *studio)
             tty_resume();
             workspace_layout(&studio->workspace);
             break;
-        case SIGWINCH: workspace_layout(&studio->workspace); break;
+        case SIGWINCH: workspace_redraw(&studio->workspace); break;
         default: break;
         }
     }

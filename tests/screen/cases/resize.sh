@@ -35,6 +35,11 @@ expect "save a PNG"
 keys Escape Escape
 wait_until_gone "save a PNG"
 wait_for_rows 20 "48;2;188;124;0"
+# A terminal that had another size for a moment lost cells.
+mux send-keys -R
+wait_for_rows 0 "48;2;188;124;0"
+kill -WINCH "$(program_pid)"
+wait_for_rows 20 "48;2;188;124;0"
 mux resize-window -x 39 -y 31
 wait_for "has 39x31"
 keys C-q
