@@ -94,6 +94,8 @@ struct light_sample {
     float pdf;            /* of wi per solid angle; above 0 and finite */
     uint32_t tri;         /* NO_INDEX: not an area light */
     struct vec3 p;        /* the point on the area light or point light */
+    uint32_t light;       /* of the tree, if it is near */
+    float probability;    /* of that light */
     bool is_near;         /* of a light of the tree; false: from infinity */
     bool is_sky;
     bool is_delta; /* BSDF samples cannot find the light: radiance and pdf

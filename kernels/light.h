@@ -126,18 +126,18 @@ static inline bool sample_point_light(const struct world *w, uint32_t i,
     return s->pdf > 0.0f;
 }
 
-/* Samples a light of the tree. */
-static inline bool sample_near_light(const struct world *w,
-                                     const struct receiver *r,
-                                     struct vec2 point, struct vec2 choice,
-                                     struct light_sample *s)
+/* Samples a light of the tree, which was chosen with this probability. */
+static inline bool sample_chosen_light(const struct world *w, uint32_t light,
+                                       const struct receiver *r,
+                                       struct vec2 point, float probability,
+                                       struct light_sample *s)
 {
-    uint32_t light, part = 0;
-    float probability =
-        w->settings.light_share * light_tree_sample(w, r, choice, &light);
+    uint32_t part = 0;
     struct vec3 p_error, to_point;
     struct hit h;
 
+    s->light = light;
+    s->probability = probability;
     s->is_near = true;
     s->is_sky = false;
     s->is_delta = false;
@@ -161,6 +161,19 @@ static inline bool sample_near_light(const struct world *w,
         light_radiance(w, light,
                        hit_rotated(h, w->lights[light].rotation[part]));
     return true;
+}
+
+/* Samples a light of the tree. */
+static inline bool sample_near_light(const struct world *w,
+                                     const struct receiver *r,
+                                     struct vec2 point, struct vec2 choice,
+                                     struct light_sample *s)
+{
+    uint32_t light;
+    float probability =
+        w->settings.light_share * light_tree_sample(w, r, choice, &light);
+
+    return sample_chosen_light(w, light, r, point, probability, s);
 }
 
 /* The light of a triangle of an instance, or NO_INDEX. Lights are in the order
