@@ -113,6 +113,12 @@ static inline float fog_middle(const struct medium *m, struct ray r, float t)
     return fog_density(m, r.o.y + 0.5f * r.d.y * t);
 }
 
+/* Returns the density at a distance t along a ray. */
+static inline float density_along(const struct medium *m, struct ray r, float t)
+{
+    return fog_thins(m) ? fog_density(m, r.o.y + r.d.y * t) : 1.0f;
+}
+
 /* Returns the depth of a distance t along a ray whose direction is a unit
  * vector. */
 static inline float medium_depth(const struct medium *m, struct ray r, float t)

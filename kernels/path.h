@@ -54,6 +54,8 @@ APART static bool path_scatter(const struct world *w, struct path *p,
                              direction, choice, &s, &wi))
             return false;
     }
+    if (HAS(FEATURE_MEDIA))
+        p->segment.is_there = false;
     surface_spawn_ray(v, wi, s.wi.z, &p->ray);
     p->beta = v3_mul(p->beta, s.weight);
     p->scale = f_finite(p->scale * s.eta_scale);
@@ -101,6 +103,10 @@ static inline void path_open(const struct world *w, struct path *p,
         p->media = w->settings.camera_media;
     if (HAS(FEATURE_MEDIA))
         p->from.is_free = false;
+    if (HAS(FEATURE_MEDIA))
+        p->segment.is_there = false;
+    if (HAS(FEATURE_MEDIA))
+        p->along = v3(0.0f, 0.0f, 0.0f);
     if (HAS(FEATURE_MEDIA))
         p->crossings = 0;
     if (HAS(FEATURE_SUBSURFACE))
@@ -189,6 +195,36 @@ path_travel(struct path *p, const struct medium *m, float t, struct vec3 *beta)
     p->beta = attenuated(p->beta, m, p->ray, t);
     if (!scatters)
         *beta = p->beta;
+    return c;
+}
+
+/* True if light is sampled along the path's ray in this medium. */
+static inline bool path_samples_along(const struct world *w,
+                                      const struct path *p,
+                                      const struct medium *m)
+{
+    return medium_scatters(m) && w->settings.light_share > 0.0f &&
+           has_light_samples(w) && p->vertex < w->settings.max_vertices;
+}
+
+/* Takes the path along a distance t of its ray as path_travel() does, through a
+ * medium without smokes. *s becomes its segment. */
+static inline struct collision
+path_travel_lit(const struct world *w, struct path *p, const struct medium *m,
+                float t, struct vec3 *beta, struct segment *s)
+{
+    struct vec3 before = p->beta;
+    struct collision c;
+
+    if (HAS(FEATURE_MEDIA) && path_samples_along(w, p, m))
+        *s = path_add_along(w, p, m, t);
+    c = path_travel(p, m, t, beta);
+    if (HAS(FEATURE_MEDIA) && s->is_there && c.is_there) {
+        s->t = c.t;
+        s->density =
+            collision_density(m, collision_shares(m, before), p->ray, c.t);
+        s->is_there = s->density > 0.0f;
+    }
     return c;
 }
 
@@ -286,11 +322,11 @@ APART static struct collision path_travel_smoke(const struct world *w,
     return c;
 }
 
-/* Extends the path by a vertex in a medium, at a distance t of its ray. Returns
- * as path_extend(). */
+/* Extends the path by a vertex in a medium, at a distance t of its ray, on this
+ * segment. Returns as path_extend(). */
 static inline bool path_collide(const struct world *w, struct path *p,
                                 const struct medium *m, float t,
-                                struct vec3 beta)
+                                struct vec3 beta, const struct segment *s)
 {
     struct vec3 d = p->ray.d;
 
@@ -307,6 +343,7 @@ static inline bool path_collide(const struct world *w, struct path *p,
     p->from.is_free = true;
     p->cell = guide_cell_none();
     p->casts = p->is_chain = false;
+    p->segment = *s;
     p->light.is_lit = path_choose_medium_light(w, p, m, d);
     p->ray.d = phase_sample(m, d, path_2d(p, DIMENSION_BSDF_DIRECTION));
     p->pdf = phase_density(m, d, p->ray.d);
@@ -465,6 +502,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
     struct vec2 lobe;
     struct medium medium;
     struct collision c = {0.0f, v3(1.0f, 1.0f, 1.0f), false, false};
+    struct segment segment;
     uint32_t material;
     bool has_cells = false;
 
@@ -478,9 +516,10 @@ static inline bool path_extend(const struct world *w, struct path *p,
         float t = h->tri == NO_INDEX ? FLOAT_MAX : h->t;
 
         medium = medium_of(w, &p->media);
+        segment.is_there = false;
         c = is_in_smokes(w, &p->media)
                 ? path_travel_smoke(w, p, &medium, t, &beta)
-                : path_travel(p, &medium, t, &beta);
+                : path_travel_lit(w, p, &medium, t, &beta, &segment);
     }
     if (h->tri == NO_INDEX) {
         path_add_sky(w, p);
@@ -489,7 +528,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
         if (!HAS(FEATURE_MEDIA) || !c.is_there)
             return false;
         first_surface_light(&p->surface, p->vertex, p->out.radiance);
-        return path_collide(w, p, &medium, c.t, beta);
+        return path_collide(w, p, &medium, c.t, beta, &segment);
     }
     /* Find the surface. The sample points are computed early: they take long,
      * and nothing before depends on them. */
@@ -508,7 +547,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
             b = bsdf_at(w, m, &v);
             first_surface_meet(&p->surface, &b, v.n, h->t);
         }
-        return path_collide(w, p, &medium, c.t, beta);
+        return path_collide(w, p, &medium, c.t, beta, &segment);
     }
     if (HAS(FEATURE_MEDIA))
         p->beta = beta;
@@ -598,6 +637,8 @@ static inline struct path_sample path_close(const struct world *w,
         v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), p->out.radiance);
     if (has_first_surface(w)) {
         first_surface_end(w, &p->surface, p->vertex, p->out.radiance);
+        if (HAS(FEATURE_MEDIA))
+            p->surface.direct = v3_add(p->surface.direct, p->along);
         if (has_coverage(w) && !v3_is_zero(p->surface.seen)) {
             p->out.rays++;
             if (ray_is_divided(w, camera))
@@ -605,6 +646,9 @@ static inline struct path_sample path_close(const struct world *w,
         }
         *surface = p->surface;
     }
+    if (HAS(FEATURE_MEDIA))
+        p->out.radiance = v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX),
+                                 v3_add(p->out.radiance, p->along));
     return p->out;
 }
 

@@ -26,6 +26,9 @@
 /* Likewise of its key in smokes. */
 #define SMOKE_KEY 0x20000u
 
+/* Likewise of its samples along segments. */
+#define ALONG_KEY 0x51ed270bu
+
 /* Returns the MIS weight by the power heuristic of a sample with density `pdf`
  * that the other technique would have drawn with density `other`. Measured
  * against the balance heuristic: the error of the Cornell boxes is 5 to 9 %
@@ -149,6 +152,13 @@ static inline void path_add_sphere(const struct world *w, struct path *p,
                                                       smoke_key(p) ^ ~i));
     if (p->pdf > 0.0f)
         pdf = sphere_pdf_at(w, &p->from, i);
+    if (HAS(FEATURE_MEDIA) && p->pdf > 0.0f && p->segment.is_there)
+        pdf =
+            both_densities(pdf,
+                           segment_light_pdf(w, &p->segment,
+                                             w->settings.light_count + i,
+                                             w->point_lights[i].p,
+                                             point_light_pdf(w, i, p->from.p)));
     path_add(p, radiance, bsdf_mis_weight(w, p->pdf, pdf));
 }
 
@@ -176,6 +186,23 @@ static inline void path_add_spheres(const struct world *w, struct path *p,
     }
 }
 
+/* Returns the density of samples along the path's last segment at point y of a
+ * triangle, which the path has met after a collision there. */
+static inline float path_segment_pdf(const struct world *w,
+                                     const struct path *p, uint32_t tri,
+                                     struct vec3 y)
+{
+    uint32_t light = light_of(w, tri);
+    uint32_t part;
+
+    if (light == NO_INDEX)
+        return 0.0f;
+    part = w->lights[light].tris[1] == tri ? 1u : 0u;
+    return segment_light_pdf(w, &p->segment, light, y,
+                             light_point_pdf(w, light, part,
+                                             v3_sub(y, p->from.p)));
+}
+
 static inline void path_add_emission(const struct world *w, struct path *p,
                                      GLOBAL const struct material *m,
                                      uint32_t tri,
@@ -188,6 +215,9 @@ static inline void path_add_emission(const struct world *w, struct path *p,
         return;
     if (p->pdf > 0.0f)
         light_pdf = light_pdf_at(w, &p->from, tri, v->p);
+    if (HAS(FEATURE_MEDIA) && p->pdf > 0.0f && p->segment.is_there)
+        light_pdf =
+            both_densities(light_pdf, path_segment_pdf(w, p, tri, v->p));
     path_add(p, emission_at(w, m, v), bsdf_mis_weight(w, p->pdf, light_pdf));
 }
 
@@ -327,6 +357,24 @@ path_choose_light(const struct world *w, struct path *p, uint32_t material,
            path_aim(w, p, v, &l, wi.z, &p->light.shadow);
 }
 
+/* Aims the shadow ray from the path's vertex in a medium. radiance: that of the
+ * sample at the pixel. Returns as path_choose_light(). */
+static inline bool path_light_medium(const struct world *w, struct path *p,
+                                     const struct light_sample *l,
+                                     struct vec3 radiance)
+{
+    struct surface_point v;
+
+    if (v3_is_zero(radiance))
+        return false;
+    v.above = p->from.p;
+    v.face = 0;
+    p->light.tri = l->tri;
+    p->light.radiance = path_light_attenuated(w, p, &p->media, l, radiance);
+    return shadow_survives(p, &p->light.radiance) &&
+           path_aim(w, p, &v, l, 1.0f, &p->light.shadow);
+}
+
 /* Draws the light sample of a vertex in a medium, to which the path has come in
  * direction d. Returns as path_choose_light(). */
 static inline bool path_choose_medium_light(const struct world *w,
@@ -334,10 +382,8 @@ static inline bool path_choose_medium_light(const struct world *w,
                                             const struct medium *m,
                                             struct vec3 d)
 {
-    struct surface_point v;
     struct light_sample l;
-    struct vec3 radiance;
-    float pdf;
+    float pdf, other;
 
     if (!has_light_samples(w) ||
         !light_sample(w, &p->from, NO_INDEX,
@@ -345,18 +391,16 @@ static inline bool path_choose_medium_light(const struct world *w,
                       path_2d(p, DIMENSION_LIGHT_CHOICE), &l))
         return false;
     pdf = phase_density(m, d, l.wi);
-    radiance =
-        path_part(p, l.radiance,
-                  pdf * light_mis_weight(w, l.pdf, l.is_delta ? 0.0f : pdf) /
-                      l.pdf);
-    if (v3_is_zero(radiance))
-        return false;
-    v.above = p->from.p;
-    v.face = 0;
-    p->light.tri = l.tri;
-    p->light.radiance = path_light_attenuated(w, p, &p->media, &l, radiance);
-    return shadow_survives(p, &p->light.radiance) &&
-           path_aim(w, p, &v, &l, 1.0f, &p->light.shadow);
+    other = l.is_delta || w->settings.direct == DIRECT_LIGHTS ? 0.0f : pdf;
+    if (p->segment.is_there && l.is_near)
+        other =
+            both_densities(other,
+                           segment_light_pdf(w, &p->segment, l.light,
+                                             segment_target(w, l.light, l.p),
+                                             l.pdf / l.probability));
+    return path_light_medium(
+        w, p, &l,
+        path_part(p, l.radiance, pdf * power_weight(l.pdf, other) / l.pdf));
 }
 
 /* Boundaries of media that a ray crosses at most between two vertices. */
@@ -442,6 +486,88 @@ static inline void path_add_light(const struct world *w, struct path *p)
                                             shadow_key(p)));
     }
     p->out.radiance = v3_add(p->out.radiance, p->light.radiance);
+}
+
+/* Draws a light sample along the segment, at a point that becomes p->from.
+ * Returns as path_choose_light(). */
+static inline bool path_choose_along(const struct world *w, struct path *p,
+                                     const struct medium *m, struct segment *s)
+{
+    struct sampler sampler = p->sampler;
+    struct receiver reference;
+    struct light_sample l;
+    struct vec3 shares = collision_shares(m, p->beta), target, scattered;
+    struct vec2 position, u;
+    float pmf, t, pdf, collision, phase, at_collision, by_phase;
+    uint32_t light;
+
+    sampler.key = hash_u32(sampler.key + ALONG_KEY + p->crossings);
+    position = vertex_2d(sampler, p->vertex, DIMENSION_LIGHT_POSITION);
+    u = vertex_2d(sampler, p->vertex, DIMENSION_MEDIUM);
+    /* the light is chosen where collisions are */
+    s->reference = u.y * f_min(s->end, 2.0f / v3_max_component(m->extinction));
+    reference = segment_receiver(s, s->reference);
+    pmf =
+        w->settings.light_share *
+        light_tree_sample(w, &reference,
+                          vertex_2d(sampler, p->vertex, DIMENSION_LIGHT_CHOICE),
+                          &light);
+    if (!(pmf > 0.0f) ||
+        !sample_chosen_light(w, light, &reference, position, 1.0f, &l))
+        return false;
+    target = segment_target(w, light, l.p);
+    if (!segment_passes(s, target, s->near))
+        return false;
+    t = segment_sample(s, target, u.x);
+    p->from = segment_receiver(s, t);
+    if (!sample_chosen_light(w, light, &p->from, position, 1.0f, &l))
+        return false;
+    pdf = pmf * segment_density(s, target, t) * l.pdf;
+    if (!(pdf > 0.0f && pdf <= FLOAT_MAX))
+        return false;
+    collision = collision_density(m, shares, p->ray, t);
+    phase = phase_density(m, s->d, l.wi);
+    at_collision = collision * w->settings.light_share *
+                   light_tree_pmf(w, &p->from, light) * l.pdf;
+    by_phase = l.is_delta || w->settings.direct == DIRECT_LIGHTS
+                   ? 0.0f
+                   : collision * phase;
+    scattered =
+        v3_mul(v3_scale(m->scattering, density_along(m, p->ray, t)),
+               transmittance(m->extinction, medium_depth(m, p->ray, t)));
+    return path_light_medium(
+        w, p, &l,
+        path_part(p, v3_mul(l.radiance, scattered),
+                  phase *
+                      power_weight(pdf,
+                                   both_densities(at_collision, by_phase)) /
+                      pdf));
+}
+
+/* Adds a light sample along the path's ray, which ends at t, if it passes a
+ * light in a medium that scatters. Light before the first vertex is kept apart
+ * from what is seen there. */
+APART static struct segment path_add_along(const struct world *w,
+                                           struct path *p,
+                                           const struct medium *m, float t)
+{
+    struct segment s = segment_of(w, m, p->ray, t);
+    struct receiver from = p->from;
+    struct vec3 sum = p->out.radiance;
+
+    if (!s.is_there)
+        return s;
+    if (path_choose_along(w, p, m, &s)) {
+        if (p->vertex == 1)
+            p->out.radiance = p->along;
+        path_add_light(w, p);
+        if (p->vertex == 1) {
+            p->along = p->out.radiance;
+            p->out.radiance = sum;
+        }
+    }
+    p->from = from;
+    return s;
 }
 
 #endif

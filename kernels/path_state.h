@@ -13,6 +13,7 @@
 #include "kernels/light.h"
 #include "kernels/path_types.h"
 #include "kernels/rng.h"
+#include "kernels/segment.h"
 
 /* Number of vertices of a path whose random numbers are computed together if
  * there are vectors of eight, else each is computed when it is used. If those
@@ -61,8 +62,10 @@ struct path {
     float wavelength;   /* in nanometres; 0: none yet. FEATURE_DISPERSION */
     struct media media; /* where the ray is; FEATURE_ATTENUATION */
     /* FEATURE_MEDIA: */
-    struct media light_media;     /* where the shadow ray begins */
-    uint32_t crossings;           /* of boundaries since that vertex */
+    struct media light_media; /* where the shadow ray begins */
+    uint32_t crossings;       /* of boundaries since that vertex */
+    struct segment segment;   /* on which the last vertex is */
+    struct vec3 along; /* light that media scatter before the first vertex */
     struct subsurface_walk below; /* FEATURE_SUBSURFACE */
 };
 

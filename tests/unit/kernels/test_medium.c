@@ -318,45 +318,142 @@ static void nested_bodies_absorb_their_part(void **state)
     lit_mesh_free(&s);
 }
 
-/* Light that an even fog scatters once on the way of the eye, from a wide lamp
- * at the side, and the lamp behind a black wall's gap is not in sight: all
- * techniques agree with quadrature over the way and the lamp. */
-static void fog_scatters_light_of_a_lamp(void **state)
-{
-    const struct vec3 e = {0.5f, 1, 0.2f}, scatter = {0.4f, 0.5f, 0.2f};
-    const float g = 0.6f, far = 2;
-    struct claim c = {.eye = {0, 0, 1}, .paths = 8192};
-    struct lit_mesh s = {0};
-    const int n = 60;
+/* A square lamp across the y axis. */
+struct square {
+    float y, z, size; /* half of its side */
+};
 
-    (void)state;
+/* Adds to c->truth what fog scatters once on the eye's way, from z = 1 along -z
+ * to z = 1 - far, of light of a lamp whose radiance is 3: quadrature over the
+ * way and the lamp. The fog's density on the way is ground, and it falls by the
+ * height. */
+static void add_scattered(struct claim *c, const struct medium *m,
+                          struct square lamp, double far)
+{
+    const int steps = 600, n = 30;
+    double side = 2 * (double)lamp.size, y = (double)lamp.y;
+    double falloff = (double)m->falloff;
+    double ground = falloff > 0 ? exp((double)m->base / falloff) : 1;
+    double mean =
+        falloff > 0 ? ground * falloff * (1 - exp(-y / falloff)) / y : 1;
+
+    for (int i = 0; i < steps * n * n; i++) {
+        double t = far * (i % steps + 0.5) / steps;
+        double x = side * ((i / steps % n + 0.5) / n - 0.5);
+        double z = side * ((i / steps / n + 0.5) / n - 0.5) + (double)lamp.z;
+        double along = z - (1 - t);
+        double d2 = x * x + y * y + along * along, d = sqrt(d2);
+        double cosine = -along / d;
+        double g = (double)m->anisotropy, rest = 1 + g * g - 2 * g * cosine;
+        double phase = (1 - g * g) / (4 * M_PI * rest * sqrt(rest));
+
+        for (int k = 0; k < 3; k++)
+            c->truth[k] +=
+                3 * phase * channel(m->scattering, k) * ground * fabs(y) / d /
+                d2 * exp(-channel(m->extinction, k) * (ground * t + mean * d)) *
+                side * side * far / steps / n / n;
+    }
+}
+
+/* Checks the light that fog scatters once on the way of the eye, from lamps
+ * that it does not see: all techniques agree with quadrature. Few paths come to
+ * small lamps by chance. */
+static void check_scattered(struct medium fog, const struct square *lamps,
+                            int count, int paths)
+{
+    const float far = 2;
+    struct claim c = {.eye = {0, 0, 1}, .paths = paths, .systematic = 1e-3};
+    struct lit_mesh s = {0};
+
     s.mesh.materials[LAMP] = lamp_material(3);
     s.mesh.materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, 0);
-    s.mesh.world.settings.fog = (struct medium){e, scatter, g, 0, 0};
+    if (lamps[0].size < 0.5f)
+        c.without = 1 << DIRECT_BSDF;
+    s.mesh.world.settings.fog = fog;
     s.mesh.world.settings.max_vertices = 2;
-    mesh_add_quad(&s.mesh, v3(-1, 1, -1), v3(1, 1, -1), v3(1, 1, 1),
-                  v3(-1, 1, 1), LAMP);
+    for (int i = 0; i < count; i++) {
+        float a = lamps[i].size, y = lamps[i].y, z = lamps[i].z;
+
+        mesh_add_quad(&s.mesh, v3(-a, y, z - a), v3(a, y, z - a),
+                      v3(a, y, z + a), v3(-a, y, z + a), LAMP);
+        add_scattered(&c, &fog, lamps[i], (double)far);
+    }
     mesh_add_quad(&s.mesh, v3(-2, -2, 1 - far), v3(2, -2, 1 - far),
                   v3(2, 2, 1 - far), v3(-2, 2, 1 - far), FLOOR);
     lit_mesh_finish(&s);
-    for (int i = 0; i < n * n * n; i++) {
-        double t = (double)far * (i % n + 0.5) / n;
-        double x = 2 * (i / n % n + 0.5) / n - 1;
-        double z = 2 * (i / n / n + 0.5) / n - 1;
-        double to[3] = {x, 1, z - (1 - t)};
-        double d2 = to[0] * to[0] + 1 + to[2] * to[2], d = sqrt(d2);
-        double cosine = -to[2] / d; /* to the eye's ray, along -z */
-        double a = (double)g, rest = 1 + a * a - 2 * a * cosine;
-        double phase = (1 - a * a) / (4 * M_PI * rest * sqrt(rest));
-
-        for (int k = 0; k < 3; k++)
-            c.truth[k] += 3 * phase * channel(scatter, k) / d / d2 *
-                          exp(-channel(e, k) * (t + d)) * 4 * (double)far / n /
-                          n / n;
-    }
-    c.systematic = 1e-3;
     check_claim(&s, c);
     lit_mesh_free(&s);
+}
+
+#define E             \
+    {                 \
+        0.5f, 1, 0.2f \
+    }
+#define S_S              \
+    {                    \
+        0.4f, 0.5f, 0.2f \
+    }
+
+/* One lamp is wide. */
+static void fog_scatters_light_of_a_lamp(void **state)
+{
+    const struct square lamp = {1, 0, 1};
+
+    (void)state;
+    check_scattered((struct medium){E, S_S, 0.6f, 0, 0}, &lamp, 1, 8192);
+}
+
+/* The way passes two lamps, and light is sampled along it, also where the fog
+ * thins out. */
+static void fog_scatters_light_of_lamps_that_the_ray_passes(void **state)
+{
+    const struct square lamps[] = {{0.07f, 0.3f, 0.06f}, {0.05f, -0.4f, 0.03f}};
+
+    (void)state;
+    check_scattered((struct medium){E, S_S, 0.6f, 0, 0}, lamps, 2, 16384);
+    check_scattered((struct medium){E, S_S, -0.3f, -0.5f, 0.7f}, lamps, 2,
+                    16384);
+    check_scattered((struct medium){E, S_S, 0.6f, 0, 0}, lamps, 1, 16384);
+}
+
+/* Distances along a segment have their density: its integral up to the sample
+ * of u is u. */
+static void distances_to_a_light_have_their_density(void **state)
+{
+    static const struct vec3 lights[] = {
+        {0, 0.3f, 0.5f}, {0.01f, 0, 0.2f}, {0, 2, -3}, {1, 1, 9}, {0, 0, 0.5f}};
+    static const float ends[] = {1, 1, 2, 0.5f, 1e6f};
+    const int n = 400000;
+
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        struct segment s = {.o = {0, 0, 0},
+                            .d = {0, 0, 1},
+                            .end = ends[i],
+                            .is_there = true};
+
+        for (float u = 0; u < 1; u += 0.19f) {
+            double end = (double)segment_sample(&s, lights[i], u), sum = 0;
+
+            for (int k = 0; k < n; k++)
+                sum += (double)segment_density(&s, lights[i],
+                                               (float)(end * (k + 0.5) / n)) *
+                       end / n;
+            check_close(sum, (double)u, 1e-4);
+        }
+        assert_true(segment_density(&s, lights[i], 1.01f * s.end) == 0.0f);
+    }
+    /* rays into infinity, and lights on their line */
+    for (int i = 0; i < 5; i++) {
+        struct segment s = {.d = {0, 0, 1}, .end = SEGMENT_END_MAX};
+
+        for (float u = 0; u < 1; u += 0.19f) {
+            float t = segment_sample(&s, lights[i], u);
+
+            assert_true(t >= 0 && t <= s.end);
+            assert_true(isfinite(segment_density(&s, lights[i], t)));
+        }
+    }
 }
 
 int main(void)
@@ -372,6 +469,8 @@ int main(void)
         cmocka_unit_test(light_is_kept),
         cmocka_unit_test(nested_bodies_absorb_their_part),
         cmocka_unit_test(fog_scatters_light_of_a_lamp),
+        cmocka_unit_test(fog_scatters_light_of_lamps_that_the_ray_passes),
+        cmocka_unit_test(distances_to_a_light_have_their_density),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
