@@ -101,14 +101,12 @@ static inline void path_open(const struct world *w, struct path *p,
     p->from.transmits = true;
     if (HAS(FEATURE_ATTENUATION))
         p->media = w->settings.camera_media;
-    if (HAS(FEATURE_MEDIA))
+    if (HAS(FEATURE_MEDIA)) {
         p->from.is_free = false;
-    if (HAS(FEATURE_MEDIA))
         p->segment.is_there = false;
-    if (HAS(FEATURE_MEDIA))
         p->along = v3(0.0f, 0.0f, 0.0f);
-    if (HAS(FEATURE_MEDIA))
         p->crossings = 0;
+    }
     if (HAS(FEATURE_SUBSURFACE))
         p->below.steps = 0;
     if (HAS(FEATURE_DISPERSION))

@@ -516,7 +516,7 @@ static inline bool path_choose_along(const struct world *w, struct path *p,
         !sample_chosen_light(w, light, &reference, position, 1.0f, &l))
         return false;
     target = segment_target(w, light, l.p);
-    if (!segment_passes(s, target, s->near))
+    if (!segment_passes(s, target, 0.0f))
         return false;
     t = segment_sample(s, target, u.x);
     p->from = segment_receiver(s, t);
