@@ -404,16 +404,19 @@ static void fog_scatters_light_of_a_lamp(void **state)
 }
 
 /* The way passes two lamps, and light is sampled along it, also where the fog
- * thins out. */
+ * thins out. Scattered rays find the last one, which is wide for its distance.
+ */
 static void fog_scatters_light_of_lamps_that_the_ray_passes(void **state)
 {
     const struct square lamps[] = {{0.07f, 0.3f, 0.06f}, {0.05f, -0.4f, 0.03f}};
+    const struct square wide = {0.02f, -0.2f, 0.06f};
 
     (void)state;
     check_scattered((struct medium){E, S_S, 0.6f, 0, 0}, lamps, 2, 16384);
     check_scattered((struct medium){E, S_S, -0.3f, -0.5f, 0.7f}, lamps, 2,
                     16384);
     check_scattered((struct medium){E, S_S, 0.6f, 0, 0}, lamps, 1, 16384);
+    check_scattered((struct medium){E, S_S, 0, 0, 0}, &wide, 1, 16384);
 }
 
 /* Distances along a segment have their density: its integral up to the sample
