@@ -272,28 +272,45 @@ static inline struct vec3 balanced(struct vec3 factor, struct vec3 densities,
 }
 
 /*
- * Samples the distance to the next collision of a path with throughput beta, on
- * a ray that meets the next surface at t_max. u: random numbers for distance
- * and channel. One channel is chosen and all of them are weighted by the
- * balance heuristic (Veach 1997, 9.2), as in Wilkie et al. 2014, "Hero
- * wavelength spectral sampling".
+ * Samples how deep the next collision of a path with throughput beta is. u:
+ * random numbers for depth and channel. One channel is chosen and all of them
+ * are weighted by the balance heuristic (Veach 1997, 9.2), as in Wilkie et al.
+ * 2014, "Hero wavelength spectral sampling".
  */
+static inline float collision_sample(const struct medium *m, struct vec3 beta,
+                                     struct vec2 u)
+{
+    uint32_t channel = channel_chosen(collision_shares(m, beta), u.y);
+
+    return collision_depth(channel_of(m->extinction, channel), u.x);
+}
+
+/* Returns the factor of a path with throughput beta that is scattered at a
+ * depth, or passes it. */
+static inline struct vec3 collision_weight(const struct medium *m,
+                                           struct vec3 beta, float depth,
+                                           bool is_there)
+{
+    const struct vec3 one = v3(1.0f, 1.0f, 1.0f);
+    struct vec3 q = collision_shares(m, beta), e = m->extinction;
+    struct vec3 left = relative_transmittance(e, depth);
+
+    return is_there ? balanced(m->scattering, e, left, q)
+                    : balanced(one, one, left, q);
+}
+
+/* Samples the next collision of a path with throughput beta on a ray that meets
+ * the next surface at t_max. u: as collision_sample(). */
 static inline struct collision medium_collide(const struct medium *m,
                                               struct vec3 beta, struct ray r,
                                               float t_max, struct vec2 u)
 {
-    const struct vec3 one = v3(1.0f, 1.0f, 1.0f);
-    struct vec3 q = collision_shares(m, beta), e = m->extinction;
-    float end = medium_depth(m, r, t_max);
-    float depth = collision_depth(channel_of(e, channel_chosen(q, u.y)), u.x);
-    struct collision c = {t_max, one, depth < end, false};
+    float end = medium_depth(m, r, t_max), depth = collision_sample(m, beta, u);
+    struct collision c = {.t = t_max, .is_there = depth < end};
 
-    if (!c.is_there) {
-        c.weight = balanced(one, one, relative_transmittance(e, end), q);
-        return c;
-    }
-    c.t = f_min(medium_distance(m, r, depth), t_max);
-    c.weight = balanced(m->scattering, e, relative_transmittance(e, depth), q);
+    if (c.is_there)
+        c.t = f_min(medium_distance(m, r, depth), t_max);
+    c.weight = collision_weight(m, beta, c.is_there ? depth : end, c.is_there);
     return c;
 }
 

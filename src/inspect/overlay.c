@@ -297,7 +297,7 @@ static char *next_line(struct overlay_text *l)
 /* True if the step ends at a surface, and not in the sky or in a medium. */
 static bool is_at_surface(const struct path_record_step *s)
 {
-    return s->way != PATH_RECORD_SKY && s->way != PATH_RECORD_SCATTERED;
+    return s->hit.tri != NO_INDEX;
 }
 
 static const char *way_name(const struct path_record_step *s)

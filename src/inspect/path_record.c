@@ -36,25 +36,38 @@ static enum path_record_way side_of(const struct world *w, struct hit h,
                : PATH_RECORD_TRANSMITTED;
 }
 
-/* True if the path goes on from a place on the way of its ray. */
-static bool scatters(const struct path *before, const struct path *after)
+/* True if the path goes on, or is ended by roulette, at a place on the way of
+ * its ray, *place. */
+static bool collides(const struct path *before, const struct path *after,
+                     struct hit h, bool goes_on, struct vec3 *place)
 {
-    bool is_below =
-        after->below.steps > before->below.steps && before->below.steps > 0;
+    float reach = before->below.reach;
 
-    return is_below || (after->from.is_free && after->vertex > before->vertex);
+    if (before->below.steps > 0) {
+        *place = v3_add(before->ray.o, v3_scale(before->ray.d, reach));
+        return h.tri == NO_INDEX ? before->ray.t_max < FLOAT_MAX : reach < h.t;
+    }
+    *place = after->ray.o;
+    return after->from.is_free && (goes_on ? after->vertex > before->vertex
+                                           : !is_same(before->ray.o, *place));
 }
 
-static enum path_record_way way_of(const struct world *w, struct ray before,
+/* h: without a triangle in the sky and at a collision. */
+static enum path_record_way way_of(const struct world *w,
+                                   const struct path *before,
                                    const struct path *after, struct hit h,
-                                   bool goes_on)
+                                   bool is_collision, bool goes_on)
 {
+    if (is_collision && goes_on)
+        return PATH_RECORD_SCATTERED;
+    if (is_collision)
+        return after->out.cut != 0 ? PATH_RECORD_ENDED : PATH_RECORD_ROULETTE;
     if (h.tri == NO_INDEX)
         return PATH_RECORD_SKY;
     if (goes_on)
-        return side_of(w, h, before.d, after->ray.d);
-    return is_same(before.o, after->ray.o) ? PATH_RECORD_ENDED
-                                           : PATH_RECORD_ROULETTE;
+        return side_of(w, h, before->ray.d, after->ray.d);
+    return is_same(before->ray.o, after->ray.o) ? PATH_RECORD_ENDED
+                                                : PATH_RECORD_ROULETTE;
 }
 
 void path_record_follow(struct path_record *t, const struct world *w,
@@ -72,25 +85,29 @@ void path_record_follow(struct path_record *t, const struct world *w,
     while (goes_on) {
         struct path before = p;
         struct hit vertex = h;
-        bool is_scattered;
+        struct vec3 to;
+        bool is_collision;
 
         goes_on = path_step(w, &p, &h);
-        is_scattered = goes_on && scatters(&before, &p);
         t->vertices++;
         if (t->count == PATH_RECORD_STEPS)
             continue;
+        is_collision = collides(&before, &p, vertex, goes_on, &to);
+        if (is_collision)
+            vertex.tri = NO_INDEX;
+        else
+            to = end_of(w, before.ray, vertex);
         t->steps[t->count++] = (struct path_record_step){
             .from = before.ray.o,
-            .to = is_scattered ? p.ray.o : end_of(w, before.ray, vertex),
+            .to = to,
             .hit = vertex,
             .throughput = v3_scale(before.beta, before.scale),
-            .light = v3_sub(p.out.radiance, before.out.radiance),
-            .way = is_scattered ? PATH_RECORD_SCATTERED
-                                : way_of(w, before.ray, &p, vertex, goes_on),
+            .light = v3_sub(path_light(&p), path_light(&before)),
+            .way = way_of(w, &before, &p, vertex, is_collision, goes_on),
             .pdf = goes_on ? p.pdf : 0.0f,
         };
     }
-    t->radiance = p.out.radiance;
+    t->radiance = path_light(&p);
 }
 
 static void add_lobe(struct path_record_lobes *l, const struct bsdf *b,

@@ -31,7 +31,7 @@ enum path_record_way {
 /* Ray and the event at its end. */
 struct path_record_step {
     struct vec3 from, to;
-    struct hit hit;         /* no triangle: the sky */
+    struct hit hit;         /* no triangle: the sky, or a collision */
     struct vec3 throughput; /* of the path up to this step */
     struct vec3 light;      /* added to the pixel at the end of the ray */
     enum path_record_way way;

@@ -33,6 +33,7 @@ static void paths_show_their_last_steps(void **state)
                                       .way = PATH_RECORD_REFLECTED,
                                       .pdf = i == 7 ? 0.0f : 0.125f};
     trail.steps[8].way = PATH_RECORD_SKY;
+    trail.steps[8].hit.tri = NO_INDEX;
     overlay_text_path(&l, &scene, &names, &trail, 2);
     assert_int_equal(l.count, 4);
     check_has(l.lines[0], "throughput");
@@ -53,8 +54,8 @@ static void paths_show_their_last_steps(void **state)
  * as much again is counted at the second. */
 static void paths_are_told(void **state)
 {
-    struct path_record trail = {.count = 4,
-                                .vertices = 5,
+    struct path_record trail = {.count = 5,
+                                .vertices = 6,
                                 .radiance = {0.5f, 0.25f, 0}};
     struct overlay_text l;
 
@@ -69,10 +70,13 @@ static void paths_are_told(void **state)
     trail.steps[2] = (struct path_record_step){.throughput = {.7f, .7f, .7f},
                                                .hit.tri = 1,
                                                .way = PATH_RECORD_ROULETTE};
-    trail.steps[3] =
-        (struct path_record_step){.way = PATH_RECORD_SKY, .light = {1, 1, 1}};
-    overlay_text_path(&l, NULL, &names, &trail, 4);
-    assert_int_equal(l.count, 5);
+    trail.steps[3] = (struct path_record_step){.way = PATH_RECORD_SKY,
+                                               .hit.tri = NO_INDEX,
+                                               .light = {1, 1, 1}};
+    trail.steps[4] = (struct path_record_step){.way = PATH_RECORD_ROULETTE,
+                                               .hit.tri = NO_INDEX};
+    overlay_text_path(&l, NULL, &names, &trail, 5);
+    assert_int_equal(l.count, 6);
     assert_string_equal(l.lines[0],
                         " 1  hits red paint, keeps 35 %, is reflected");
     assert_string_equal(l.lines[1], " 2  hits no material, finds light, counts "
@@ -82,7 +86,8 @@ static void paths_are_told(void **state)
                         "roulette");
     assert_string_equal(l.lines[3],
                         " 4  leaves the scene for the sky, finds light");
-    check_has(l.lines[4], "step 4 of 5; the path brings light 0.5 0.25 0");
+    assert_string_equal(l.lines[4], " 5  ends by Russian roulette");
+    check_has(l.lines[5], "step 5 of 6; the path brings light 0.5 0.25 0");
     overlay_text_path(&l, NULL, &names, &trail, 1);
     assert_int_equal(l.count, 2);
 }

@@ -38,8 +38,10 @@ static void check_steps(const struct path_record *t)
         sums[1] += (double)s->light.y;
         sums[2] += (double)s->light.z;
         assert_true(goes_on || i == t->vertices - 1);
-        if (s->way != PATH_RECORD_SCATTERED)
-            assert_int_equal(s->way == PATH_RECORD_SKY, s->hit.tri == NO_INDEX);
+        if (s->way == PATH_RECORD_SKY || s->way == PATH_RECORD_SCATTERED)
+            assert_true(s->hit.tri == NO_INDEX);
+        if (s->way > PATH_RECORD_SCATTERED)
+            assert_true(s->hit.tri != NO_INDEX);
         /* The next ray begins here, except for rounding and the shadow
          * terminator. */
         if (i + 1 < t->count)
@@ -118,6 +120,49 @@ static void open_wall(struct mesh *m, struct material material)
                                                .right = {1, 0, 0},
                                                .up = {0, 1, 0}};
     mesh_finish(m);
+}
+
+/* A walk below a closed surface does not come to the sky. Where roulette ends
+ * it at a collision, that is a place in the body. */
+static void walks_end_in_their_body(void **state)
+{
+    struct material material = mesh_material(MATERIAL_DIFFUSE, 0.3f);
+    struct mesh m = {0};
+    int ended = 0;
+
+    (void)state;
+    material.subsurface = 1;
+    material.medium.extinction = v3(5, 5, 5);
+    m.materials[0] = material;
+    mesh_add_box(&m, v3(-1, -1, -1), v3(1, 1, 1), 0);
+    m.world.settings.camera = (struct camera){.eye = {0, 0, 3},
+                                              .width = SIDE,
+                                              .forward = {0, 0, -1},
+                                              .height = SIDE,
+                                              .right = {0.1f, 0, 0},
+                                              .up = {0, 0.1f, 0}};
+    m.world.settings.max_vertices = 8;
+    mesh_finish(&m);
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        struct path_record t;
+
+        path_record_follow(&t, &m.world, i % SIDE, i / SIDE, i);
+        check_steps(&t);
+        for (int k = 1; k < t.count; k++) {
+            const struct path_record_step *s = &t.steps[k];
+
+            if (t.steps[k - 1].way == PATH_RECORD_SCATTERED)
+                assert_int_not_equal(s->way, PATH_RECORD_SKY);
+            if (s->way != PATH_RECORD_ROULETTE || s->hit.tri != NO_INDEX)
+                continue;
+            ended++;
+            check_at_most(fabs((double)s->to.x), 1.0);
+            check_at_most(fabs((double)s->to.y), 1.0);
+            check_at_most(fabs((double)s->to.z), 1.0);
+        }
+    }
+    assert_in_range(ended, SIDE, SIDE * SIDE);
+    mesh_free(&m);
 }
 
 static void check_frame(const struct path_record_lobes *l)
@@ -236,6 +281,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(recorded_paths_are_the_render_s),
+        cmocka_unit_test(walks_end_in_their_body),
         cmocka_unit_test(lambert_scatters_by_the_cosine),
         cmocka_unit_test(mirrors_scatter_one_way),
         cmocka_unit_test(costs_are_those_counted_by_hand),
