@@ -12,6 +12,7 @@
 #define KERNELS_FIRST_SURFACE_H
 
 #include "kernels/bsdf.h"
+#include "kernels/medium.h"
 
 enum surface_state {
     SURFACE_AHEAD, /* delta lobes only so far */
@@ -71,12 +72,21 @@ static inline void first_surface_scatter(struct first_surface *s,
     if (!first_surface_is_ahead(s))
         return;
     s->depth += distance;
-    s->albedo =
-        v3(m->extinction.x > 0.0f ? m->scattering.x / m->extinction.x : 0.0f,
-           m->extinction.y > 0.0f ? m->scattering.y / m->extinction.y : 0.0f,
-           m->extinction.z > 0.0f ? m->scattering.z / m->extinction.z : 0.0f);
+    s->albedo = scattering_albedo(m);
     s->normal = n;
     s->state = SURFACE_MET;
+}
+
+/* Takes the part of the surface that is seen through a medium, by channel. The
+ * rest is that of the medium, whose normal is n. */
+static inline void first_surface_fade(struct first_surface *s,
+                                      const struct medium *m, struct vec3 seen,
+                                      struct vec3 n)
+{
+    struct vec3 base = scattering_albedo(m);
+
+    s->albedo = v3_add(base, v3_mul(seen, v3_sub(s->albedo, base)));
+    s->normal = v3_lerp(n, s->normal, (seen.x + seen.y + seen.z) / 3.0f);
 }
 
 /* Takes the BSDF of the path's next vertex, with its normal and its distance

@@ -205,6 +205,15 @@ static inline bool medium_scatters(const struct medium *m)
     return HAS(FEATURE_MEDIA) && !v3_is_zero(m->scattering);
 }
 
+/* Returns the part of what a medium takes from a ray that it scatters. */
+static inline struct vec3 scattering_albedo(const struct medium *m)
+{
+    struct vec3 s = m->scattering, e = m->extinction;
+
+    return v3(e.x > 0.0f ? s.x / e.x : 0.0f, e.y > 0.0f ? s.y / e.y : 0.0f,
+              e.z > 0.0f ? s.z / e.z : 0.0f);
+}
+
 /* Where a ray is scattered, if it is, and the factor of its throughput. */
 struct collision {
     float t;

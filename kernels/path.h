@@ -497,6 +497,22 @@ APART static bool path_go_below(const struct world *w, struct path *p,
     return true;
 }
 
+/* Takes the surface that the path's ray meets at a distance t, with its BSDF
+ * and normal, as the first one, behind the medium of the ray. */
+static inline void path_meet_first(struct path *p, const struct medium *m,
+                                   const struct bsdf *b, struct vec3 n, float t)
+{
+    bool is_ahead = first_surface_is_ahead(&p->surface);
+
+    first_surface_meet(&p->surface, b, n, t);
+    if (HAS(FEATURE_MEDIA) && is_ahead && p->surface.state == SURFACE_MET &&
+        p->media.count == 0 && medium_scatters(m))
+        first_surface_fade(&p->surface, m,
+                           transmittance(m->extinction,
+                                         medium_depth(m, p->ray, t)),
+                           v3_neg(p->ray.d));
+}
+
 /* Extends the path by one vertex, the hit *h of the path's ray. The shadow ray
  * of p->light is to be traced next, if there is one, then the path's ray.
  * Returns false if the path ends. */
@@ -553,7 +569,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
         if (p->media.count == 0 && !c.is_in_smoke &&
             first_surface_is_ahead(&p->surface)) {
             b = bsdf_at(w, m, &v);
-            first_surface_meet(&p->surface, &b, v.n, h->t);
+            path_meet_first(p, &medium, &b, v.n, h->t);
         }
         return path_collide(w, p, &medium, c.t, beta, &segment);
     }
@@ -568,7 +584,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
         return false;
     /* Evaluate the BSDF's parameters and the path guide's cell */
     b = bsdf_at(w, m, &v);
-    first_surface_meet(&p->surface, &b, v.n, h->t);
+    path_meet_first(p, &medium, &b, v.n, h->t);
     if (bsdf_is_black(&b))
         return false;
     /* behind the first surface, whose features have no wavelength */

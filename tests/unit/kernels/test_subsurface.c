@@ -285,8 +285,8 @@ static void ends_of_rays_change_nothing(void **state)
     lit_mesh_free(&s);
 }
 
-/* Returns the rays of paths that enter a white box, which has all sides or lacks
- * one beside them. */
+/* Returns the rays of paths that enter a white box, which has all sides or
+ * lacks one beside them. */
 static uint32_t rays_in_box(bool is_closed)
 {
     struct ray r = {{0.05f, -1, 0.01f}, {0, 1, 0}, FLOAT_MAX, 0, 0};
