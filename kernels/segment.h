@@ -20,7 +20,7 @@
 #include "kernels/medium.h"
 
 /* A ray passes a light within this part of a mean free path, and of the
- * distance of the light from its origin. In fog_room of ../shared 0.02, 0.05,
+ * distance of the light from its origin. In a foggy room 0.02, 0.05,
  * 0.1 and 0.25 mean free paths take 1.20, 1.37, 1.41 and 1.34 times less time
  * to the same error than no such samples; all rays take 1.07 times more. In
  * thin fog a mean free path is longer than the way to the light, and only the

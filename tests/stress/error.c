@@ -365,13 +365,14 @@ static bool is_wanted(int argc, char **argv, const char *name)
 
 int main(int argc, char **argv)
 {
-    static const char *const files[] = {"cornell.obj",      "materials.obj",
-                                        "glass_mirror.obj", "interior.obj",
-                                        "skylit.obj",       "lights200.obj",
-                                        "principled.obj",   "bottles.glb",
-                                        "bubbles.glb",      "chess.glb",
-                                        "forest.glb",       "jellyfish.glb",
-                                        "knot.glb"};
+    static const char *const files[] = {
+        "cornell.obj", "materials.obj", "glass_mirror.obj", "interior.obj",
+        "skylit.obj",  "lights200.obj", "principled.obj",   "water.obj",
+        "globe.obj",   "bulb.obj",      "prism.obj",        "fog.obj",
+        "lantern.obj", "milk.obj",      "bottles.glb",      "bubbles.glb",
+        "busts.glb",   "chess.glb",     "forest.glb",       "jellyfish.glb",
+        "knot.glb"};
+    bool is_known = false;
     char home[PATH_MAX];
     struct stress_scene s;
 
@@ -383,8 +384,10 @@ int main(int argc, char **argv)
         char *path = xformat("%s/scenes/%s", home, files[i]);
         char *name = xformat("%.*s", (int)strcspn(files[i], "."), files[i]);
 
-        if (is_wanted(argc, argv, name))
+        if (is_wanted(argc, argv, name)) {
             check_scene(&s, name, path);
+            is_known = true;
+        }
         free(name);
         free(path);
     }
@@ -392,7 +395,10 @@ int main(int argc, char **argv)
         write_caustic(&s);
         check_scene(&s, "caustic", "a.obj");
         unlink("a.view");
+        is_known = true;
     }
     stress_scene_close(&s);
+    if (!is_known)
+        stress_scene_stop("no scene of that name");
     return rows_status();
 }

@@ -459,6 +459,45 @@ static void distances_to_a_light_have_their_density(void **state)
     }
 }
 
+/* Features of a wall behind fog have no noise, whether the path is scattered or
+ * not: the wall's as far as it is seen, and the fog's. */
+static void features_fade_behind_fog(void **state)
+{
+    const struct medium fog = {E, S_S, 0.6f, 0, 0};
+    struct ray r = {{0, 0, 0}, {0.6f, 0, 0.8f}, FLOAT_MAX, 0, 0};
+    const double t = 1.25, wall = 0.7;
+    double seen[3], mean = 0, z;
+    struct mesh m = {0};
+
+    (void)state;
+    m.materials[0] = mesh_material(MATERIAL_DIFFUSE, (float)wall);
+    m.world.settings.fog = fog;
+    mesh_add_quad(&m, v3(-9, -9, 1), v3(-9, 9, 1), v3(9, 9, 1), v3(9, -9, 1),
+                  0);
+    mesh_finish(&m);
+    m.world.settings.features |= FEATURE_FILTER;
+    for (int k = 0; k < 3; k++) {
+        seen[k] = exp(-channel(fog.extinction, k) * t);
+        mean += seen[k] / 3;
+    }
+    z = -mean - (1 - mean) * 0.8;
+    for (uint32_t i = 0; i < 200; i++) {
+        struct first_surface s;
+
+        trace_path(&m.world, r, sampler_start(1, 1, i, 5), &s);
+        for (int k = 0; k < 3; k++)
+            check_close(channel(s.albedo, k),
+                        seen[k] * wall + (1 - seen[k]) *
+                                             channel(fog.scattering, k) /
+                                             channel(fog.extinction, k),
+                        1e-5);
+        check_close((double)s.normal.x, -(1 - mean) * 0.6, 1e-5);
+        check_close((double)s.normal.z, z, 1e-5);
+        check_close((double)s.depth, t, 1e-5);
+    }
+    mesh_free(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -474,6 +513,7 @@ int main(void)
         cmocka_unit_test(fog_scatters_light_of_a_lamp),
         cmocka_unit_test(fog_scatters_light_of_lamps_that_the_ray_passes),
         cmocka_unit_test(distances_to_a_light_have_their_density),
+        cmocka_unit_test(features_fade_behind_fog),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
