@@ -35,7 +35,7 @@ struct subsurface_walk {
     struct medium medium;
     uint32_t material;
     uint32_t steps; /* 0: there is none */
-    float reach;    /* distance to the next collision, if no surface is nearer */
+    float reach; /* distance to the next collision, if no surface is nearer */
 };
 
 /* State of a path between two vertices. */
