@@ -35,8 +35,9 @@ fi
 echo "# Instructions a sample, gcc $compiler; make bench FILTER=cost RENEW=1" \
     >"$work/new"
 printf '%-28s %12s %9s %7s\n' 'instructions a sample' recorded now ratio
-for scene in cornell lights200 skylit glass_mirror materials interior; do
-    scene=scenes/$scene.obj
+for scene in cornell.obj lights200.obj skylit.obj glass_mirror.obj \
+    materials.obj interior.obj fog.obj busts.glb prism.obj; do
+    scene=scenes/$scene
     now=$(instructions "$scene")
     then=$(awk -v s="$scene" '$1 == s { print $2 }' "$recorded" 2>/dev/null || :)
     printf '%s %s\n' "$scene" "$now" >>"$work/new"
