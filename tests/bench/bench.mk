@@ -31,7 +31,8 @@ bench-error: $(B)/error/error build/bench-error/scenes
 # processor that measures.
 ERROR_BENCH := $(patsubst tests/bench/error/%.c,$(B)/error/%.o,$(filter-out \
 	%/scenes.c,$(wildcard tests/bench/error/*.c))) $(patsubst \
-	%,$(B)/error/paths_%.o,whole hashed uniform throughput shadows)
+	%,$(B)/error/paths_%.o,whole hashed uniform throughput shadows \
+	collisions)
 $(B)/error/paths_%.o: src/render/cpu_kernel.c tests/bench/error/%.h $(B)/flags
 	@mkdir -p $(@D)
 	$(SAY) CC '$< ($*)'

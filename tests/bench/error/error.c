@@ -39,7 +39,7 @@
 /* Builds of src/render/cpu_kernel.c with one function replaced; see the headers
  * in this folder. */
 extern const struct cpu_kernel paths_whole, paths_hashed, paths_uniform,
-    paths_throughput, paths_shadows;
+    paths_throughput, paths_shadows, paths_collisions;
 
 /* Feature that a scene must have for a technique to matter. */
 enum need {
@@ -48,7 +48,8 @@ enum need {
     NEED_LIGHTS,
     NEED_SKY_TABLE,
     NEED_GUIDE,
-    NEED_LIGHT_PATHS
+    NEED_LIGHT_PATHS,
+    NEED_MEDIA
 };
 
 /* What a render has besides its kernel and settings. */
@@ -89,6 +90,8 @@ static const struct technique {
      NEED_NOTHING, GUIDED},
     {"with all shadow rays", &paths_shadows, DIRECT_MIS, SKY_WITH_MIS,
      NEED_LIGHT_SAMPLES, GUIDED},
+    {"without samples on rays", &paths_collisions, DIRECT_MIS, SKY_WITH_MIS,
+     NEED_MEDIA, GUIDED},
     {"without the guide", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_GUIDE,
      UNGUIDED},
     {"without cells", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_NOTHING,
@@ -124,6 +127,10 @@ static const struct subject {
     {"globe", SHIPPED, DIRECT_MIS, 100},
     {"bulb", SHIPPED, DIRECT_MIS, 100},
     {"water", SHIPPED, DIRECT_MIS, 10},
+    {"fog", SHIPPED, DIRECT_MIS, 0.95},
+    {"milk", SHIPPED, DIRECT_MIS, 0.95},
+    {"prism", SHIPPED, DIRECT_MIS, 0.95},
+    {"lantern", SHIPPED, DIRECT_MIS, 0.95},
     {"cornell", SHARED, DIRECT_MIS, 30},
     {"many_lights", SHARED, DIRECT_MIS, 0.95},
     {"sky", SHARED, DIRECT_MIS, 0.95},
@@ -183,6 +190,7 @@ static bool matters(const struct technique *t, const struct host_world *host,
     case NEED_LIGHTS: return s->light_count > 1;
     case NEED_SKY_TABLE: return s->sky_share > 0;
     case NEED_GUIDE: return s->guide.table_count > 0;
+    case NEED_MEDIA: return (s->features & FEATURE_MEDIA) != 0;
     case NEED_LIGHT_PATHS: return host->light_paths.sources != NULL;
     case NEED_NOTHING: break;
     }

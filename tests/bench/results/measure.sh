@@ -25,8 +25,9 @@ trap 'rm -rf "$work"' EXIT
 mkdir -p "$results" "$cache"
 
 shipped='cornell.obj materials.obj glass_mirror.obj interior.obj skylit.obj'
-shipped="$shipped lights200.obj principled.obj bottles.glb bubbles.glb"
-shipped="$shipped chess.glb forest.glb jellyfish.glb knot.glb"
+shipped="$shipped lights200.obj principled.obj prism.obj fog.obj lantern.obj"
+shipped="$shipped milk.obj bottles.glb bubbles.glb busts.glb chess.glb"
+shipped="$shipped forest.glb jellyfish.glb knot.glb"
 sections='samples cores theses box frames triangles features convergence peers'
 sections="$sections oidn stress calibration filter adaptive blender surfaces"
 
