@@ -8,9 +8,8 @@
 
 #include "kernels/segment.h"
 
-static inline struct segment no_segment(const struct world *w,
-                                        const struct medium *m, struct ray r,
-                                        float t)
+static inline struct segment
+no_segment(const struct world *w, const struct medium *m, struct ray r, float t)
 {
     struct segment s = {.is_there = false};
 
