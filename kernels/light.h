@@ -205,6 +205,16 @@ static inline uint32_t light_of(const struct world *w, uint32_t tri)
     return w->tri_lights[tri];
 }
 
+/* Density of a sample of a light that was chosen, at the point of its triangle
+ * that is to_point from the receiver. */
+static inline float light_tri_pdf(const struct world *w, uint32_t light,
+                                  uint32_t tri, struct vec3 to_point)
+{
+    uint32_t part = w->lights[light].tris[1] == tri ? 1u : 0u;
+
+    return light_point_pdf(w, light, part, to_point);
+}
+
 /* Density of light_sample() at point p of a triangle, which a ray from the
  * receiver has hit. */
 static inline float light_pdf_at(const struct world *w,
@@ -212,13 +222,11 @@ static inline float light_pdf_at(const struct world *w,
                                  struct vec3 p)
 {
     uint32_t light = light_of(w, tri);
-    uint32_t part;
 
     if (light == NO_INDEX)
         return 0.0f;
-    part = w->lights[light].tris[1] == tri ? 1u : 0u;
     return w->settings.light_share * light_tree_pmf(w, r, light) *
-           light_point_pdf(w, light, part, v3_sub(p, r->p));
+           light_tri_pdf(w, light, tri, v3_sub(p, r->p));
 }
 
 /* Density of light_sample() at sphere i, which a ray from the receiver has

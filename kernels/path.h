@@ -462,17 +462,25 @@ static inline bool path_leave(const struct world *w, struct path *p,
            path_advance(w, p, lobe.y);
 }
 
+/* True if the walk collides before the hit of its ray. A ray that does not end
+ * and meets nothing has left the body. */
+static inline bool path_collides_below(const struct path *p,
+                                       const struct hit *h)
+{
+    return h->tri == NO_INDEX ? p->ray.t_max < FLOAT_MAX
+                              : p->below.reach < h->t;
+}
+
 /* Takes a step of a walk, whose ray has this hit. Walks that come to another
  * material or out of an open mesh end. Returns as path_extend(). */
 APART static bool path_go_below(const struct world *w, struct path *p,
                                 const struct hit *h)
 {
-    bool is_lost = h->tri == NO_INDEX && !(p->ray.t_max < FLOAT_MAX);
-    bool collides = h->tri == NO_INDEX || p->below.reach < h->t;
+    bool collides = path_collides_below(p, h);
     float t = collides ? p->below.reach : h->t, q;
     struct vec2 u;
 
-    if (is_lost)
+    if (!collides && h->tri == NO_INDEX)
         return false;
     p->beta = v3_mul(p->beta,
                      collision_weight(&p->below.medium, p->beta, t, collides));

@@ -193,14 +193,12 @@ static inline float path_segment_pdf(const struct world *w,
                                      struct vec3 y)
 {
     uint32_t light = light_of(w, tri);
-    uint32_t part;
 
     if (light == NO_INDEX)
         return 0.0f;
-    part = w->lights[light].tris[1] == tri ? 1u : 0u;
     return segment_light_pdf(w, &p->segment, light, y,
-                             light_point_pdf(w, light, part,
-                                             v3_sub(y, p->from.p)));
+                             light_tri_pdf(w, light, tri,
+                                           v3_sub(y, p->from.p)));
 }
 
 static inline void path_add_emission(const struct world *w, struct path *p,

@@ -75,8 +75,6 @@ static inline bool segment_passes_first(const struct world *w,
 static inline bool segment_passes_lights(const struct world *w,
                                          const struct segment *s)
 {
-    uint32_t count = 0;
-
     if (light_tree_count(w) < 2)
         return light_tree_count(w) == 1 && segment_passes_first(w, s);
     for (uint32_t i = 0; i < LIGHT_WIDTH; i++) {
@@ -86,9 +84,9 @@ static inline bool segment_passes_lights(const struct world *w,
 
         if (w->light_nodes[0].power[i] > 0.0f &&
             segment_passes(s, middle, radius))
-            count++;
+            return true;
     }
-    return count > 0;
+    return false;
 }
 
 /* Returns the segment of a ray up to t, where it ends. */

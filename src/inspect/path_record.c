@@ -45,7 +45,7 @@ static bool collides(const struct path *before, const struct path *after,
 
     if (before->below.steps > 0) {
         *place = v3_add(before->ray.o, v3_scale(before->ray.d, reach));
-        return h.tri == NO_INDEX ? before->ray.t_max < FLOAT_MAX : reach < h.t;
+        return path_collides_below(before, &h);
     }
     *place = after->ray.o;
     return after->from.is_free && (goes_on ? after->vertex > before->vertex

@@ -107,18 +107,24 @@ static void recorded_paths_are_the_render_s(void **state)
     }
 }
 
+/* Returns a camera at +z that looks back. size: length of its right and up. */
+static struct camera camera_of(float size)
+{
+    return (struct camera){.eye = {0, 0, 3},
+                           .width = SIDE,
+                           .forward = {0, 0, -1},
+                           .height = SIDE,
+                           .right = {size, 0, 0},
+                           .up = {0, size, 0}};
+}
+
 /* Makes a wall across the view of a camera at +z. */
 static void open_wall(struct mesh *m, struct material material)
 {
     *m = (struct mesh){0};
     m->materials[0] = material;
     mesh_add_quad(m, v3(-4, -4, 1), v3(4, -4, 1), v3(4, 4, 1), v3(-4, 4, 1), 0);
-    m->world.settings.camera = (struct camera){.eye = {0, 0, 3},
-                                               .width = SIDE,
-                                               .forward = {0, 0, -1},
-                                               .height = SIDE,
-                                               .right = {1, 0, 0},
-                                               .up = {0, 1, 0}};
+    m->world.settings.camera = camera_of(1);
     mesh_finish(m);
 }
 
@@ -135,12 +141,7 @@ static void walks_end_in_their_body(void **state)
     material.medium.extinction = v3(5, 5, 5);
     m.materials[0] = material;
     mesh_add_box(&m, v3(-1, -1, -1), v3(1, 1, 1), 0);
-    m.world.settings.camera = (struct camera){.eye = {0, 0, 3},
-                                              .width = SIDE,
-                                              .forward = {0, 0, -1},
-                                              .height = SIDE,
-                                              .right = {0.1f, 0, 0},
-                                              .up = {0, 0.1f, 0}};
+    m.world.settings.camera = camera_of(0.1f);
     m.world.settings.max_vertices = 8;
     mesh_finish(&m);
     for (uint32_t i = 0; i < SIDE * SIDE; i++) {
@@ -260,12 +261,7 @@ static void costs_are_those_counted_by_hand(void **state)
         mesh_add_quad(&m, v3(-4, -4, -9), v3(4, -4, -9), v3(4, 4, -9),
                       v3(-4, 4, -9), 0);
     }
-    m.world.settings.camera = (struct camera){.eye = {0, 0, 3},
-                                              .width = SIDE,
-                                              .forward = {0, 0, -1},
-                                              .height = SIDE,
-                                              .right = {0.1f, 0, 0},
-                                              .up = {0, 0.1f, 0}};
+    m.world.settings.camera = camera_of(0.1f);
     mesh_finish(&m);
     count(&m.world, costs);
     for (int i = 0; i < SIDE * SIDE; i++) {
