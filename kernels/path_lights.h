@@ -373,6 +373,14 @@ static inline bool path_light_medium(const struct world *w, struct path *p,
            path_aim(w, p, &v, l, 1.0f, &p->light.shadow);
 }
 
+/* Density with which a path that is scattered by the phase function, whose
+ * density is `phase`, would have met the light sample. */
+static inline float phase_light_pdf(const struct world *w,
+                                    const struct light_sample *l, float phase)
+{
+    return l->is_delta || w->settings.direct == DIRECT_LIGHTS ? 0.0f : phase;
+}
+
 /* Draws the light sample of a vertex in a medium, to which the path has come in
  * direction d. Returns as path_choose_light(). */
 static inline bool path_choose_medium_light(const struct world *w,
@@ -389,7 +397,7 @@ static inline bool path_choose_medium_light(const struct world *w,
                       path_2d(p, DIMENSION_LIGHT_CHOICE), &l))
         return false;
     pdf = phase_density(m, d, l.wi);
-    other = l.is_delta || w->settings.direct == DIRECT_LIGHTS ? 0.0f : pdf;
+    other = phase_light_pdf(w, &l, pdf);
     if (p->segment.is_there && l.is_near)
         other =
             both_densities(other,
@@ -527,9 +535,7 @@ static inline bool path_choose_along(const struct world *w, struct path *p,
     phase = phase_density(m, s->d, l.wi);
     at_collision = collision * w->settings.light_share *
                    light_tree_pmf(w, &p->from, light) * l.pdf;
-    by_phase = l.is_delta || w->settings.direct == DIRECT_LIGHTS
-                   ? 0.0f
-                   : collision * phase;
+    by_phase = collision * phase_light_pdf(w, &l, phase);
     scattered =
         v3_mul(v3_scale(m->scattering, density_along(m, p->ray, t)),
                transmittance(m->extinction, medium_depth(m, p->ray, t)));

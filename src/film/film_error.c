@@ -14,7 +14,10 @@
 #define SIDE 32
 
 /* Pixels around a tile that its local means need. */
-#define HALO 2
+#define HALO 3
+
+/* Pixels on each side over which the map of the error averages. */
+#define MAP_REACH 2
 
 #define WIDE (SIDE + 2 * HALO)
 
@@ -184,17 +187,19 @@ struct weighted {
     float e[3][SIDE][SIDE];
 };
 
-/* Sums over the 5 rows from y on, then over 5 columns. */
+/* Sums over the 7 rows from y on, then over 7 columns. */
 static void sum_around(float values[WIDE][WIDE], int y, float sums[SIDE])
 {
     float columns[WIDE];
 
     for (int x = 0; x < WIDE; x++)
         columns[x] = values[y][x] + values[y + 1][x] + values[y + 2][x] +
-                     values[y + 3][x] + values[y + 4][x];
+                     values[y + 3][x] + values[y + 4][x] + values[y + 5][x] +
+                     values[y + 6][x];
     for (int x = 0; x < SIDE; x++)
         sums[x] = columns[x] + columns[x + 1] + columns[x + 2] +
-                  columns[x + 3] + columns[x + 4];
+                  columns[x + 3] + columns[x + 4] + columns[x + 5] +
+                  columns[x + 6];
 }
 
 /* Share of a pixel that replaces the mean around it if it is larger, in both
@@ -462,14 +467,14 @@ bool film_error(struct film *f, float exposure, struct pool *pool,
  * each, fewer at the ends. */
 static void average(float *x, int count, size_t step)
 {
-    float before[HALO] = {0}; /* old values of the two numbers before */
+    float before[MAP_REACH] = {0}; /* old values of the two numbers before */
 
     for (int i = 0; i < count; i++) {
         float own = x[(size_t)i * step];
         float sum = before[0] + before[1] + own;
-        int terms = 1 + (i < HALO ? i : HALO);
+        int terms = 1 + (i < MAP_REACH ? i : MAP_REACH);
 
-        for (int j = i + 1; j <= i + HALO && j < count; j++, terms++)
+        for (int j = i + 1; j <= i + MAP_REACH && j < count; j++, terms++)
             sum += x[(size_t)j * step];
         before[0] = before[1];
         before[1] = own;

@@ -9,7 +9,7 @@
  *
  *     (x - truth)^2 / (m^2 + (0.1 / 2^exposure)^2)
  *
- * where m is the mean of the 24 pixels around, by which noise does not weigh
+ * where m is the mean of the 48 pixels around, by which noise does not weigh
  * itself, or a quarter of the pixel if that is more: the edge of a lamp before
  * a dark wall would otherwise outweigh the picture. The second term keeps
  * pixels that are black on the screen from counting.

@@ -23,7 +23,7 @@
  * last pictures, and the weighted mean of v / (K - 1) is subtracted. What the
  * cross term adds to the spread of the difference between truth and estimate is
  * (1 / (K - 1)) of its variance, .5 % at 200 renders. Weights have the means of
- * all K renders; the share of x in the 24 pixels of K pictures is negligible.
+ * all K renders; the share of x in the 48 pixels of K pictures is negligible.
  */
 #include <limits.h>
 
@@ -153,14 +153,14 @@ static double find_target(struct stress_scene *s, struct series *of)
 
 /* ---- truth ---- */
 
-/* Returns the mean of the 24 pixels around pixel (x, y) of a channel, fewer at
+/* Returns the mean of the 48 pixels around pixel (x, y) of a channel, fewer at
  * the edges, of `sums` of K pictures. */
 static double mean_around(const double *sums, int x, int y, size_t channel)
 {
     double sum = 0, count = 0;
 
-    for (int j = y - 2; j <= y + 2; j++)
-        for (int i = x - 2; i <= x + 2; i++) {
+    for (int j = y - 3; j <= y + 3; j++)
+        for (int i = x - 3; i <= x + 3; i++) {
             bool is_inside = i >= 0 && i < WIDTH && j >= 0 && j < HEIGHT;
 
             if (!is_inside || (i == x && j == y))
