@@ -357,7 +357,7 @@ static bool load_library(struct parser *p, const char *name, char *path)
 {
     uint32_t known = p->libraries.count;
     uint32_t index = name_table_add(&p->libraries, path);
-    struct error why;
+    struct error why, ignored;
     char *text;
     size_t size_bytes;
     bool ok;
@@ -367,6 +367,9 @@ static bool load_library(struct parser *p, const char *name, char *path)
     if (index < known)
         return true;
     if (!file_read(path, &text, &size_bytes, &why)) {
+        /* grey materials are no answer to a lack of memory */
+        if (file_measure(path, &size_bytes, &ignored))
+            return fail(p->err, "%s", why.text);
         warnings_add_named(p->report, "missing material files", name, "%s",
                            why.text);
         return true;

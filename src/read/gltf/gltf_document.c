@@ -8,6 +8,7 @@
 #include "read/gltf/gltf_document.h"
 
 #include <inttypes.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -252,9 +253,27 @@ static bool take_json(const struct gltf_document *d, struct gltf_bytes json,
            gltf_take(&root, object_count, OBJECT_BYTES, "objects", err);
 }
 
+/* Whether an allocation of the JSON library has failed in this thread, which
+ * then reports that it has read a wrong token. */
+static _Thread_local bool lacks_memory;
+
+static void *json_memory(size_t size_bytes)
+{
+    void *p = malloc(size_bytes);
+
+    lacks_memory = lacks_memory || p == NULL;
+    return p;
+}
+
+static void watch_json_memory(void)
+{
+    json_set_alloc_funcs(json_memory, free);
+}
+
 static bool read_json(struct gltf_document *d, struct gltf_bytes json,
                       struct error *err)
 {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
     const char *text = (const char *)json.bytes;
     json_error_t e = {.text = ""};
     size_t at = 0;
@@ -267,11 +286,14 @@ static bool read_json(struct gltf_document *d, struct gltf_bytes json,
                     d->path);
     if (!take_json(d, json, err))
         return false;
+    pthread_once(&once, watch_json_memory);
+    lacks_memory = false;
     d->root = json_loadb(text, json.size_bytes, 0, &e);
+    if (d->root == NULL && lacks_memory)
+        return fail(err, "%s: out of memory for its JSON", d->path);
     if (d->root == NULL)
         return fail(err, "%s:%d:%d: found JSON that cannot be read: %s",
-                    d->path, e.line, e.column,
-                    e.text[0] != '\0' ? e.text : "out of memory");
+                    d->path, e.line, e.column, e.text);
     return json_is_object(d->root) ||
            fail(err, "%s: found JSON that is no object, expected glTF",
                 d->path);
