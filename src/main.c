@@ -297,7 +297,8 @@ static bool run(struct session *s, struct options *o, uint64_t start_ns,
         return batch_films_merge(o, start_ns, err);
     if (!o->batch)
         return run_screen(s, o, start_ns, listed, status, err);
-    return batch_open(s, o, start_ns, err) && batch_run(s, status, err);
+    return batch_open(s, o, start_ns, err) &&
+           (o->has_trace ? batch_trace_run(s, err) : batch_run(s, status, err));
 }
 
 /* Parses the command line with the scene as its first argument. */

@@ -26,6 +26,11 @@
  * picture so far. */
 bool batch_run(struct session *s, int *status, struct error *err);
 
+/* ---- the path of a sample ---- */
+
+/* Prints the path of the sample of --trace. */
+bool batch_trace_run(struct session *s, struct error *err);
+
 /* ---- glim curve ---- */
 
 /* Measures and prints. *status becomes 0, or 128 + signal after the output of

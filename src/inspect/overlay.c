@@ -276,17 +276,21 @@ void overlay_lobes(struct frame *frame, const struct camera *camera,
 #define EVENT_COLS     24 /* and in a sentence */
 #define PLACE_COLS     17
 #define PDF_COLS       6
-#define NUMBERS_BYTES  64
 #define WEIGHT_BYTES   32
 
-/* Returns the name of a triangle's material, or words for none. */
-static const char *material_of(const struct overlay_names *names, uint32_t tri)
+const char *overlay_material(const struct overlay_names *names,
+                             uint32_t material)
 {
-    const struct world *w = names->world;
-    const char *name =
-        names->materials[tri_material(w, tri, instance_of(w, tri))];
+    const char *name = names->materials[material];
 
     return *name ? name : "no material";
+}
+
+const char *overlay_material_of(const struct overlay_names *names, uint32_t tri)
+{
+    const struct world *w = names->world;
+
+    return overlay_material(names, tri_material(w, tri, instance_of(w, tri)));
 }
 
 static char *next_line(struct overlay_text *l)
@@ -305,6 +309,8 @@ static const char *way_name(const struct path_record_step *s)
     switch (s->way) {
     case PATH_RECORD_SKY: return "sky";
     case PATH_RECORD_ENDED: return "end";
+    case PATH_RECORD_LIMIT: return "limit";
+    case PATH_RECORD_CELL: return "cell";
     case PATH_RECORD_ROULETTE: return "roulette";
     case PATH_RECORD_SCATTERED: return "scatter";
     case PATH_RECORD_REFLECTED: return "reflect";
@@ -321,17 +327,24 @@ static double file_coordinate(const struct scene *scene, float x, int axis)
     return fabs(from_file) * scene->scale < 1e-6 ? 0 : from_file;
 }
 
-/* Formats numbers with up to three decimals, as many as fit into `cols`
- * columns: numbers must not be cut. */
-static void format_numbers(char text[NUMBERS_BYTES], const double *values,
-                           int count, int cols)
+void overlay_place(const struct scene *scene, struct vec3 p, double place[3])
+{
+    place[0] = file_coordinate(scene, p.x, 0);
+    place[1] = file_coordinate(scene, p.y, 1);
+    place[2] = file_coordinate(scene, p.z, 2);
+}
+
+void overlay_numbers(char text[OVERLAY_NUMBERS_BYTES], const double *values,
+                     int count, int cols)
 {
     int length = cols + 1;
 
-    for (int digits = 3; digits > 0 && length > cols; digits--) {
+    for (int digits = cols > PLACE_COLS ? 4 : 3; digits > 0 && length > cols;
+         digits--) {
         length = 0;
         for (int i = 0; i < count; i++)
-            length += snprintf(text + length, (size_t)(NUMBERS_BYTES - length),
+            length += snprintf(text + length,
+                               (size_t)(OVERLAY_NUMBERS_BYTES - length),
                                i > 0 ? " %.*g" : "%.*g", digits, values[i]);
     }
 }
@@ -342,21 +355,21 @@ static void add_step(struct overlay_text *l, const struct scene *scene,
 {
     bool goes_on = s->way >= PATH_RECORD_SCATTERED;
     double pdf = (double)s->pdf;
-    double place[3] = {file_coordinate(scene, s->to.x, 0),
-                       file_coordinate(scene, s->to.y, 1),
-                       file_coordinate(scene, s->to.z, 2)};
-    char place_text[NUMBERS_BYTES] = "";
-    char pdf_text[NUMBERS_BYTES] = "";
+    double place[3];
+    char place_text[OVERLAY_NUMBERS_BYTES] = "";
+    char pdf_text[OVERLAY_NUMBERS_BYTES] = "";
     char material[MATERIAL_BYTES];
 
+    overlay_place(scene, s->to, place);
     if (s->way != PATH_RECORD_SKY)
-        format_numbers(place_text, place, 3, PLACE_COLS);
+        overlay_numbers(place_text, place, 3, PLACE_COLS);
     if (goes_on && pdf > 0)
-        format_numbers(pdf_text, &pdf, 1, PDF_COLS);
+        overlay_numbers(pdf_text, &pdf, 1, PDF_COLS);
     else if (goes_on)
         snprintf(pdf_text, sizeof pdf_text, "delta");
     text_width_fit(material, sizeof material,
-                   is_at_surface(s) ? material_of(names, s->hit.tri) : "",
+                   is_at_surface(s) ? overlay_material_of(names, s->hit.tri)
+                                    : "",
                    MATERIAL_COLS);
     snprintf(next_line(l), OVERLAY_TEXT_BYTES,
              "%2d %s %-*s %-8s %4.2f %4.2f %4.2f %-*s %.2g %.2g %.2g", number,
@@ -390,6 +403,8 @@ static void add_event(struct overlay_text *l, const struct overlay_names *names,
     static const char *const ends[] = {
         [PATH_RECORD_SKY] = "leaves the scene for the sky",
         [PATH_RECORD_ENDED] = "ends there",
+        [PATH_RECORD_LIMIT] = "ends by the limit",
+        [PATH_RECORD_CELL] = "ends at a cell of light",
         [PATH_RECORD_ROULETTE] = "ends by Russian roulette",
         [PATH_RECORD_SCATTERED] = "is scattered",
         [PATH_RECORD_REFLECTED] = "is reflected",
@@ -404,8 +419,8 @@ static void add_event(struct overlay_text *l, const struct overlay_names *names,
                  ends[s->way], light);
         return;
     }
-    text_width_cut(material, sizeof material, material_of(names, s->hit.tri),
-                   EVENT_COLS);
+    text_width_cut(material, sizeof material,
+                   overlay_material_of(names, s->hit.tri), EVENT_COLS);
     if (next && before > 0)
         format_weight(keeps, luminance(*next) / before);
     snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%2d  hits %s%s%s, %s", number,
@@ -466,8 +481,8 @@ void overlay_text_lobes(struct overlay_text *l,
         lo = i == 0 ? pdf : f_min(lo, pdf);
         deltas += pdf == 0.0f ? 1 : 0;
     }
-    text_width_cut(material, sizeof material, material_of(names, lobes->tri),
-                   LOBES_COLS);
+    text_width_cut(material, sizeof material,
+                   overlay_material_of(names, lobes->tri), LOBES_COLS);
     snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%s, seen %.1f degrees off n",
              material, angle_deg(acos((double)cosine)));
     add_direction(l, "n normal, green", lobes->n);

@@ -70,6 +70,22 @@ struct overlay_names {
     char *const *materials;
 };
 
+/* Return the name of a material, or of that of a triangle, or words for none.
+ */
+const char *overlay_material(const struct overlay_names *names,
+                             uint32_t material);
+const char *overlay_material_of(const struct overlay_names *names,
+                                uint32_t tri);
+
+/* Finds a place in the scene's units; rounding errors around 0 become 0. */
+void overlay_place(const struct scene *scene, struct vec3 p, double place[3]);
+
+/* Formats numbers with 3 digits, or 4 in more than 17 columns, or with as many
+ * as fit into `cols` columns: numbers must not be cut. */
+#define OVERLAY_NUMBERS_BYTES 64
+void overlay_numbers(char text[OVERLAY_NUMBERS_BYTES], const double *values,
+                     int count, int cols);
+
 /* Says what happens in the first `count` steps, or in the last ones of them
  * that fit, and which light the whole path brings: in words, or as a table of
  * numbers with places in the scene's units (NULL: words). */

@@ -52,62 +52,142 @@ static bool collides(const struct path *before, const struct path *after,
                                            : !is_same(before->ray.o, *place));
 }
 
-/* h: without a triangle in the sky and at a collision. */
-static enum path_record_way way_of(const struct world *w,
-                                   const struct path *before,
-                                   const struct path *after, struct hit h,
-                                   bool is_collision, bool goes_on)
+/* A path between the steps of a sample. */
+struct follower {
+    const struct world *world;
+    struct path path;
+    struct hit hit; /* of its ray */
+    bool goes_on;
+};
+
+/* Tells what has ended a path at a surface with this BSDF, which it has left
+ * with another ray only where roulette has ended it. */
+static enum path_record_way end_of_path(const struct follower *f,
+                                        const struct path *before,
+                                        const struct bsdf *b)
 {
-    if (is_collision && goes_on)
+    const struct settings *s = &f->world->settings;
+
+    if (!is_same(before->ray.o, f->path.ray.o))
+        return PATH_RECORD_ROULETTE;
+    if (f->path.out.cut != 0 || before->vertex >= s->max_vertices)
+        return PATH_RECORD_LIMIT;
+    /* the path has not come to the choice of a light */
+    return s->has_radiance_cells != 0 && before->below.steps == 0 &&
+                   !bsdf_is_black(b) && is_same(before->from.p, f->path.from.p)
+               ? PATH_RECORD_CELL
+               : PATH_RECORD_ENDED;
+}
+
+/* h: without a triangle in the sky and at a collision. */
+static enum path_record_way way_of(const struct follower *f,
+                                   const struct path *before, struct hit h,
+                                   const struct bsdf *b, bool is_collision)
+{
+    if (is_collision && f->goes_on)
         return PATH_RECORD_SCATTERED;
     if (is_collision)
-        return after->out.cut != 0 ? PATH_RECORD_ENDED : PATH_RECORD_ROULETTE;
+        return f->path.out.cut != 0 ? PATH_RECORD_LIMIT : PATH_RECORD_ROULETTE;
     if (h.tri == NO_INDEX)
         return PATH_RECORD_SKY;
-    if (goes_on)
-        return side_of(w, h, before->ray.d, after->ray.d);
-    return is_same(before->ray.o, after->ray.o) ? PATH_RECORD_ENDED
-                                                : PATH_RECORD_ROULETTE;
+    if (f->goes_on)
+        return side_of(f->world, h, before->ray.d, f->path.ray.d);
+    return end_of_path(f, before, b);
+}
+
+/* Adds what the step's surface is to it, and returns its BSDF. */
+static struct bsdf meet(const struct world *w, const struct path *before,
+                        struct path_record_step *step)
+{
+    struct bsdf black = {.kind = MATERIAL_DIFFUSE};
+    struct surface_point v;
+    struct material m;
+
+    if (step->hit.tri == NO_INDEX)
+        return black;
+    m = w->materials[tri_material(w, step->hit.tri,
+                                  instance_of(w, step->hit.tri))];
+    if (!surface_at(w, &m, before->ray, step->hit, &v))
+        return black;
+    black = bsdf_at(w, &m, &v);
+    step->n = v.n;
+    step->is_boundary = m.is_boundary != 0;
+    step->is_diffuse = radiance_is_diffuse(&black);
+    return black;
+}
+
+/* Takes the path on as path_step() does. */
+static struct path_record_step follow(struct follower *f)
+{
+    const struct world *w = f->world;
+    struct path before = f->path, *p = &f->path;
+    struct path_record_step step = {
+        .from = before.ray.o,
+        .hit = f->hit,
+        .throughput = v3_scale(before.beta, before.scale),
+        .is_below = before.below.steps > 0,
+        .medium = before.media.count > 0
+                      ? before.media.at[before.media.count - 1]
+                      : NO_INDEX,
+    };
+    struct vec3 found;
+    struct bsdf b;
+    bool is_collision;
+
+    f->goes_on = path_extend(w, p, &f->hit);
+    found = path_light(p);
+    if (p->light.is_lit)
+        path_add_light(w, p);
+    if (f->goes_on)
+        hit_closest(w, p->ray, &f->hit);
+    is_collision = collides(&before, p, step.hit, f->goes_on, &step.to);
+    if (is_collision)
+        step.hit.tri = NO_INDEX;
+    else
+        step.to = end_of(w, before.ray, step.hit);
+    b = meet(w, &before, &step);
+    step.light = v3_sub(path_light(p), path_light(&before));
+    step.sampled = v3_sub(path_light(p), found);
+    step.way = way_of(f, &before, step.hit, &b, is_collision);
+    step.pdf = f->goes_on ? p->pdf : 0.0f;
+    step.wavelength = p->wavelength;
+    step.enters = !step.is_below && f->goes_on && p->below.steps > 0;
+    return step;
+}
+
+struct vec3 path_record_each(const struct world *w, struct sample_id id,
+                             path_record_visit *visit, void *context)
+{
+    struct camera_sample start =
+        camera_sample_begin(&w->settings, id.x, id.y, id.index);
+    struct follower f = {.world = w, .goes_on = true};
+
+    path_set_key(w, start.sampler, 1, &start.ray);
+    hit_closest(w, start.ray, &f.hit);
+    path_open(w, &f.path, start, NULL);
+    while (f.goes_on) {
+        struct path_record_step step = follow(&f);
+
+        visit(context, &step);
+    }
+    return path_light(&f.path);
+}
+
+static void record(void *context, const struct path_record_step *step)
+{
+    struct path_record *t = context;
+
+    t->vertices++;
+    if (t->count < PATH_RECORD_STEPS)
+        t->steps[t->count++] = *step;
 }
 
 void path_record_follow(struct path_record *t, const struct world *w,
                         uint32_t x, uint32_t y, uint64_t index)
 {
-    struct camera_sample start = camera_sample_begin(&w->settings, x, y, index);
-    bool goes_on = true;
-    struct path p;
-    struct hit h;
-
-    path_set_key(w, start.sampler, 1, &start.ray);
-    hit_closest(w, start.ray, &h);
-    path_open(w, &p, start, NULL);
     t->count = t->vertices = 0;
-    while (goes_on) {
-        struct path before = p;
-        struct hit vertex = h;
-        struct vec3 to;
-        bool is_collision;
-
-        goes_on = path_step(w, &p, &h);
-        t->vertices++;
-        if (t->count == PATH_RECORD_STEPS)
-            continue;
-        is_collision = collides(&before, &p, vertex, goes_on, &to);
-        if (is_collision)
-            vertex.tri = NO_INDEX;
-        else
-            to = end_of(w, before.ray, vertex);
-        t->steps[t->count++] = (struct path_record_step){
-            .from = before.ray.o,
-            .to = to,
-            .hit = vertex,
-            .throughput = v3_scale(before.beta, before.scale),
-            .light = v3_sub(path_light(&p), path_light(&before)),
-            .way = way_of(w, &before, &p, vertex, is_collision, goes_on),
-            .pdf = goes_on ? p.pdf : 0.0f,
-        };
-    }
-    t->radiance = path_light(&p);
+    t->radiance =
+        path_record_each(w, (struct sample_id){x, y, index}, record, t);
 }
 
 static void add_lobe(struct path_record_lobes *l, const struct bsdf *b,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * path_record.h - records one sample step by step, and the directions of
+ * path_record.h - follows one sample step by step, and the directions of
  * scattering at a surface
  *
  * The steps are those of path_extend(), and the final radiance has the same
@@ -14,14 +14,16 @@
 
 #include <stdbool.h>
 
-#include "kernels/types.h"
+#include "kernels/path_types.h"
 
 #define PATH_RECORD_STEPS 32
 #define PATH_RECORD_LOBES 64
 
 enum path_record_way {
     PATH_RECORD_SKY,       /* the ray hit nothing */
-    PATH_RECORD_ENDED,     /* absorbed, or the limit of bounces */
+    PATH_RECORD_ENDED,     /* absorbed */
+    PATH_RECORD_LIMIT,     /* the limit of bounces, or of steps of a walk */
+    PATH_RECORD_CELL,      /* ended at a radiance cell */
     PATH_RECORD_ROULETTE,  /* ended by Russian roulette */
     PATH_RECORD_SCATTERED, /* in a medium, or below a surface */
     PATH_RECORD_REFLECTED,
@@ -32,10 +34,18 @@ enum path_record_way {
 struct path_record_step {
     struct vec3 from, to;
     struct hit hit;         /* no triangle: the sky, or a collision */
+    struct vec3 n;          /* shading normal, if there is a triangle */
     struct vec3 throughput; /* of the path up to this step */
-    struct vec3 light;      /* added to the pixel at the end of the ray */
+    struct vec3 light;      /* added to the pixel at the end of the ray, */
+    struct vec3 sampled;    /* and the part of it by the light sample there */
     enum path_record_way way;
     float pdf; /* density of the next direction; 0 for a delta distribution */
+    float wavelength; /* in nanometres, after this step; 0: none */
+    uint32_t medium; /* material of the body in which the ray is, or NO_INDEX */
+    bool is_boundary; /* the surface is only where a medium begins */
+    bool enters;     /* a walk below the surface begins at the end of the ray */
+    bool is_below;   /* the ray is one of such a walk */
+    bool is_diffuse; /* the surface has no lobe but diffuse ones */
 };
 
 struct path_record {
@@ -45,7 +55,15 @@ struct path_record {
     struct vec3 radiance;
 };
 
-/* Records sample `index` of pixel (x, y) in a world with a tree. */
+/* Follows a sample in a world with a tree, calls `visit` for each step, and
+ * returns the radiance. The light that light paths bring to the pixel by itself
+ * is not that of its paths: light_block.h. */
+typedef void path_record_visit(void *context,
+                               const struct path_record_step *step);
+struct vec3 path_record_each(const struct world *world, struct sample_id id,
+                             path_record_visit *visit, void *context);
+
+/* Records the first steps of sample `index` of pixel (x, y). */
 void path_record_follow(struct path_record *t, const struct world *world,
                         uint32_t x, uint32_t y, uint64_t index);
 

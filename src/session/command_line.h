@@ -20,6 +20,7 @@
 #include "engine/engine.h"
 #include "session/keymap.h"
 #include "terminal/term_caps.h"
+#include "kernels/path_types.h"
 
 /* Property of the scene that the picture shows. */
 enum show_kind {
@@ -117,6 +118,8 @@ struct options {
     bool has_max_bounces;
     uint32_t seed;
     bool has_seed;
+    bool has_trace;         /* print the path of a sample */
+    struct sample_id trace; /* in pixels of the crop */
     bool batch;
     bool no_filter;           /* live mode shows unfiltered pictures */
     bool denoise;             /* filter the picture, in batch mode */

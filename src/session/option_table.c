@@ -468,6 +468,27 @@ static bool set_seed(struct options *o, const struct option_given *g,
     return true;
 }
 
+/* Parses X,Y,SAMPLE. The samples of the training of radiance cells come after
+ * those of pictures. */
+static bool set_trace(struct options *o, const struct option_given *g,
+                      struct error *err)
+{
+    const char *p = g->value;
+    uint64_t x, y;
+
+    if (!digits_parse(&p, 10, VIEW_SIDE_MAX - 1, &x) || *p++ != ',' ||
+        !digits_parse(&p, 10, VIEW_SIDE_MAX - 1, &y) || *p++ != ',' ||
+        !digits_parse(&p, 10, SPP_MAX - 1, &o->trace.index) || *p != '\0')
+        return fail(err,
+                    "%s: found '%s', expected X,Y,SAMPLE: three whole numbers "
+                    "from 0 on, such as 120,45,3",
+                    g->shown, g->value);
+    o->trace.x = (uint32_t)x;
+    o->trace.y = (uint32_t)y;
+    o->batch = true;
+    return true;
+}
+
 /* Adds the words of a list with commas. */
 static bool set_aovs(struct options *o, const struct option_given *g,
                      struct error *err)
@@ -751,6 +772,10 @@ static const struct option_rule rules[] = {
      "preview, normals, faces, uvs, depth, materials or cost instead of "
      "light",
      MAIN, WORDS(show, options_shows, SHOW_KINDS)},
+    {"trace", "X,Y,SAMPLE", "X,Y,SAMPLE",
+     "print the path of one sample of a pixel, each counted from 0, of a saved "
+     "picture in place of the scene, or of what these options render",
+     MAIN, OWN(set_trace), GIVEN(has_trace)},
     {.kind = OPTION_TITLE, .help = "films, in batch mode"},
     {"film", "FILE", "the name of a film",
      "write the film, the exact sums of all samples", MAIN, TEXT(film_path)},
