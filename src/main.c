@@ -38,6 +38,7 @@
 #include "session/autosave_file.h"
 #include "session/command_line.h"
 #include "session/config.h"
+#include "session/picture_options.h"
 #include "session/session.h"
 #include "session/state_list.h"
 #include "studio/start_screen.h"
@@ -359,6 +360,7 @@ int main(int argc, char **argv)
 {
     static struct options options; /* as its strings, until the end */
     struct session session = {0};
+    struct options configured;
     struct error err, config_err;
     char *listed = NULL;
     int status;
@@ -370,6 +372,7 @@ int main(int argc, char **argv)
     options_init(&options);
     /* an error there must not prevent --help */
     bool has_config = config_read(&options, &config_err);
+    configured = options;
     status = EXIT_USAGE;
     if (!parse(&options, argc, argv, &listed, &status, &err))
         return err.text[0] == '\0' ? status : complain(EXIT_USAGE, &err);
@@ -393,6 +396,9 @@ int main(int argc, char **argv)
         return probe(&options);
     if (options.is_import || options.is_unpack || options.is_voxels)
         return run_library(&options);
+    if (options.has_trace && options.picture_path != NULL &&
+        !picture_options_parse(&options, &configured, argc, argv, &err))
+        return complain(EXIT_FAILED, &err);
     if (!options.is_worker && cluster_rank() == 0 &&
         !check_terminal(&options, &err))
         return complain(EXIT_USAGE, &err);

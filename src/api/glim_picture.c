@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "engine/engine_film.h"
+#include "engine/engine_metadata.h"
 #include "film/film.h"
 #include "film/image_write.h"
 
@@ -101,7 +102,7 @@ bool glim_save(struct glim *g, const char *path, struct glim_error *err)
 
     if (film == NULL)
         return false;
-    metadata = engine_metadata(&g->engine, glim_is_denoised(g));
+    metadata = engine_metadata(&g->engine, &g->view, glim_is_denoised(g));
     return image_write(film, develop_of(g), &metadata, path, &why) ||
            handle_fail(err, &why);
 }
@@ -117,7 +118,7 @@ const char *glim_save_new(struct glim *g, const char *stem,
 
     if (film == NULL)
         return NULL;
-    metadata = engine_metadata(&g->engine, glim_is_denoised(g));
+    metadata = engine_metadata(&g->engine, &g->view, glim_is_denoised(g));
     name =
         image_write_numbered(film, develop_of(g), &metadata, stem, "png", &why);
     if (name == NULL) {

@@ -11,6 +11,7 @@
 #include "base/print.h"
 #include "base/stop.h"
 #include "command/batch_progress.h"
+#include "engine/engine_metadata.h"
 #include "film/image_write.h"
 #include "inspect/aov_picture.h"
 #include "inspect/false_color.h"
@@ -291,10 +292,12 @@ static bool check_outputs(const struct batch *b, struct error *err)
 /* ---- pictures ---- */
 
 /* Returns the metadata of the film, which may be the filtered one. */
-static struct image_metadata metadata_of(const struct session *s,
+static struct image_metadata metadata_of(struct session *s,
                                          const struct film *film)
 {
-    return engine_metadata(&s->engine, film == &s->engine.filtered);
+    struct view view = edit_view(&s->edit);
+
+    return engine_metadata(&s->engine, &view, film == &s->engine.filtered);
 }
 
 /* Writes to the file that the options name. */

@@ -144,8 +144,9 @@ static bool write_picture(struct film_file *f, struct film *film,
     const struct film_header *h = &f->header;
     struct render_progress p = progress_of(f, e);
     struct image_metadata metadata =
-        render_metadata(&p, h->scene, h->identity.seed, film != &f->film);
+        render_metadata_film(&p, h, film != &f->film);
 
+    render_metadata_identify(&metadata, &h->identity);
     return image_write(film, develop_of(h, o), &metadata, path, err);
 }
 

@@ -2,47 +2,108 @@
 #include "command/command.h"
 
 #include <inttypes.h>
+#include <string.h>
 
+#include "base/decimal.h"
 #include "base/file.h"
 #include "base/print.h"
+#include "engine/engine_film.h"
 #include "inspect/path_text.h"
 #include "render/light_block.h"
+#include "render/render_metadata.h"
 #include "session/session_film.h"
 
-/* Samples that the picture has in its pixels, from `first` up to, and without,
- * `end`; 0: unknown. */
+/* Returns the value of a key in the picture's texts, or NULL. */
+static const char *text_of(const struct options *o, const char *key)
+{
+    return o->picture != NULL ? image_metadata_value(o->picture, key) : NULL;
+}
+
+/* Returns the samples that pixels of the picture have, from `first` up to, and
+ * without, `end`; 0: unknown. */
 static struct film_range samples_of(const struct options *o)
 {
     struct film_range r = {session_film_first(o), 0};
+    const char *first = text_of(o, "glim:first_sample");
 
+    if (first != NULL)
+        digits_parse(&first, 10, FILM_SPP_MAX, &r.first);
     if (o->has_spp)
         r.end = r.first + session_film_limits(o).spp;
     return r;
 }
 
-/* Fails if the picture has no such pixel or sample. With adaptive sampling a
- * pixel may have more or fewer. */
-static bool check_place(const struct session *s, struct error *err)
+/* Returns true if pixels may have further samples, or fewer. */
+static bool counts_differ(const struct options *o)
 {
-    const struct options *o = s->options;
-    const struct sample_id *id = &o->trace;
-    struct rect r = s->engine.crop;
-    struct film_range range = samples_of(o);
+    const char *stopped_by = text_of(o, "glim:stopped_by");
 
-    if (id->x >= (uint32_t)r.width || id->y >= (uint32_t)r.height)
-        return fail(err,
-                    "--trace: found pixel %" PRIu32 ",%" PRIu32
-                    ", expected one of the picture, which has %dx%d pixels",
-                    id->x, id->y, r.width, r.height);
-    if (options_adaptive(o) && id->index >= ADAPTIVE_FIRST)
-        print_line(stderr, "glim: warning: --trace: the pixel may have fewer "
-                           "samples, as they are adaptive");
-    else if (id->index < range.first ||
-             (range.end != 0 && id->index >= range.end))
+    return options_adaptive(o) ||
+           (o->picture != NULL &&
+            (stopped_by == NULL || strcmp(stopped_by, "time") == 0));
+}
+
+static bool check_sample(const struct options *o, struct error *err)
+{
+    struct film_range range = samples_of(o);
+    uint64_t index = o->trace.index;
+
+    if (options_adaptive(o) && range.end > ADAPTIVE_FIRST)
+        range.end = ADAPTIVE_FIRST;
+    if (index >= range.first && (range.end == 0 || index < range.end))
+        return true;
+    if (index < range.first || !counts_differ(o))
         return fail(err,
                     "--trace: found sample %" PRIu64 ", expected %" PRIu64
                     " to %" PRIu64 ", which the picture has",
-                    id->index, range.first, range.end - 1);
+                    index, range.first, range.end - 1);
+    print_line(stderr,
+               "glim: warning: --trace: found sample %" PRIu64
+               ", but some pixels only have %" PRIu64 " to %" PRIu64,
+               index, range.first, range.end - 1);
+    return true;
+}
+
+static bool check_pixel(const struct session *s, struct error *err)
+{
+    struct sample_id id = s->options->trace;
+    struct rect r = s->engine.crop;
+
+    return (id.x < (uint32_t)r.width && id.y < (uint32_t)r.height) ||
+           fail(err,
+                "--trace: found pixel %" PRIu32 ",%" PRIu32
+                ", expected one of the picture, which has %dx%d pixels",
+                id.x, id.y, r.width, r.height);
+}
+
+/* Fails if the scene is not as it was when the picture was rendered. */
+static bool check_scene(struct session *s, const struct view *view,
+                        struct error *err)
+{
+    const struct options *o = s->options;
+    const char *seed = text_of(o, "glim:seed");
+    struct film_identity now, then;
+    uint64_t number;
+
+    if (o->picture == NULL)
+        return true;
+    if (text_of(o, "glim:denoised") != NULL)
+        print_line(stderr,
+                   "glim: warning: %s: the sample is of the picture before the "
+                   "filter",
+                   o->picture_path);
+    if (!engine_film_identify(&s->engine, view, &now, err))
+        return false;
+    then = now;
+    if (seed != NULL && digits_parse(&seed, 10, UINT32_MAX, &number))
+        then.seed = (uint32_t)number;
+    if (render_metadata_identity(o->picture, &then))
+        return film_identity_check(&then, o->picture_path, &now, o->scene_path,
+                                   err);
+    print_line(stderr,
+               "glim: warning: %s: its texts do not tell whether the scene has "
+               "changed",
+               o->picture_path);
     return true;
 }
 
@@ -130,7 +191,8 @@ bool batch_trace_run(struct session *s, struct error *err)
     struct view view = edit_view(&s->edit);
     struct render_job job;
 
-    return check_place(s, err) &&
+    return check_pixel(s, err) && check_sample(s->options, err) &&
+           check_scene(s, &view, err) &&
            engine_prepare(&s->engine, &view, &job, err) &&
            world_ensure_tree(&s->engine.world, &job.world,
                              s->engine.backends.cpu->pool, err) &&

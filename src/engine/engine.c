@@ -2,11 +2,13 @@
 #include "engine/engine.h"
 
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/file.h"
 #include "film/filter/film_filter.h"
+#include "read/view_parse.h"
 #include "render/cluster/cluster.h"
 #include "render/cpu_dispatch.h"
-#include "render/render_metadata.h"
 #include "kernels/features.h"
 
 /* ---- backends ---- */
@@ -144,13 +146,28 @@ void engine_set_whole(struct engine *e, const struct view *view)
     e->crop = (struct rect){0, 0, view->width_px, view->height_px};
 }
 
+/* Finds the view, of a text or in files. */
+static bool find_view(struct engine *e, struct view *view, struct error *err)
+{
+    const struct engine_options *o = &e->options;
+
+    if (o->view_text == NULL)
+        return view_find(view, o->scene.path, o->view_path, &e->view_path,
+                         &e->report, err);
+    /* a name for messages; names of files in the text are as seen from there */
+    e->view_path = path_beside(o->scene.path, "view of the picture");
+    return e->view_path != NULL
+               ? view_parse(view, o->view_text, strlen(o->view_text),
+                            e->view_path, &e->report, err)
+               : fail(err, "%s: out of memory", o->scene.path);
+}
+
 bool engine_load(struct engine *e, const struct engine_options *options,
                  struct view *view, struct view *file, struct error *err)
 {
     *e = (struct engine){.options = *options,
                          .scene = {.program = options->device.program}};
-    if (!view_find(view, options->scene.path, options->view_path, &e->view_path,
-                   &e->report, err))
+    if (!find_view(e, view, err))
         return false;
     view_copy_frame(file, view);
     if (!apply_options(options, view, err))
@@ -309,13 +326,6 @@ struct film *engine_filtered(struct engine *e, struct error *err)
         return NULL;
     e->filtered_samples = samples;
     return &e->filtered;
-}
-
-struct image_metadata engine_metadata(const struct engine *e, bool is_filtered)
-{
-    struct render_progress p = render_progress(e->render);
-
-    return render_metadata(&p, e->scene.path, e->options.seed, is_filtered);
 }
 
 void engine_close(struct engine *e)

@@ -22,7 +22,6 @@
 
 #include "base/warnings.h"
 #include "engine/scene_load.h"
-#include "image/image_metadata.h"
 #include "render/backend.h"
 #include "render/opencl/cl_start.h"
 #include "render/render_loop.h"
@@ -82,6 +81,7 @@ void backends_close(struct backends *b);
 struct engine_options {
     struct scene_options scene;
     const char *view_path; /* NULL: beside the scene */
+    const char *view_text; /* in place of the view file; NULL: none */
     /* instead of those of the view: 0 or false where it keeps its own */
     int width_px, height_px;
     bool has_max_bounces;
@@ -173,9 +173,6 @@ bool engine_can_filter(const struct engine *e);
 /* Returns the filtered film, of the samples so far, or NULL on errors. It stays
  * the engine's, until the next call or start. */
 struct film *engine_filtered(struct engine *e, struct error *err);
-
-/* Returns the metadata of the picture as it is now, or of its filtered copy. */
-struct image_metadata engine_metadata(const struct engine *e, bool is_filtered);
 
 void engine_close(struct engine *e);
 

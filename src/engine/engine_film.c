@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "engine/engine_metadata.h"
 #include "film/film_file.h"
 #include "glim/version.h"
 #include "render/opencl/cl_source.h"
@@ -87,7 +88,7 @@ static void world_hash(const struct world *w, uint64_t hashes[FILM_PARTS])
         uint64_t *hash = &hashes[film_parts[i]];
 
         *hash = hash_number(*hash, list[i].size_bytes);
-        add(hash, list[i].data, list[i].size_bytes);
+        *hash = hash_array(*hash, list[i].data, list[i].size_bytes);
     }
     add_settings(&w->settings, hashes);
 }
@@ -174,6 +175,7 @@ struct film_header engine_film_header(const struct engine *e,
     snprintf(h.version, sizeof h.version, "%s", GLIM_VERSION);
     snprintf(h.scene, sizeof h.scene, "%s",
              end_of(e->options.scene.path, sizeof h.scene));
+    engine_metadata_write_view(e, view, h.view);
     *range = (struct film_range){first_sample, first_sample + p.spp_done};
     return h;
 }

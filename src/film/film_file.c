@@ -22,7 +22,7 @@ static const char magic[] = "glim film 1\n";
 #define DATA "data "
 
 /* Lines are shorter than this. */
-#define LINE_MAX_BYTES 512
+#define LINE_MAX_BYTES 2304
 
 /* Largest side of a picture. */
 #define SIDE_MAX 65536
@@ -43,6 +43,7 @@ struct field {
 static const struct field fields[] = {
     {"version", FIELD_TEXT, HEAD(version), 32, NULL},
     {"scene", FIELD_TEXT, HEAD(scene), 256, NULL},
+    {"view", FIELD_TEXT, HEAD(view), FILM_VIEW_BYTES, NULL},
     {"picture-width", FIELD_INT, HEAD(identity.picture_width), SIDE_MAX, "-w"},
     {"picture-height", FIELD_INT, HEAD(identity.picture_height), SIDE_MAX,
      "-h"},
@@ -277,6 +278,7 @@ static bool check_text(struct reader *r, const char *bytes, size_t *used,
 
     r->text[0] = '\0';
     if (!next_line(r) || strncmp(r->text, DATA, sizeof DATA - 1) != 0 ||
+        strpbrk(p, "ABCDEF") != NULL || /* as none is written */
         !digits_parse(&p, 16, UINT32_MAX, &found) || *p != '\0')
         return fail_line(r, "the checksum", err);
     *used = (size_t)(r->p - bytes);

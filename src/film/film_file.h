@@ -37,6 +37,9 @@
 /* Most samples per pixel of a file. */
 #define FILM_SPP_MAX ((uint64_t)1 << 48)
 
+/* Size of the text about the view. */
+#define FILM_VIEW_BYTES 2048
+
 /* Greatest exposure of a picture, in stops, and the least one below 0. */
 #define EXPOSURE_MAX 100
 
@@ -73,7 +76,9 @@ struct film_header {
     struct film_identity identity;
     char version[32]; /* of the program */
     char scene[256];  /* end of the scene's path */
-    uint32_t tone;    /* enum tone */
+    char
+        view[FILM_VIEW_BYTES]; /* how it was opened: engine_metadata.h; or "" */
+    uint32_t tone;             /* enum tone */
     /* sorted and disjoint, with gaps between them. All pixels have these
      * samples; those of the last range may have more, in a film that was saved
      * within a pass. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * image_metadata.h - texts about a picture that its file carries: PNG chunks
- * and comments of Radiance HDR
+ * image_metadata.h - texts about a picture that its file carries: PNG chunks,
+ * comments of Radiance HDR and attributes of OpenEXR
  *
  * The texts are UTF-8 in every locale, and their order is that of adding, so
  * that equal renders have files of equal bytes.
@@ -12,11 +12,12 @@
 #ifndef GLIM_IMAGE_METADATA_H
 #define GLIM_IMAGE_METADATA_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
-#define IMAGE_METADATA_MAX 16
+#define IMAGE_METADATA_MAX 24
 #define IMAGE_KEY_BYTES    32
-#define IMAGE_VALUE_BYTES  256
+#define IMAGE_VALUE_BYTES  2048
 #define IMAGE_KEY_SOFTWARE "Software" /* of the PNG standard */
 
 struct image_metadata {
@@ -44,5 +45,14 @@ size_t image_metadata_png(const struct image_metadata *m,
                           unsigned char to[IMAGE_METADATA_BYTES]);
 size_t image_metadata_hdr(const struct image_metadata *m,
                           unsigned char to[IMAGE_METADATA_BYTES]);
+
+/* Finds the texts in the bytes of a file of one of the three formats, as glim
+ * writes them; others are skipped. There are none in a file of another kind. */
+void image_metadata_find(struct image_metadata *m, const void *bytes,
+                         size_t size_bytes);
+
+/* Returns the value of a key, or NULL. */
+const char *image_metadata_value(const struct image_metadata *m,
+                                 const char *key);
 
 #endif

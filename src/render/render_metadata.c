@@ -2,10 +2,14 @@
 #include "render/render_metadata.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 
 #include "base/clock.h"
+#include "base/decimal.h"
 #include "base/file.h"
 #include "glim/version.h"
+
+static const char key_of_identity[] = "glim:identity";
 
 static const char *const limits[] = {
     [RENDER_LIMIT_SPP] = "samples",
@@ -49,4 +53,50 @@ struct image_metadata render_metadata(const struct render_progress *p,
     if (is_denoised)
         image_metadata_add(&m, "glim:denoised", "true");
     return m;
+}
+
+struct image_metadata render_metadata_film(const struct render_progress *p,
+                                           const struct film_header *h,
+                                           bool is_denoised)
+{
+    const struct film_identity *id = &h->identity;
+    struct image_metadata m =
+        render_metadata(p, h->scene, id->seed, is_denoised);
+
+    if (h->ranges[0].first != 0)
+        image_metadata_add(&m, "glim:first_sample", "%" PRIu64,
+                           h->ranges[0].first);
+    if (id->width != id->picture_width || id->height != id->picture_height)
+        image_metadata_add(&m, "glim:crop", "%d,%d,%d,%d", id->x, id->y,
+                           id->width, id->height);
+    if (id->is_adaptive)
+        image_metadata_add(&m, "glim:adaptive", "true");
+    if (h->view[0] != '\0')
+        image_metadata_add(&m, "glim:view", "%s", h->view);
+    return m;
+}
+
+void render_metadata_identify(struct image_metadata *m,
+                              const struct film_identity *id)
+{
+    char text[17 * FILM_PARTS + 1];
+
+    for (int i = 0; i < FILM_PARTS; i++)
+        snprintf(text + 17 * i, 18, "%016" PRIx64 " ", id->hashes[i]);
+    text[sizeof text - 2] = '\0';
+    image_metadata_add(m, key_of_identity, "%s", text);
+}
+
+bool render_metadata_identity(const struct image_metadata *m,
+                              struct film_identity *id)
+{
+    const char *p = image_metadata_value(m, key_of_identity);
+
+    for (int i = 0; p != NULL && i < FILM_PARTS; i++) {
+        if (!digits_parse(&p, 16, UINT64_MAX, &id->hashes[i]) ||
+            *p != (i + 1 < FILM_PARTS ? ' ' : '\0'))
+            return false;
+        p++;
+    }
+    return p != NULL;
 }

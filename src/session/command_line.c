@@ -64,6 +64,7 @@ struct engine_options options_engine(const struct options *o)
 {
     return (struct engine_options){
         .view_path = o->view_path,
+        .view_text = o->view_text,
         .scene = {.path = o->scene_path,
                   .up = o->up,
                   .thread_count = options_threads(o),
@@ -203,6 +204,12 @@ static bool set_operand(struct options *o, const char *path, struct error *err)
 {
     const char **operands[2];
 
+    if (o->command == COMMAND_RENDER && o->picture_path == NULL &&
+        strcmp(path, "-") != 0 &&
+        image_write_format_of(path) != IMAGE_WRITE_UNKNOWN) {
+        o->picture_path = path;
+        return true;
+    }
     if (o->command == COMMAND_RENDER)
         return option_set_scene(o, path, err);
     if (takes_films(o->command)) {
@@ -523,6 +530,35 @@ static bool check_show(const struct options *o, struct error *err)
     return true;
 }
 
+/* Refuses outputs beside a path, and pictures beside a scene that is rendered.
+ */
+static bool check_trace(const struct options *o, struct error *err)
+{
+    const struct {
+        const char *name;
+        bool is_given;
+    } others[] = {{"-o", o->output_path != NULL},
+                  {"--stats", o->stats_path != NULL},
+                  {"--film", o->film_path != NULL},
+                  {"--checkpoint", o->checkpoint_path != NULL},
+                  {"--resume", o->resume_path != NULL},
+                  {"--error-map", o->error_map_path != NULL},
+                  {"--aov", o->aovs != 0},
+                  {"--ansi", o->text_cols > 0},
+                  {"--show", o->show != SHOW_LIGHT},
+                  {"--turntable", o->turntable_count > 0},
+                  {"--fly", o->fly_count > 0},
+                  {"--frames", o->has_frames},
+                  {"--ranks", o->ranks > 0}};
+
+    for (size_t i = 0; o->has_trace && i < sizeof others / sizeof others[0];
+         i++)
+        if (others[i].is_given)
+            return fail(err, "--trace: found %s, expected no other output",
+                        others[i].name);
+    return true;
+}
+
 /* Returns true for options that ask for something else than a render. */
 static bool needs_no_scene(const struct options *o)
 {
@@ -536,7 +572,7 @@ static bool check_options(const struct options *o, struct error *err)
         needs_no_scene(o) ||
         (check_sky(o, err) && check_batch(o, err) && check_denoise(o, err) &&
          check_error_map(o, err) && check_films(o, err) && check_show(o, err) &&
-         check_aovs(o, err) && check_frames(o, err));
+         check_aovs(o, err) && check_frames(o, err) && check_trace(o, err));
 
     return ok && check_scene(o, err);
 }
@@ -612,6 +648,7 @@ void options_print_help(FILE *to)
 
     print_line(to, "usage: glim [options] scene.obj");
     print_line(to, "       glim -b [options] [-o picture.png] scene.obj");
+    print_line(to, "       glim --trace X,Y,SAMPLE [options] picture.png");
     for (int i = 1; i < COMMAND_COUNT; i++)
         print_line(to, "       glim%s %s", commands[i].name,
                    commands[i].operands);
@@ -762,6 +799,17 @@ bool options_set_configured(struct options *o, const char *name,
     return true;
 }
 
+/* Without --trace a picture counts as a scene. */
+static bool settle_operands(struct options *o, struct error *err)
+{
+    const char *path = o->picture_path;
+
+    if (o->command != COMMAND_RENDER || o->has_trace || path == NULL)
+        return true;
+    o->picture_path = NULL;
+    return option_set_scene(o, path, err);
+}
+
 bool options_parse(struct options *o, int argc, char **argv, struct error *err)
 {
     bool ended = false;
@@ -789,11 +837,12 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
             return true; /* the rest of the command line does not matter */
     }
     keymap_settle(&o->keys, o->phoe_keys);
-    if (!settle_backend(o, err) ||
+    if (!settle_operands(o, err) || !settle_backend(o, err) ||
         (o->command != COMMAND_RENDER && !check_command(o, err)) ||
         !check_options(o, err) || !take_environment(o, err))
         return false;
-    if (o->command != COMMAND_RENDER || o->scene_path || needs_no_scene(o))
+    if (o->command != COMMAND_RENDER || o->scene_path || o->picture_path ||
+        needs_no_scene(o))
         return true;
     o->lacks_scene = !o->batch;
     return fail(

@@ -18,6 +18,7 @@
 #include "base/error.h"
 #include "base/library_child.h"
 #include "engine/engine.h"
+#include "image/image_metadata.h"
 #include "session/keymap.h"
 #include "terminal/term_caps.h"
 #include "kernels/path_types.h"
@@ -71,11 +72,14 @@ enum sub_command {
 
 struct options {
     enum sub_command command;
-    const char *picture_path;   /* compare: the first picture */
-    const char *reference_path; /* compare: the second picture; curve */
-    int seed_count;             /* reference: independent renders */
-    char *const *arguments;     /* the command line, ending with NULL */
-    const char *csv_path;       /* curve: NULL: no such file */
+    const char *picture_path;       /* compare: the first picture; --trace: its
+                                       picture, */
+    struct image_metadata *picture; /* the texts in its file, */
+    char *view_text;                /* and its view; NULL: there is none */
+    const char *reference_path;     /* compare: the second picture; curve */
+    int seed_count;                 /* reference: independent renders */
+    char *const *arguments;         /* the command line, ending with NULL */
+    const char *csv_path;           /* curve: NULL: no such file */
     /* info, merge, develop: the films; the array lives as long as the program
      */
     const char **films;

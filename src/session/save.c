@@ -7,6 +7,8 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "engine/engine_film.h"
+#include "engine/engine_metadata.h"
 #include "film/image_write.h"
 #include "session/session_save.h"
 #include "terminal/xmalloc.h"
@@ -67,16 +69,25 @@ static void begin_film(struct live_render *control, const char *ending,
     struct engine *engine = &control->session->engine;
     struct picture_to_save picture = {.film = render_film(engine->render),
                                       .how = session_develop(control->session),
-                                      .metadata =
-                                          engine_metadata(engine, false),
-                                      .filtered_metadata =
-                                          engine_metadata(engine, true),
                                       .ending = ending};
+    struct error ignored;
+    struct view view;
 
     if (render_progress(engine->render).samples == 0) {
         live_render_say(control, "nothing to save yet");
         return;
     }
+    session_view_to_save(control->session, &view);
+    if (session_is_outdated(control->session) ||
+        !engine_film_describe(engine, &view, &picture.identity,
+                              &picture.identified, &ignored))
+        picture.identified.positions = NULL;
+    picture.metadata =
+        engine_metadata_described(engine, &view, &picture.identity, false);
+    picture.filtered_metadata =
+        engine_metadata_described(engine, &view, &picture.identity, true);
+    picture.kernels_path = engine->options.device.kernels_path;
+    view_free(&view);
     if (world != NULL) {
         picture.is_filtered = true;
         picture.world = *world;

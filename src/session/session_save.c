@@ -7,10 +7,12 @@
 #include "base/print.h"
 #include "base/stop.h"
 #include "base/thread_pool.h"
+#include "engine/engine_film.h"
 #include "film/image_write.h"
 #include "read/mtl_save.h"
 #include "read/view_file.h"
 #include "render/filtered_picture.h"
+#include "render/render_metadata.h"
 #include "terminal/xmalloc.h"
 
 /* ---- pictures ---- */
@@ -49,12 +51,26 @@ static bool filter(struct save_thread *s, struct film *film, struct film *draft)
     return s->was_filtered;
 }
 
+/* Adds the hashes of what the samples are made of to the metadata. */
+static void identify(struct picture_to_save *p)
+{
+    struct error ignored;
+
+    if (p->identified.positions == NULL ||
+        !engine_film_hash(&p->identified, p->kernels_path, &p->identity,
+                          &ignored))
+        return;
+    render_metadata_identify(&p->metadata, &p->identity);
+    render_metadata_identify(&p->filtered_metadata, &p->identity);
+}
+
 static void save_film(struct save_thread *s)
 {
     struct film copy = {0}, draft = {0};
     bool ok = film_copy(&copy, s->picture.film, &s->error);
     bool filters = ok && s->picture.is_filtered && trace_draft(s, &draft);
 
+    identify(&s->picture);
     background_has_copied(&s->copying);
     if (ok && !(filters && filter(s, &copy, &draft)))
         s->name =

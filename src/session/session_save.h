@@ -18,7 +18,7 @@
 #include <stdbool.h>
 
 #include "base/background.h"
-#include "film/film.h"
+#include "film/film_file.h"
 #include "image/image_metadata.h"
 #include "session/session.h"
 
@@ -34,6 +34,11 @@ struct picture_to_save {
     struct world world;
     struct develop how;
     struct image_metadata metadata, filtered_metadata;
+    /* the thread finds the hashes of the identity, for the metadata; no world:
+     * there is none */
+    struct film_identity identity;
+    struct world identified;
+    const char *kernels_path;
     const char *stem;
     const char *ending; /* "png" or another one of image_write.h */
 };

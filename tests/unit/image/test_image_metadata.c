@@ -211,6 +211,7 @@ static void values_are_one_line_of_utf8(void **state)
 static void long_values_are_cut(void **state)
 {
     struct image_metadata m = {.count = 0};
+    const size_t longest = (IMAGE_VALUE_BYTES - 1) / 3 * 3;
     char name[3 * 1000 + 1] = "";
     unsigned char bytes[IMAGE_METADATA_BYTES];
 
@@ -219,11 +220,48 @@ static void long_values_are_cut(void **state)
         strcat(name, "\xe2\x82\xac"); /* the euro sign */
     for (int i = 0; i < IMAGE_METADATA_MAX; i++)
         image_metadata_add(&m, "abcdefghijklmnopqrstuvwxyz01234", "%s", name);
-    assert_int_equal(strlen(m.texts[0].value), 255);
+    assert_int_equal(strlen(m.texts[0].value), longest);
     assert_int_equal(image_metadata_png(&m, bytes),
-                     IMAGE_METADATA_MAX * (12 + 32 + 4 + 255));
+                     IMAGE_METADATA_MAX * (12 + 32 + 4 + longest));
     assert_int_equal(image_metadata_hdr(&m, bytes),
-                     IMAGE_METADATA_MAX * (2 + 31 + 1 + 255 + 1));
+                     IMAGE_METADATA_MAX * (2 + 31 + 1 + longest + 1));
+}
+
+/* Texts are found again in files of each format, and in any beginning of one
+ * there are no others. */
+static void texts_are_found_again(void **state)
+{
+    static const char *const names[] = {"m.png", "m.hdr", "m.exr", "m.pfm"};
+    struct image_metadata m = two_texts(), found;
+    struct film film;
+    struct error err;
+
+    (void)state;
+    make_film(&film, WIDTH, HEIGHT, light);
+    for (int i = 0; i < 4; i++) {
+        size_t size;
+
+        assert_true(image_write(&film, develop_linear(0), &m, names[i], &err));
+        char *bytes = read_file(names[i], &size);
+        for (size_t k = 0; k <= size; k++) {
+            char *part = malloc(k + 1); /* of this size, for sanitizers */
+
+            memcpy(part, bytes, k);
+            image_metadata_find(&found, part, k);
+            free(part);
+            assert_in_range(found.count, 0, m.count);
+            for (int t = 0; t < found.count; t++) {
+                assert_string_equal(found.texts[t].key, m.texts[t].key);
+                assert_string_equal(found.texts[t].value, m.texts[t].value);
+            }
+        }
+        assert_int_equal(found.count, i < 3 ? 2 : 0);
+        free(bytes);
+    }
+    film_free(&film);
+    assert_true(image_metadata_value(&m, "glim:seed") == NULL);
+    assert_string_equal(image_metadata_value(&m, IMAGE_KEY_SOFTWARE),
+                        "glim 0.1");
 }
 
 int main(void)
@@ -235,6 +273,7 @@ int main(void)
         cmocka_unit_test(pfm_files_have_none),
         cmocka_unit_test(values_are_one_line_of_utf8),
         cmocka_unit_test(long_values_are_cut),
+        cmocka_unit_test(texts_are_found_again),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

@@ -327,6 +327,43 @@ static void help_is_recognised(void **state)
                  "(for help: glim --help)");
 }
 
+/* Checks that --name=value is refused with what is expected. */
+static void refuse_value(const char *name, const char *value,
+                         const char *expected)
+{
+    char program[] = "glim", scene[] = "a", option[64];
+    char *argv[] = {program, scene, option, NULL};
+    struct options o;
+    struct error err;
+
+    snprintf(option, sizeof option, "--%s=%s", name, value);
+    options_init(&o);
+    if (options_parse(&o, 3, argv, &err))
+        fail_msg("%s was taken", option);
+    assert_non_null(strstr(err.text, expected));
+    assert_non_null(strstr(err.text, value));
+}
+
+static void traces_are_read_or_refused(void **state)
+{
+    static const char *const wrong[] = {"",       "1",      "1,2",      "1,2,",
+                                        "1,2,3,", "1,2,-3", "1, 2,3",   "a,2,3",
+                                        "1,2,3x", ",,",     "65536,0,0"};
+    struct options o = good("a --trace=65535,2,999999999999");
+
+    (void)state;
+    assert_true(o.has_trace && o.batch);
+    assert_int_equal(o.trace.x, 65535);
+    assert_int_equal(o.trace.y, 2);
+    assert_int_equal(o.trace.index, 999999999999);
+    o = good("--trace 1,2,3 a.png b.obj");
+    assert_string_equal(o.picture_path, "a.png");
+    assert_string_equal(o.scene_path, "b.obj");
+    assert_string_equal(good("-b a.png").scene_path, "a.png");
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        refuse_value("trace", wrong[i], "expected X,Y,SAMPLE");
+}
+
 static void crops_are_read_or_refused(void **state)
 {
     static const char *const wrong[] = {
@@ -335,19 +372,8 @@ static void crops_are_read_or_refused(void **state)
 
     (void)state;
     assert_int_equal(good("a --crop 0,0,65536,1").crop.width, 65536);
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        char program[] = "glim", scene[] = "a", option[64];
-        char *argv[] = {program, scene, option, NULL};
-        struct options o;
-        struct error err;
-
-        snprintf(option, sizeof option, "--crop=%s", wrong[i]);
-        options_init(&o);
-        if (options_parse(&o, 3, argv, &err))
-            fail_msg("%s was taken", option);
-        assert_non_null(strstr(err.text, "expected X,Y,W,H"));
-        assert_non_null(strstr(err.text, wrong[i]));
-    }
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        refuse_value("crop", wrong[i], "expected X,Y,W,H");
 }
 
 static void backends_are_chosen(void **state)
@@ -456,6 +482,7 @@ int main(void)
         cmocka_unit_test(wrong_numbers_have_their_message),
         cmocka_unit_test(sub_commands_have_their_own_operands),
         cmocka_unit_test(help_is_recognised),
+        cmocka_unit_test(traces_are_read_or_refused),
         cmocka_unit_test(crops_are_read_or_refused),
         cmocka_unit_test(wrong_combinations_have_their_message),
         cmocka_unit_test(backends_are_chosen),
