@@ -8,7 +8,7 @@ TIME ?= 60
 
 C_FILES = $(foreach d,include/glim src src/* src/*/* kernels scenes tests/unit tests/unit/* \
 	tests/bench tests/api tests/bench/error tests/bench/rays tests/fuzz \
-	tests/stress tests/tools,$(wildcard $(d)/*.[ch] $(d)/*.cc)) \
+	tests/stress tests/tools tests/faults,$(wildcard $(d)/*.[ch] $(d)/*.cc)) \
 	$(wildcard kernels/*.cl)
 names_of = $(patsubst tests/%.c,$(L)/%,$(wildcard tests/$(1).c))
 UNITS := $(call names_of,unit/*/test_*)
@@ -61,15 +61,24 @@ endif
 $(L)/unit/studio/test_autosave: private ALL_LDFLAGS += -Wl,--wrap=clock_ns
 # It makes the disk slow.
 $(L)/unit/session/test_session_film: private ALL_LDFLAGS += -Wl,--wrap=fsync
+# It lets allocations fail.
+$(L)/unit/base/test_text_stream: private ALL_LDFLAGS += -Wl,--wrap=realloc
 # It lets allocations fail, counts what is freed, and does not wait for disks.
 WRAPPED := malloc calloc realloc aligned_alloc strdup strndup vasprintf \
-	__vasprintf_chk open_memstream getline __getdelim free fsync
+	__vasprintf_chk getline __getdelim free fsync
 $(L)/unit/api/test_out_of_memory: private ALL_LDFLAGS += \
 	$(WRAPPED:%=-Wl,--wrap=%)
 
 # libFuzzer has its own main(); without it, replay.c reads inputs from files.
 FUZZ_MAIN := $(if $(findstring fuzzer,$(SAN)),-fsanitize=fuzzer,$(B)/fuzz/replay.o)
 $(FUZZERS): $(filter %.o,$(FUZZ_MAIN))
+
+# The library that lets calls of glim fail.
+FAULTS := $(if $(SAN),,$(L)/faults/fault.so)
+$(L)/faults/fault.so: tests/faults/fault.c
+	@mkdir -p $(@D)
+	$(SAY) CC $@
+	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O1 -Wall -Wextra -fPIC -shared -o $@ $<
 
 GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
 $(B)/scenes/%.o: scenes/%.c $(B)/flags
@@ -82,7 +91,7 @@ $(L)/scenes/generate: $(GENERATOR) $(B)/image/stb.o
 # Tests of clusters need the program for them, where MPI is installed.
 MPI_PROGRAM := $(if $(SAN),,$(if $(shell command -v mpicc),$(L)/mpi/glim))
 TESTED := $(L)/glim $(MPI_PROGRAM) $(UNITS) $(FUZZERS) $(L)/tools/show \
-	$(L)/scenes/generate
+	$(L)/scenes/generate $(FAULTS)
 
 ## test: installs missing packages, builds, runs all tests, with a few builds of
 ##       the kernel; BUILDS=all has all builds, and compiles benchmarks too;
@@ -109,8 +118,9 @@ search: $(FUZZERS)
 
 ## stress: runs checks at numerical limits, and others that take minutes;
 ##         FILTER=NAME selects one: samples geometry light films schedulers
-##         error filter gltf blender extremes sizes keys rays oclgrind valgrind
-stress: $(L)/glim $(MPI_PROGRAM) $(STRESSES) $(L)/unit/terminal/test_tty
+##         error filter gltf blender extremes sizes keys rays faults oclgrind
+##         valgrind
+stress: $(L)/glim $(MPI_PROGRAM) $(FAULTS) $(STRESSES) $(L)/unit/terminal/test_tty
 	@BUILD=$(L) FILTER='$(FILTER)' tests/stress/run.sh
 
 ## mutants: breaks one factor after another, which a test must notice;

@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/print.h"
+#include "base/text_stream.h"
 #include "terminal/glyphs.h"
 #include "terminal/xmalloc.h"
 
@@ -149,18 +150,17 @@ static void write_script(FILE *to, const struct chart *chart,
 
 bool chart_write(const struct chart *chart, const char *path, struct error *err)
 {
-    char *stem = path_stem(path), *script = NULL;
+    char *stem = path_stem(path), *script;
     char *png_path = xformat("%s.png", stem);
     size_t size_bytes;
-    FILE *to = open_memstream(&script, &size_bytes);
-    bool ok = to != NULL;
+    struct text_stream s;
+    bool ok;
 
-    if (ok) {
-        write_script(to, chart, png_path);
-        ok = fclose(to) == 0;
-    }
-    ok = ok ? file_write(path, script, size_bytes, false, NULL, err)
-            : fail(err, "%s: out of memory", path);
+    if (text_stream_open(&s))
+        write_script(s.to, chart, png_path);
+    script = text_stream_close(&s, &size_bytes);
+    ok = script != NULL ? file_write(path, script, size_bytes, false, NULL, err)
+                        : fail(err, "%s: out of memory", path);
     free(script);
     free(png_path);
     free(stem);

@@ -13,6 +13,7 @@
 #include "base/decimal.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text_stream.h"
 #include "session/stats_json.h"
 
 /* Finds the finite number of a member of the object. */
@@ -101,16 +102,16 @@ bool reference_info_write(const struct reference_info *info,
                           const struct reference_origin *origin,
                           const char *path, struct error *err)
 {
-    char *text = NULL;
-    size_t size_bytes = 0;
-    FILE *to = open_memstream(&text, &size_bytes);
+    struct text_stream s;
+    char *text;
+    size_t size_bytes;
     bool ok;
 
-    if (to == NULL)
-        return fail(err, "%s: %s", path, strerror(errno));
-    write_object(to, info, origin);
-    ok = fclose(to) == 0 ? file_write(path, text, size_bytes, false, NULL, err)
-                         : fail(err, "%s: %s", path, strerror(errno));
+    if (text_stream_open(&s))
+        write_object(s.to, info, origin);
+    text = text_stream_close(&s, &size_bytes);
+    ok = text != NULL ? file_write(path, text, size_bytes, false, NULL, err)
+                      : fail(err, "%s: out of memory", path);
     free(text);
     return ok;
 }

@@ -10,6 +10,7 @@
 #include "base/decimal.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/text_stream.h"
 #include "film/film.h"
 #include "kernels/vec.h"
 
@@ -131,24 +132,20 @@ static uint64_t checksum_of(const char *text, size_t size_bytes)
 
 char *film_header_text(const struct film_header *h, size_t *size_bytes)
 {
-    char *text = NULL;
-    FILE *to = open_memstream(&text, size_bytes);
+    struct text_stream s;
 
-    if (to == NULL)
-        return NULL;
-    fputs(magic, to);
-    for (size_t i = 0; i < FIELD_COUNT; i++)
-        put_field(to, h, &fields[i]);
-    for (size_t i = 0; i < h->range_count; i++)
-        fprintf(to, "range %" PRIu64 " %" PRIu64 "\n", h->ranges[i].first,
-                h->ranges[i].end);
-    /* a stream in memory fails without memory, and only then */
-    if (fflush(to) == 0)
-        fprintf(to, DATA "%08" PRIx64 "\n", checksum_of(text, *size_bytes));
-    if (ferror(to) == 0 && fclose(to) == 0)
-        return text;
-    free(text);
-    return NULL;
+    if (text_stream_open(&s)) {
+        fputs(magic, s.to);
+        for (size_t i = 0; i < FIELD_COUNT; i++)
+            put_field(s.to, h, &fields[i]);
+        for (size_t i = 0; i < h->range_count; i++)
+            fprintf(s.to, "range %" PRIu64 " %" PRIu64 "\n", h->ranges[i].first,
+                    h->ranges[i].end);
+        if (fflush(s.to) == 0)
+            fprintf(s.to, DATA "%08" PRIx64 "\n",
+                    checksum_of(s.text, s.size_bytes));
+    }
+    return text_stream_close(&s, size_bytes);
 }
 
 /* ---- parser ---- */

@@ -2,6 +2,7 @@
 #include "inspect/path_text.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/print.h"
 
@@ -22,8 +23,9 @@ struct table {
     FILE *to;
     const struct scene *scene;
     const struct overlay_names *names;
-    int count;        /* printed vertices */
-    float wavelength; /* of the last one */
+    int count;          /* printed vertices */
+    float wavelength;   /* of the last one, */
+    const char *medium; /* and what its ray has gone through, or "" */
 };
 
 /* Returns what happens at the end of a step. */
@@ -78,15 +80,25 @@ static void print_light(const struct table *t, const char *name, struct vec3 v)
     print_line(t->to, "    + %-*s %s", EVENT_COLS - 2, name, text);
 }
 
-/* Prints what is not in all lines: where the ray was, and what it has found. */
+/* Returns the name of what the step's ray has gone through, or "". */
+static const char *medium_name(const struct table *t,
+                               const struct path_record_step *s)
+{
+    if (s->medium != NO_INDEX)
+        return overlay_material(t->names, s->medium);
+    return v3_is_zero(t->names->world->settings.fog.extinction) ? "" : "fog";
+}
+
+/* Prints what is not in all lines: another medium, and what the ray has
+ * found. */
 static void print_more(struct table *t, const struct path_record_step *s)
 {
-    const struct world *w = t->names->world;
-    const char *body =
-        s->medium != NO_INDEX ? overlay_material(t->names, s->medium) : "fog";
+    const char *medium = medium_name(t, s);
 
-    if (s->medium != NO_INDEX || !v3_is_zero(w->settings.fog.extinction))
-        print_line(t->to, "      %-*s %s", EVENT_COLS - 2, "in", body);
+    if (strcmp(medium, t->medium) != 0)
+        print_line(t->to, "      %-*s %s", EVENT_COLS - 2, "in",
+                   medium[0] != '\0' ? medium : "no medium");
+    t->medium = medium;
     if (s->wavelength != t->wavelength)
         print_line(t->to, "      %-*s %.1f nm", EVENT_COLS - 2, "wavelength",
                    (double)s->wavelength);
@@ -132,7 +144,9 @@ static void print_step(void *context, const struct path_record_step *s)
                NORMAL_COLS);
     format(texts[2], s->throughput, THROUGHPUT_COLS);
     text_width_fit(material, sizeof material,
-                   is_surface ? overlay_material_of(t->names, s->hit.tri) : "",
+                   is_surface ? overlay_material_of(t->names, s->hit.tri)
+                   : s->way == PATH_RECORD_SCATTERED ? medium_name(t, s)
+                                                     : "",
                    MATERIAL_COLS);
     print_line(t->to, "%3d %-*s %s %-*s %-*s %-*s %s", ++t->count, EVENT_COLS,
                event_of(s), material, DISTANCE_COLS, distance, PLACE_COLS,
@@ -144,7 +158,7 @@ struct vec3 path_text_print(FILE *to, const struct scene *scene,
                             const struct overlay_names *names,
                             struct sample_id id)
 {
-    struct table t = {.to = to, .scene = scene, .names = names};
+    struct table t = {.to = to, .scene = scene, .names = names, .medium = ""};
 
     return path_record_each(names->world, id, print_step, &t);
 }

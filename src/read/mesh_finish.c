@@ -10,6 +10,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text_stream.h"
 #include "read/crease_normals.h"
 #include "read/mtl.h"
 
@@ -198,14 +199,11 @@ static char *clay_text(const struct scene *s, const struct mesh_textures *t)
     char *stem = path_stem_of_input(path_name(s->path));
     char *text = NULL;
     size_t size_bytes;
-    FILE *to = stem == NULL ? NULL : open_memstream(&text, &size_bytes);
+    struct text_stream stream;
 
-    if (to != NULL) {
-        write_materials(to, s, t, stem);
-        if (fclose(to) != 0) {
-            free(text);
-            text = NULL;
-        }
+    if (stem != NULL && text_stream_open(&stream)) {
+        write_materials(stream.to, s, t, stem);
+        text = text_stream_close(&stream, &size_bytes);
     }
     free(stem);
     return text;

@@ -10,6 +10,7 @@
 #include "base/decimal.h"
 #include "base/lexer.h"
 #include "base/memory.h"
+#include "base/text_stream.h"
 #include "read/asset_path.h"
 #include "read/mtl.h"
 
@@ -544,9 +545,11 @@ static char *map_value(const struct writer *w, const struct material_values *s,
     char *name = path_seen_from(w->path, w->scene->texture_paths[s->maps[map]]);
     char *text = NULL;
     size_t size_bytes;
-    FILE *to = name == NULL ? NULL : open_memstream(&text, &size_bytes);
+    struct text_stream stream;
 
-    if (to != NULL) {
+    if (name != NULL && text_stream_open(&stream)) {
+        FILE *to = stream.to;
+
         if (t->scale.x != 1 || t->scale.y != 1)
             print_pair(to, "-s", t->scale, 1);
         print_number(to, "-rotate", angle, 0);
@@ -558,10 +561,7 @@ static char *map_value(const struct writer *w, const struct material_values *s,
                     t->channel == CHANNEL_GREY ? 'l' : " rgbm"[t->channel]);
         print_number(to, "-bm", s->map_scales[map], 1);
         fputs(name, to);
-        if (fclose(to) != 0) {
-            free(text);
-            text = NULL;
-        }
+        text = text_stream_close(&stream, &size_bytes);
     }
     free(name);
     return text;

@@ -12,6 +12,7 @@
 #include "base/lexer.h"
 #include "base/memory.h"
 #include "base/name_table.h"
+#include "base/text_stream.h"
 #include "read/asset_path.h"
 #include "read/face_tris.h"
 #include "read/mesh_finish.h"
@@ -600,17 +601,18 @@ static bool has_nameless_faces(const struct parser *p)
  * those that its faces name. */
 static bool add_own_materials(struct parser *p)
 {
-    char *text = NULL;
+    char *text;
     size_t size_bytes;
-    FILE *to = open_memstream(&text, &size_bytes);
-    bool ok = to != NULL;
+    struct text_stream s;
+    bool ok = text_stream_open(&s);
 
     for (uint32_t i = 1; ok && i < p->materials.count; i++)
-        fprintf(to, "newmtl %s%s\n", p->materials.items[i],
+        fprintf(s.to, "newmtl %s%s\n", p->materials.items[i],
                 lexer_rest_guard(p->materials.items[i]));
     if (ok && has_nameless_faces(p))
-        fputs("newmtl " NAMELESS "\n", to);
-    ok = ok && fclose(to) == 0;
+        fputs("newmtl " NAMELESS "\n", s.to);
+    text = text_stream_close(&s, &size_bytes);
+    ok = text != NULL;
     if (!ok)
         out_of_memory(p);
     else if (size_bytes > 0)

@@ -8,6 +8,7 @@
 
 #include "base/decimal.h"
 #include "base/memory.h"
+#include "base/text_stream.h"
 #include "read/view_parse.h"
 #include "world/light/daylight.h"
 
@@ -277,15 +278,12 @@ static void write_over(struct writer *w, const char *text, size_t size_bytes)
 static char *key_text(const struct view *v, enum view_key_id id,
                       const char *sky, const char *path)
 {
-    char *text = NULL;
+    struct text_stream s;
     size_t size_bytes;
-    FILE *to = open_memstream(&text, &size_bytes);
 
-    if (to != NULL) {
-        write_key(to, v, id, sky, path);
-        fclose(to);
-    }
-    return text;
+    if (text_stream_open(&s))
+        write_key(s.to, v, id, sky, path);
+    return text_stream_close(&s, &size_bytes);
 }
 
 /* Returns the name of the view's sky, for free(), or NULL if it has none. */
@@ -390,6 +388,7 @@ bool view_format(const struct view *view, const struct file_bytes *old,
 {
     const char *path = old->path;
     struct warnings ignored = {0};
+    struct text_stream stream;
     struct view scratch;
     struct writer w = {.view = view,
                        .old = {.view = &scratch,
@@ -399,10 +398,9 @@ bool view_format(const struct view *view, const struct file_bytes *old,
 
     if (!check_names(view, path, err))
         return false;
-    *text = NULL;
-    w.to = open_memstream(text, size_bytes);
-    if (!w.to)
+    if (!text_stream_open(&stream))
         return fail(err, "%s: out of memory", path);
+    w.to = stream.to;
     w.sky = sky = sky_name(view, path);
     find_same(&w, old);
     view_init(&scratch);
@@ -410,7 +408,8 @@ bool view_format(const struct view *view, const struct file_bytes *old,
     view_free(&scratch);
     warnings_free(&ignored);
     free(sky);
-    if (fclose(w.to) == 0 && (sky || !view->lighting.sky_path))
+    *text = text_stream_close(&stream, size_bytes);
+    if (*text != NULL && (sky || !view->lighting.sky_path))
         return true;
     free(*text);
     *text = NULL;

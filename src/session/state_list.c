@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/print.h"
+#include "base/text_stream.h"
 #include "base/xdg.h"
 #include "terminal/xmalloc.h"
 
@@ -71,16 +72,18 @@ void state_list_put(const struct state_list_file *file, const char *line)
 {
     char *path = xdg_state_path(file->name);
     struct state_list list = {.count = 0};
-    char *text = NULL;
+    struct text_stream s;
+    char *text;
     size_t size_bytes;
     struct error ignored;
-    FILE *to = open_memstream(&text, &size_bytes);
 
     append(&list, file, line);
     append_file(&list, file, path);
-    for (int i = 0; i < list.count && to; i++)
-        fprintf(to, "%s\n", list.lines[i]);
-    if (to && fclose(to) == 0 && path)
+    text_stream_open(&s);
+    for (int i = 0; i < list.count && s.to != NULL; i++)
+        fprintf(s.to, "%s\n", list.lines[i]);
+    text = text_stream_close(&s, &size_bytes);
+    if (text != NULL && path)
         file_write(path, text, size_bytes, false, NULL, &ignored);
     free(text);
     free(path);

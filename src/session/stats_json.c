@@ -10,6 +10,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/print.h"
+#include "base/text_stream.h"
 #include "glim/version.h"
 #include "render/progress.h"
 #include "render/render_metadata.h"
@@ -212,16 +213,16 @@ bool stats_json_check(const char *path, struct error *err)
 bool stats_json_write(const struct session *s, bool is_denoised,
                       const char *path, struct error *err)
 {
-    char *text = NULL;
-    size_t size_bytes = 0;
-    FILE *to = open_memstream(&text, &size_bytes);
+    struct text_stream stream;
+    char *text;
+    size_t size_bytes;
     bool ok;
 
-    if (!to)
-        return fail(err, "%s: %s", path, strerror(errno));
-    write_object(to, s, is_denoised);
-    if (fclose(to) != 0) {
-        ok = fail(err, "%s: %s", path, strerror(errno));
+    if (text_stream_open(&stream))
+        write_object(stream.to, s, is_denoised);
+    text = text_stream_close(&stream, &size_bytes);
+    if (text == NULL) {
+        ok = fail(err, "%s: out of memory", path);
     } else if (strcmp(path, "-") == 0) {
         ok = file_write_stdout(text, size_bytes, err);
     } else {

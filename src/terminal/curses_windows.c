@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/print.h"
+#include "base/text_stream.h"
 #include "terminal/glyphs.h"
 #include "terminal/theme.h"
 #include "terminal/tty.h"
@@ -523,12 +524,12 @@ size_t windows_update(void)
 {
     char *bytes;
     size_t size_bytes;
-    struct writer w = {.to = open_memstream(&bytes, &size_bytes),
-                       .row = -1,
-                       .style = {CELL_DEFAULT, CELL_DEFAULT, 0}};
+    struct text_stream s;
+    struct writer w = {.row = -1, .style = {CELL_DEFAULT, CELL_DEFAULT, 0}};
 
-    if (!w.to)
+    if (!text_stream_open(&s))
         return 0;
+    w.to = s.to;
     if (shown.must_clear)
         fputs("\033[m\033[H\033[J", w.to);
     shown.must_clear = false;
@@ -537,9 +538,10 @@ size_t windows_update(void)
             update_cell(&w, col, row);
         shown.is_touched[row] = false;
     }
-    if (ftell(w.to) > 0)
-        fprintf(w.to, "\033[m\033[%d;1H", shown.rows);
-    fclose(w.to);
+    fflush(s.to);
+    if (s.size_bytes > 0)
+        fprintf(s.to, "\033[m\033[%d;1H", shown.rows);
+    bytes = xchecked(text_stream_close(&s, &size_bytes));
     tty_write(bytes, size_bytes);
     free(bytes);
     return size_bytes;

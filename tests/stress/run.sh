@@ -187,6 +187,11 @@ stress_keys() {
     done
 }
 
+# Lets one call after another fail.
+stress_faults() {
+    count_rows faults env BUILD="$build" tests/faults/run.sh
+}
+
 # Reaches the same samples in many ways.
 stress_films() {
     mkdir "$work/films"
@@ -218,7 +223,8 @@ stress_extremes() {
     rows extremes
 }
 
-for name in samples geometry light films schedulers error filter gltf blender extremes sizes keys rays oclgrind valgrind; do
+for name in samples geometry light films schedulers error filter gltf blender extremes sizes keys rays \
+    faults oclgrind valgrind; do
     if wanted "$name"; then
         "stress_$name"
     fi

@@ -12,6 +12,7 @@
 
 #include "base/geometry.h"
 #include "base/name_table.h"
+#include "base/text_stream.h"
 #include "read/child/import_material.h"
 #include "read/child/import_stream.h"
 
@@ -328,21 +329,21 @@ static char *material_text(const struct assimp_api *api, struct sender *s,
                            size_t *size_bytes)
 {
     struct name_table names = {0};
-    char *text = NULL;
-    FILE *to = open_memstream(&text, size_bytes);
-    const struct import_materials m = {api,     s->scene,
-                                       s->path, &s->source,
-                                       to,      &s->head.clamped_count};
-    bool ok = to != NULL;
+    struct text_stream stream;
+    bool ok = text_stream_open(&stream);
+    const struct import_materials m = {api,       s->scene,
+                                       s->path,   &s->source,
+                                       stream.to, &s->head.clamped_count};
+    char *text;
 
     for (unsigned i = 0; ok && i < s->scene->mNumMaterials; i++)
         ok = import_material_write(&m, s->scene->mMaterials[i], &names);
     name_table_free(&names);
-    if (to != NULL && (fclose(to) != 0 || !ok)) {
-        free(text);
-        text = NULL;
-    }
-    return text;
+    text = text_stream_close(&stream, size_bytes);
+    if (ok)
+        return text;
+    free(text);
+    return NULL;
 }
 
 static bool fill_head(struct sender *s, size_t material_bytes,

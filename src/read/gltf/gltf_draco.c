@@ -9,6 +9,7 @@
 
 #include "base/library_child.h"
 #include "base/memory.h"
+#include "base/text_stream.h"
 #include "read/gltf/gltf_accessor.h"
 #include "kernels/types.h"
 
@@ -228,12 +229,13 @@ struct walk {
     size_t view_capacity;
 };
 
-/* Writes all requests into memory, for free(). */
+/* Writes all requests into memory, for free(). Returns false without
+ * memory. */
 static bool write_requests(const struct walk *walk, char **bytes,
                            size_t *size_bytes, struct error *err)
 {
-    FILE *to = open_memstream(bytes, size_bytes);
-    bool ok = to != NULL;
+    struct text_stream s;
+    bool ok = text_stream_open(&s);
 
     for (uint32_t i = 0; ok && i < walk->list.request_count; i++) {
         const struct gltf_packed_request *r = &walk->list.requests[i];
@@ -241,15 +243,14 @@ static bool write_requests(const struct walk *walk, char **bytes,
         const struct draco_request head = {.size_bytes = data->size_bytes,
                                            .attribute_count = r->part_count};
 
-        fwrite(&head, sizeof head, 1, to);
+        fwrite(&head, sizeof head, 1, s.to);
         for (uint32_t k = 0; k < r->part_count; k++)
             fwrite(&walk->list.parts[r->first_part + k].id, sizeof(uint32_t), 1,
-                   to);
-        fwrite(data->bytes, 1, data->size_bytes, to);
+                   s.to);
+        fwrite(data->bytes, 1, data->size_bytes, s.to);
     }
-    ok = ok && !ferror(to);
-    ok = to != NULL && fclose(to) == 0 && ok;
-    return ok ||
+    *bytes = text_stream_close(&s, size_bytes);
+    return *bytes != NULL ||
            fail(err, "%s: out of memory for its meshes", walk->document->path);
 }
 

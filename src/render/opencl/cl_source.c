@@ -10,6 +10,7 @@
 #include "base/lexer.h"
 #include "base/memory.h"
 #include "base/name_table.h"
+#include "base/text_stream.h"
 
 /* Prefix of kernel files in #include lines and messages, wherever they are read
  * from. */
@@ -173,19 +174,19 @@ static bool splice_entries(struct splice *s, struct error *err)
 char *cl_source_text(const char *folder, struct error *err)
 {
     struct splice s = {.folder = folder};
-    char *text = NULL;
+    struct text_stream stream;
+    bool ok = true;
+    char *text;
     size_t size_bytes;
 
-    s.out = open_memstream(&text, &size_bytes);
-    if (!s.out) {
-        fail(err, "out of memory for the kernels");
-        return NULL;
+    if (text_stream_open(&stream)) {
+        s.out = stream.to;
+        ok = splice_entries(&s, err);
     }
-    bool ok = splice_entries(&s, err);
-    bool is_complete = !ferror(s.out);
-    if ((fclose(s.out) != 0 || !is_complete) && ok)
-        ok = fail(err, "out of memory for the kernels");
+    text = text_stream_close(&stream, &size_bytes);
     name_table_free(&s.seen);
+    if (ok && text == NULL)
+        fail(err, "out of memory for the kernels");
     if (ok)
         return text;
     free(text);

@@ -104,13 +104,6 @@ int __wrap___vasprintf_chk(char **text, int flag, const char *format,
     return __wrap_vasprintf(text, format, values);
 }
 
-FILE *__real_open_memstream(char **text, size_t *size);
-FILE *__wrap_open_memstream(char **text, size_t *size);
-FILE *__wrap_open_memstream(char **text, size_t *size)
-{
-    return fails() ? NULL : counted(__real_open_memstream(text, size));
-}
-
 /* Headers of an optimised build call this for getline(). */
 ssize_t __real___getdelim(char **line, size_t *size, int end, FILE *from);
 ssize_t __wrap___getdelim(char **line, size_t *size, int end, FILE *from);
