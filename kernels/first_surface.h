@@ -122,14 +122,15 @@ static inline void first_surface_light(struct first_surface *s, uint32_t vertex,
 }
 
 /* Completes the surface with the whole radiance of the path, which has this
- * number of vertices. */
+ * number of vertices. Light of a path that ends at a surface is reflected
+ * there, not seen. */
 static inline void first_surface_end(const struct world *w,
                                      struct first_surface *s, uint32_t vertices,
                                      struct vec3 radiance)
 {
     if (!HAS(FEATURE_FILTER))
         return;
-    if (vertices == 1)
+    if (vertices == 1 && s->state == SURFACE_AHEAD)
         s->seen = radiance;
     if (w->settings.camera.lens_radius > 0.0f)
         s->seen = v3(0.0f, 0.0f, 0.0f);

@@ -9,6 +9,7 @@
 #include "tests/unit/mesh.h"
 
 #include "tests/unit/paths.h"
+#include "tests/unit/truth.h"
 #include "kernels/pixel.h"
 
 enum { FLOOR, MIRROR, PANE };
@@ -168,6 +169,40 @@ static void direct_light_is_that_of_short_paths(void **state)
     mesh_free(&m);
 }
 
+/* Many directions into which rough metal scatters grazing light lie below it.
+ * Paths that end there have the light of their shadow ray, which is not seen.
+ */
+static void light_of_paths_that_end_is_not_seen(void **state)
+{
+    struct point_light lamp = {.p = {4, 1, 1},
+                               .cone_offset = 1,
+                               .emission = {9, 9, 9}};
+    struct lit_mesh s = {.lights = {.lights = NULL}};
+    int ended = 0;
+
+    (void)state;
+    s.mesh.materials[FLOOR] = mesh_material(MATERIAL_METAL, 0.9f);
+    s.mesh.materials[FLOOR].alpha = 0.3f;
+    s.mesh.world.settings.features = FEATURES_ALL;
+    s.mesh.world.point_lights = &lamp;
+    s.mesh.world.settings.point_light_count = 1;
+    mesh_add_quad(&s.mesh, v3(-99, 0, 99), v3(99, 0, 99), v3(99, 0, -99),
+                  v3(-99, 0, -99), FLOOR);
+    lit_mesh_finish(&s);
+    lit_mesh_lend(&s, DIRECT_MIS);
+    for (uint64_t i = 0; i < 5000; i++) {
+        struct first_surface first;
+        struct path_sample all = follow(&s.mesh, v3(1, -0.2f, 0), i, &first);
+
+        check_close(first.seen.x, 0, 0);
+        check_close(first.direct.x, all.radiance.x, 0);
+        assert_true(all.radiance.x > 0);
+        ended += all.rays == 2; /* of the camera and to the lamp */
+    }
+    assert_true(ended > 50);
+    lit_mesh_free(&s);
+}
+
 /* Sums of features have the means of what was added, at most 65,536 times; sums
  * of light have all. */
 static void sums_are_of_what_was_added(void **state)
@@ -203,6 +238,7 @@ int main(void)
         cmocka_unit_test(surfaces_are_found),
         cmocka_unit_test(light_behind_coverage_is_not_seen),
         cmocka_unit_test(direct_light_is_that_of_short_paths),
+        cmocka_unit_test(light_of_paths_that_end_is_not_seen),
         cmocka_unit_test(sums_are_of_what_was_added),
     };
 
