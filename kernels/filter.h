@@ -23,9 +23,12 @@
  * So both get a weight in common as well, from second differences,
  * u(q) + u(r) - 2 u(p), of light and of features: filter_opposite_distance(),
  * summed in the same way, and filter_opposite_features().
- * filter_joined_weight() is the weight of q from both. First-order regression
- * (Bitterli et al. 2016, "Nonlinearly weighted first-order regression for
- * denoising Monte Carlo renderings") has the same aim.
+ * Where p lies at an edge between two surfaces, the mean of q and r is that of
+ * their light times albedo, so filter_opposite_share() divides the weight by
+ * albedo. Else noise of a black surface would be dots at the edge of a white
+ * one. filter_joined_weight() is the weight of q from both. First-order
+ * regression (Bitterli et al. 2016, "Nonlinearly weighted first-order
+ * regression for denoising Monte Carlo renderings") has the same aim.
  *
  * Before all that, the features themselves are averaged in
  * FILTER_FEATURE_LEVELS levels with filter_weight() of
@@ -57,7 +60,7 @@
  * finite, and differences down to 2^-100 of it have squares above 0. */
 #define FILTER_TOP 55
 
-/* Least variance. It only prevents a division of 0 by 0. */
+/* Least variance, and sum of albedos. It only prevents a division of 0 by 0. */
 #define FILTER_VARIANCE_MIN 0x1p-120f
 
 /* Squared number of standard deviations that count as noise. */
@@ -161,13 +164,20 @@ static inline float filter_weight(float tap, float light, float features)
     return tap * (w * w);
 }
 
-/* Returns the weight of q from the one in common with the opposite pixel and
- * its own, which counts where the other is small: q and r have nearly the same
- * weight where light is even. */
-static inline float filter_joined_weight(float opposite, float own,
+/* Returns the share of q in the weight that it has with the opposite pixel r,
+ * from their albedos. Outside of the picture these are 0. */
+static inline float filter_opposite_share(float q, float r)
+{
+    return q / (FILTER_VARIANCE_MIN + (q + r));
+}
+
+/* Returns the weight of q from the one in common with the opposite pixel, of
+ * both of which it has this share, and its own, which counts where the other is
+ * small: q and r have nearly the same weight where light is even. */
+static inline float filter_joined_weight(float opposite, float share, float own,
                                          float inverse_tap)
 {
-    return opposite + (1.0f - opposite * inverse_tap) * own;
+    return 2.0f * opposite * share + (1.0f - opposite * inverse_tap) * own;
 }
 
 #endif

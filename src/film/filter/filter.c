@@ -43,8 +43,8 @@ const struct filter_loops *filter_loops_at(int i)
 /* ---- the filter ---- */
 
 /* Planes of two copies of two halves, weights of pairs and of opposite pixels,
- * features with their noise, samples, and counts. */
-#define PLANES (2 * 8 + 4 * FILTER_PAIRS + FILTER_FEATURES + 1 + 1 + 2)
+ * features with their noise, samples, albedo, and counts. */
+#define PLANES (2 * 8 + 4 * FILTER_PAIRS + FILTER_FEATURES + 1 + 1 + 1 + 2)
 
 /* Least sum of weights from which the missing half of a pixel is taken. */
 #define GAP_WEIGHT_MIN 1e-3f
@@ -127,6 +127,7 @@ bool filter_init(struct filter *f, int width, int height, struct error *err)
         p->features.means[i] = take(p, &next);
     p->features.noise = take(p, &next);
     p->samples = take(p, &next);
+    p->albedo = take(p, &next);
     for (int h = 0; h < 2; h++)
         f->count[h] = take(p, &next);
     return true;
@@ -565,6 +566,19 @@ static void smooth_features(struct job *j, struct pool *pool)
     }
 }
 
+/* Sums the channels of the albedo in a row, as light is divided by them. */
+static void sum_albedo(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter_planes *p = &j->filter->planes;
+    ptrdiff_t at = (int)item * p->pitch;
+
+    (void)worker;
+    for (int x = 0; x < p->width; x++, at++)
+        p->albedo[at] =
+            divisor(p, 0, at) + divisor(p, 1, at) + divisor(p, 2, at);
+}
+
 /* Runs a level in this thread, row of tiles after row of tiles, while weights
  * are in a near cache. Averages need no weights of the rows below. */
 static void run_level(struct job *j)
@@ -695,6 +709,7 @@ void filter_run(struct filter *f, const struct filter_source *source,
     j.mean_samples = mean_samples(f);
     pool_each(pool, rows, scale_features, &j);
     smooth_features(&j, pool);
+    pool_each(pool, rows, sum_albedo, &j);
     for (; j.component < source->component_count && !is_cancelled(&j);
          j.component++)
         run_component(&j, form, pool);

@@ -434,61 +434,101 @@ static void weigh(const struct filter_planes *p, struct filter_tile at,
 
 /* ---- averages ---- */
 
-/* Joins the weights of a row with those of opposite pixels. */
-VECTORISED static void join(const float *restrict opposite,
-                            const float *restrict weights, float inverse_tap,
-                            int width, float *restrict joined)
+/* Values of the four pairs of pixels around each pixel of a row. */
+typedef float pair_rows[PAIRS][WIDTH];
+
+/* Computes the shares of the pixels `away` from those of a row in the weights
+ * that they have in common with the opposite ones. */
+VECTORISED static void share_row(const float *restrict albedo, ptrdiff_t away,
+                                 int width, float *restrict shares)
 {
     for (int x = 0; x < width; x++)
-        joined[x] = filter_joined_weight(opposite[x], weights[x], inverse_tap);
+        shares[x] = filter_opposite_share(albedo[x + away], albedo[x - away]);
+}
+
+/* Joins the weights of a row and of its opposite pixels with those that they
+ * have in common. */
+VECTORISED static void join(const float *restrict opposite,
+                            const float *restrict shares,
+                            const float *const weights[2], float inverse_tap,
+                            int width, float *const joined[2])
+{
+    const float *first = weights[0], *second = weights[1];
+    float *restrict q = joined[0], *restrict r = joined[1];
+
+    for (int x = 0; x < width; x++) {
+        q[x] =
+            filter_joined_weight(opposite[x], shares[x], first[x], inverse_tap);
+        r[x] = filter_joined_weight(opposite[x], 1.0f - shares[x], second[x],
+                                    inverse_tap);
+    }
 }
 
 /* Joins the weights of a row, from half h, with those of opposite pixels. */
 static void join_taps(const struct tile *t, int h, ptrdiff_t at,
-                      float joined[TAPS][WIDTH], struct taps *taps)
+                      pair_rows shares, float joined[TAPS][WIDTH],
+                      struct taps *taps)
 {
-    for (int k = 0; k < TAPS; k++) {
-        join(t->planes->opposite[h][k % PAIRS] + at, taps->weights[k],
-             1.0f / pairs[k % PAIRS].tap, t->at.width, joined[k]);
-        taps->weights[k] = joined[k];
+    for (int k = 0; k < PAIRS; k++) {
+        const float *const weights[2] = {taps->weights[k],
+                                         taps->weights[PAIRS + k]};
+        float *const to[2] = {joined[k], joined[PAIRS + k]};
+
+        join(t->planes->opposite[h][k] + at, shares[k], weights,
+             1.0f / pairs[k].tap, t->at.width, to);
+        taps->weights[k] = to[0];
+        taps->weights[PAIRS + k] = to[1];
     }
 }
 
-/* Averages half h with the weights of the other half. */
-static void average_half(const struct tile *t, int h,
-                         const struct filter_level *level)
+/* Averages a row of half h with the weights of the other half. */
+static void average_row(const struct tile *t, int h, ptrdiff_t at,
+                        const struct filter_level *level, pair_rows shares)
 {
     const struct filter_halves *to = &t->planes->halves[1 - level->from];
+    struct taps taps = taps_of(t->planes, 1 - h, at, level->step);
+    float inverse[WIDTH], joined[TAPS][WIDTH];
 
-    for (int y = 0; y < t->at.height; y++) {
-        ptrdiff_t at = index_of(t->planes, t->at.x, t->at.y + y);
-        struct taps taps = taps_of(t->planes, 1 - h, at, level->step);
-        float inverse[WIDTH], joined[TAPS][WIDTH];
-
-        if (level->has_opposite)
-            join_taps(t, 1 - h, at, joined, &taps);
-        inverse_sums(&taps, t->at.width, inverse);
-        for (int c = 0; c < 3; c++)
-            average_light(&taps, t->from->light[h][c] + at, inverse,
-                          t->at.width, to->light[h][c] + at);
-        if (!level->is_last)
-            average_variance(&taps, t->from->variance[h] + at, inverse,
-                             t->at.width, to->variance[h] + at);
-    }
-    if (level->is_last)
-        return;
+    if (level->has_opposite)
+        join_taps(t, 1 - h, at, shares, joined, &taps);
+    inverse_sums(&taps, t->at.width, inverse);
     for (int c = 0; c < 3; c++)
-        filter_extend(t->planes, to->light[h][c], t->at);
-    filter_extend(t->planes, to->variance[h], t->at);
+        average_light(&taps, t->from->light[h][c] + at, inverse, t->at.width,
+                      to->light[h][c] + at);
+    if (!level->is_last)
+        average_variance(&taps, t->from->variance[h] + at, inverse, t->at.width,
+                         to->variance[h] + at);
+}
+
+static void average_rows(const struct tile *t, const struct filter_level *level)
+{
+    const struct filter_planes *p = t->planes;
+    pair_rows shares;
+
+    for (int y = t->at.y; y < t->at.y + t->at.height; y++) {
+        ptrdiff_t at = index_of(p, t->at.x, y);
+
+        for (int k = 0; level->has_opposite && k < PAIRS; k++)
+            share_row(p->albedo + at,
+                      index_of(p, pairs[k].x, pairs[k].y) * level->step,
+                      t->at.width, shares[k]);
+        for (int h = 0; h < 2; h++)
+            average_row(t, h, at, level, shares);
+    }
 }
 
 static void average(const struct filter_planes *p, struct filter_tile at,
                     const struct filter_level *level)
 {
     struct tile t = {p, &p->halves[level->from], at};
+    const struct filter_halves *to = &p->halves[1 - level->from];
 
-    for (int h = 0; h < 2; h++)
-        average_half(&t, h, level);
+    average_rows(&t, level);
+    for (int h = 0; h < 2 && !level->is_last; h++) {
+        for (int c = 0; c < 3; c++)
+            filter_extend(p, to->light[h][c], at);
+        filter_extend(p, to->variance[h], at);
+    }
 }
 
 /* ---- variance ---- */

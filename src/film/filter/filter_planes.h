@@ -61,6 +61,7 @@ struct filter_planes {
     float *opposite[2][FILTER_PAIRS];
     struct filter_features features;
     float *samples; /* of each pixel, over the mean of all */
+    float *albedo;  /* sum of channels, each with FILTER_ALBEDO_MIN */
 };
 
 struct filter_tile {

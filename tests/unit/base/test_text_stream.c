@@ -37,7 +37,7 @@ static void everything_is_kept(void **state)
         assert_non_null(text);
         assert_int_equal(strlen(text), size_bytes);
         assert_in_range(size_bytes, 5 * (size_t)counts[i],
-                        5 * (size_t)counts[i] + (size_t)counts[i] / 5);
+                        5 * (size_t)counts[i] + (size_t)counts[i] / 2);
         for (int k = 0; k < counts[i] && k < 10000; k++)
             assert_int_equal(atoi(text + 5 * k), k);
         free(text);

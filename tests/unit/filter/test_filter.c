@@ -500,6 +500,38 @@ static void chance_between_surfaces_falls(void **state)
     }
 }
 
+/* Pixels of a column at an edge, half black and half white, have the mean light
+ * of both surfaces. The mean of light without albedo, which is 50 times as much
+ * on the black one, would make 12 times of it. */
+static void black_does_not_shine_on_white(void **state)
+{
+    static const double albedos[] = {0.8, 0.41, 0.02};
+    static const double lights[] = {0.08, 0.09, 0.1};
+    uint64_t seed = 12;
+    struct picture p;
+    double mean = 0;
+    float *rgb;
+
+    (void)state;
+    picture_init(&p, 33, 256);
+    for (int i = 0; i < 33 * 256; i++) {
+        int side = i % 33 < 16 ? 0 : i % 33 == 16 ? 1 : 2;
+
+        for (int f = 0; f < 3; f++)
+            p.features[i][f] = (float)albedos[side];
+        for (int h = 0; h < 2; h++)
+            set_grey(&p, h, i,
+                     (float)(-lights[side] * log(1 - check_random(&seed))));
+    }
+    rgb = filtered_well(&p);
+    for (int y = 0; y < 256; y++)
+        mean += rgb[3 * (33 * y + 16)] / 256.0;
+    /* five standard errors of the mean of the raw column */
+    check_close(mean, 0.09, 5 * 0.09 / sqrt(2 * 256));
+    free(rgb);
+    picture_free(&p);
+}
+
 /* ---- the definition, in double precision ---- */
 
 struct truth {
@@ -627,12 +659,20 @@ static double weight_of(double d)
     return pow(fmax(1 - d / 16, 0), 16);
 }
 
+/* The sum of the channels by which light is divided. */
+static double albedo_sum(const struct truth *t, int p)
+{
+    return (t->features[0][p] + t->features[1][p] + t->features[2][p]) /
+               7.0710678 +
+           3e-3;
+}
+
 /* The weight of the pixel a step away from (x, y) over its tap, from half h. */
 static double truth_weight(const struct truth *t, int h, int x, int y, int dx,
                            int dy, bool has_opposite)
 {
     int p = at(t, x, y), q = at(t, x + dx, y + dy), r = at(t, x - dx, y - dy);
-    double own = 0, opposite = 0;
+    double own = 0, opposite = 0, share = 0;
 
     if (is_inside(t->p, x + dx, y + dy)) {
         own = weight_of(light_distance(t, h, x, y, dx, dy) +
@@ -640,8 +680,9 @@ static double truth_weight(const struct truth *t, int h, int x, int y, int dx,
         if (has_opposite && is_inside(t->p, x - dx, y - dy))
             opposite = weight_of(opposite_light(t, h, x, y, dx, dy) +
                                  opposite_features(t, p, q, r));
+        share = albedo_sum(t, q) / (albedo_sum(t, q) + albedo_sum(t, r));
     }
-    return opposite + (1 - opposite) * own;
+    return 2 * opposite * share + (1 - opposite) * own;
 }
 
 /* The weight of the pixel of index k in 0 to 8 around (x, y) for features, and
@@ -948,6 +989,7 @@ int main(void)
         cmocka_unit_test(light_of_both_halves_stays),
         cmocka_unit_test(noise_of_features_is_no_edge),
         cmocka_unit_test(chance_between_surfaces_falls),
+        cmocka_unit_test(black_does_not_shine_on_white),
         cmocka_unit_test(result_is_the_definition),
         cmocka_unit_test(bits_depend_on_the_picture_only),
         cmocka_unit_test(halves_are_alike),
