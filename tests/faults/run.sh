@@ -21,7 +21,7 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 export FAULT_COUNT=$work/count XDG_STATE_HOME=$work/state
 glim=$build/glim
-films=0
+failed=0
 small='-b -w 16 -h 9 -s 2 -t 2'
 
 # Runs the command in an empty folder, with what the run before left in `given`.
@@ -65,12 +65,14 @@ differing()
 # pixels.
 is_same_film()
 {
+    local n=0 film
+
     for film in "$1" "$2"; do
-        "$glim" info "$film" | sed -e 1d -e '/^  time /d' >"$work/${film##*/}.$((++films))"
-        "$glim" develop "$film" -o "$work/$films.pfm" 2>/dev/null
+        n=$((n + 1))
+        "$glim" info "$film" | sed -e 1d -e '/^  time /d' >"$work/info$n"
+        "$glim" develop "$film" -o "$work/$n.pfm" 2>/dev/null || return
     done
-    cmp -s "$work/${film##*/}.$films" "$work/${film##*/}.$((films - 1))" &&
-        cmp -s "$work/$films.pfm" "$work/$((films - 1)).pfm"
+    cmp -s "$work/info1" "$work/info2" && cmp -s "$work/1.pfm" "$work/2.pfm"
 }
 
 # Prints what is wrong after an attempt, if anything is.
@@ -107,6 +109,7 @@ tally() # NAME TRIED BAD ERRORS
         echo "ok $1: $2 faults, $4 errors"
     else
         echo "FAIL $1: $3 of $2 faults"
+        failed=1
     fi
 }
 
@@ -182,13 +185,60 @@ check() # NAME COMMAND...
     attempt -- "${@:2}"
     rm -rf "$work/good"
     cp -r "$work/run" "$work/good"
-    [ "$status" = 0 ] || echo "FAIL $name without a fault: $(cat "$work/said")"
+    [ "$status" = 0 ] || tally "$name without a fault" 1 1
     calls "$@"
     if command -v strace >/dev/null; then
         system_calls "$@"
     else
         echo "skip $name, system calls (no strace)"
     fi
+}
+
+# Presses keys that move, open windows, save and quit.
+press()
+{
+    local key
+
+    for key in w d e m m v p '+' l n N g g; do
+        sleep 0.03
+        printf '%s' "$key"
+    done
+    sleep 0.2
+    printf '\021'
+}
+
+# Lets memory fail on the screen, which must be left each time that it was
+# entered, with a reason behind it if glim fails.
+screen()
+{
+    local n total tried=0 bad=0 errors=0 in out with
+
+    [[ screen == *"${FILTER-}"* ]] || return
+    command -v script >/dev/null || {
+        echo 'skip screen (no script)'
+        return
+    }
+    for ((n = -1; n <= ${total:-0}; n += n < 1 ? 2 : step)); do
+        preload memory:$n
+        rm -rf "$work/run" "$work/state" "$FAULT_COUNT"
+        mkdir "$work/run"
+        press | (cd "$work/run" && timeout 60 script -qec "stty rows 30 cols 100
+            TERM=xterm-256color ${with[*]} $glim -w 32 -h 18 -s 4 -t 1 \
+            $scenes/cornell.obj" "$work/typescript" >/dev/null 2>&1)
+        status=$?
+        total=${total:-$(od -An -t d8 "$FAULT_COUNT" | tr -d ' ')}
+        in=$(grep -ao '\[?1049h' "$work/typescript" | wc -l)
+        out=$(grep -ao '\[?1049l' "$work/typescript" | wc -l)
+        tried=$((tried + 1))
+        [ $status = 0 ] || errors=$((errors + 1))
+        if [ $status -gt 1 ] || [ "$in" != "$out" ] ||
+            [ $status = 1 ] && ! grep -aq 'glim: \|Out of memory' \
+                "$work/typescript" || ls "$work/run"/*~ >/dev/null 2>&1; then
+            bad=$((bad + 1))
+            echo "-- memory:$n: status $status, entered $in times, left $out"
+        fi
+    done
+    tally 'screen, memory' $tried $bad $errors
 }
 
 # shellcheck disable=SC2086 # words
@@ -208,3 +258,5 @@ pictures()
 }
 
 pictures
+screen
+exit $failed
