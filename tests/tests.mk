@@ -123,6 +123,12 @@ search: $(FUZZERS)
 stress: $(L)/glim $(MPI_PROGRAM) $(FAULTS) $(STRESSES) $(L)/unit/terminal/test_tty
 	@BUILD=$(L) FILTER='$(FILTER)' tests/stress/run.sh
 
+## soak: presses random keys for an hour, or TIME=SECONDS: the screen must be the
+##       expected one after each, and memory must not grow
+soak: $(L)/unit/terminal/test_tty
+	@TERM_SECONDS='$(if $(filter file,$(origin TIME)),3600,$(TIME))' \
+		TERM_SEED="$$(date +%s)" $<
+
 ## mutants: breaks one factor after another, which a test must notice;
 ##          FILTER=PART of names, files or tests
 mutants:
@@ -149,7 +155,7 @@ lint:
 	@printf '%s\n' $(C_FILES) | SOURCES='$(SOURCES) $(KERNEL_SOURCES)' \
 		FLAGS='$(ALL_CFLAGS)' BUILD='$(B)' tests/lint.sh
 
-.PHONY: test tests run-tests fuzz search stress mutants scenes tables format lint
+.PHONY: test tests run-tests fuzz search stress soak mutants scenes tables format lint
 -include $(GENERATOR:.o=.d) $(B)/fuzz/replay.d $(B)/unit/paths.d \
 	$(B)/unit/gltf/draco_encode.d $(patsubst $(L)/%,$(B)/%.d,$(UNITS) \
 	$(STRESSES) $(FUZZERS) $(BENCHES) $(TOOLS))

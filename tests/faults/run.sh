@@ -164,12 +164,12 @@ system_calls() # NAME COMMAND...
     for fault in openat:EMFILE read:EIO fsync:EIO rename:EIO link:EIO \
         clone3:EAGAIN close:EIO; do
         call=${fault%:*}
-        attempt strace -f -qq -o "$work/trace" -e trace=$call -- "$@"
+        attempt strace -f -qq -o "$work/trace" -e "trace=$call" -- "$@"
         total=$(cut -d ' ' -f 1 "$work/trace" | sort | uniq -c | sort -n |
             awk 'END { print $1 + 0 }')
         tried=0 bad=0 errors=0
         for ((n = 1; n <= total; n += (step + 9) / 10)); do
-            try strace -f -qq -o /dev/null -e trace=$call \
+            try strace -f -qq -o /dev/null -e "trace=$call" \
                 -e "inject=$call:error=${fault#*:}:when=$n" -- "$@"
         done
         [ $tried = 0 ] || tally "$name, $call" $tried $bad $errors

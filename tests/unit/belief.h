@@ -15,6 +15,7 @@
 #define TESTS_BELIEF_H
 
 #include <curses.h>
+#include <malloc.h>
 #include <semaphore.h>
 #include <stdbool.h>
 #include <string.h>
@@ -39,6 +40,8 @@ static struct shared {
     unsigned long taken_bytes; /* bytes of keys */
     bool is_whole;             /* curses has written everything */
     int cols, rows;
+    bool wants_memory; /* the child measures its memory each time */
+    long allocated_bytes;
     struct belief_cell cell[VT_ROWS_MAX][VT_COLS_MAX];
 } * shared;
 
@@ -125,6 +128,29 @@ static void tell_picture(const struct screen *screen)
                sizeof under[0]);
 }
 
+/* Returns the bytes that are allocated in all arenas, by the sums that the C
+ * library writes behind those of each. */
+static long allocated_bytes(void)
+{
+    char *text = NULL;
+    size_t size_bytes;
+    FILE *to = open_memstream(&text, &size_bytes);
+    long fast, rest, mapped, all, sum = 0;
+
+    malloc_info(0, to);
+    fclose(to);
+    for (const char *p = text; (p = strstr(p, "</heap>")) != NULL; p++)
+        if (sscanf(p,
+                   "</heap> <total type=\"fast\" count=\"%*d\" size=\"%ld\"/> "
+                   "<total type=\"rest\" count=\"%*d\" size=\"%ld\"/> "
+                   "<total type=\"mmap\" count=\"%*d\" size=\"%ld\"/> "
+                   "<system type=\"current\" size=\"%ld\"/>",
+                   &fast, &rest, &mapped, &all) == 4)
+            sum = all + mapped - fast - rest;
+    free(text);
+    return sum;
+}
+
 static void tell(const struct screen *screen)
 {
     shared->is_whole = !screen->must_update && screen->has_all_answers;
@@ -134,6 +160,8 @@ static void tell(const struct screen *screen)
         tell_text();
     if (shared->is_whole && !screen->is_too_small)
         tell_picture(screen);
+    if (shared->wants_memory)
+        shared->allocated_bytes = allocated_bytes();
     shared->told++;
     tty_write("\033]told\033\\", 8);
     while (sem_wait(&shared->go) != 0) {

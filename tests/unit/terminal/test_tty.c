@@ -7,8 +7,10 @@
  * terminal must show this screen, and no sequence may have moved cells.
  *
  * TERM_KEYS and TERM_SEED in the environment set the number of random keys and
- * their seed.
+ * their seed. With TERM_SECONDS only random keys are sent, for that long, and
+ * memory must not grow after the first tenth of it.
  */
+#include <limits.h>
 #include <locale.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,6 +32,10 @@
     "?"      \
     "zo\177\033[B\033[5~" ESCAPE ESCAPE
 #define MENU ESCAPE "o" ESCAPE ESCAPE
+
+/* Growth of memory that is no leak, and keys between two measurements. */
+#define GROWTH_MOST_KB 1024
+#define REST_EVERY     100
 
 #define KEYS (check_is_thorough() ? 2000 : 700)
 
@@ -135,7 +141,8 @@ static void no_key_moves_cells(void **state)
 
     (void)state;
     for (int i = 0; i < COUNT(terminals); i++) {
-        if (!check_is_due(2) || !has_terminal(terminals[i]))
+        if (!check_is_due(2) || getenv("TERM_SECONDS") != NULL ||
+            !has_terminal(terminals[i]))
             continue;
         arguments[7] = i == 0 ? interior : wide;
         copy_scenes();
@@ -220,12 +227,73 @@ static void play_random_keys(const char *term, unsigned long keys,
     close_line();
 }
 
+/* Returns the memory that glim has allocated when it rests. */
+static long rest_kb(void)
+{
+    resize(100, 30, false);
+    for (int i = 0; i < 6; i++)
+        press(ESCAPE, false);
+    shared->wants_memory = true;
+    settle_all();
+    settle_all();
+    shared->wants_memory = false;
+    return shared->allocated_bytes / 1024;
+}
+
+/* Sends random keys until a time, and returns the least memory at rest in
+ * between: what is allocated depends on what is shown and was begun. */
+static long play_until(double end, uint64_t begin_ns, uint64_t *seed,
+                       unsigned long *keys)
+{
+    long least_kb = LONG_MAX;
+
+    while ((double)(clock_ns() - begin_ns) * 1e-9 < end) {
+        long kb = *keys % REST_EVERY == 0 ? rest_kb() : LONG_MAX;
+
+        least_kb = kb < least_kb ? kb : least_kb;
+        random_key(seed);
+        if (++*keys % WHOLE_EVERY == 0)
+            settle_all();
+    }
+    return least_kb;
+}
+
+/* Sends random keys for a time, of which each tenth has its least memory. */
+static void soak(double seconds, uint64_t seed)
+{
+    const double tenth = seconds / 10;
+    char *arguments[] = {program, size_w, width, size_h, height,
+                         threads, one,    wide,  NULL};
+    uint64_t begin_ns = clock_ns();
+    unsigned long keys = 0;
+    long first_kb;
+
+    copy_scenes();
+    open_line(terminals[0], 100, 30, arguments);
+    settle(true);
+    first_kb = play_until(tenth, begin_ns, &seed, &keys);
+    for (double next = 2 * tenth; next <= seconds; next += tenth) {
+        long kb = play_until(next, begin_ns, &seed, &keys);
+
+        print_message("%.0f s, %lu keys, %ld KB of memory, %ld KB at first\n",
+                      next, keys, kb, first_kb);
+        if (kb > first_kb + GROWTH_MOST_KB)
+            fail_at("memory grows");
+    }
+    close_line();
+}
+
 static void random_keys_leave_the_expected_screen(void **state)
 {
     unsigned long keys = number_from("TERM_KEYS", KEYS);
     uint64_t seed = number_from("TERM_SEED", 1);
+    unsigned long seconds = number_from("TERM_SECONDS", 0);
 
     (void)state;
+    if (seconds > 0) {
+        soak((double)seconds, seed);
+        return;
+    }
     play_random_keys(terminals[0], keys / 2, seed);
     for (int i = 1; i < COUNT(terminals); i++)
         play_random_keys(terminals[i], keys / 10, seed + (unsigned)i);
