@@ -120,7 +120,7 @@ function check_output(line, number)
         return
     if (line ~ /(^|[^a-z_A-Z0-9])(v?printf|puts|putchar|perror|psignal|v?dprintf)\(/)
         fault("line " number ": people read what print.h writes")
-    if (line !~ /\(w?[->.]*to,|, w?[->.]*to\)/ &&
+    if (line !~ /\([sw]?[->.]*to,|, [sw]?[->.]*to\)/ &&
         place_of(folder) >= place_of("src/terminal") &&
         (line ~ /(^|[^a-z_A-Z0-9])(v?fprintf|fputs|putc|fwrite)\(/ ||
          line ~ /(^|[^a-z_A-Z0-9])fputc\([^\047]/))

@@ -35,6 +35,13 @@ static void write_options(FILE *to, const struct engine_options *o)
     write_option(to, "anim-time", choice->has_time ? time : NULL);
 }
 
+/* Replaces ends of lines by others. */
+static void put_line_ends(char *text, char from, char to)
+{
+    for (char *p = strchr(text, from); p != NULL; p = strchr(p, from))
+        *p = to;
+}
+
 /* Writes the lines of a view. Returns false if a line has a semicolon. */
 static bool write_view(FILE *to, const struct engine *e, const struct view *of)
 {
@@ -50,8 +57,7 @@ static bool write_view(FILE *to, const struct engine *e, const struct view *of)
     if (!view_format(&view, &none, &text, &size_bytes, &ignored))
         return false;
     ok = strchr(text, ';') == NULL;
-    for (char *p = text; (p = strchr(p, '\n')) != NULL;)
-        *p = ';';
+    put_line_ends(text, '\n', ';');
     fputs(text, to);
     free(text);
     return ok;
@@ -78,8 +84,8 @@ char *engine_metadata_view(const struct image_metadata *m)
     const char *value = image_metadata_value(m, "glim:view");
     char *text = value != NULL ? strdup(value) : NULL;
 
-    for (char *p = text; p != NULL && (p = strchr(p, ';')) != NULL;)
-        *p = '\n';
+    if (text != NULL)
+        put_line_ends(text, ';', '\n');
     return text;
 }
 
