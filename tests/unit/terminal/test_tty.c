@@ -258,8 +258,8 @@ static long play_until(double end, uint64_t begin_ns, uint64_t *seed,
     return least_kb;
 }
 
-/* Sends random keys for a time, of which each tenth has its least memory. In the
- * first one lists that have a limit grow, as that of changes to undo. */
+/* Sends random keys for a time, of which each tenth has its least memory. In
+ * the first one lists that have a limit grow, as that of changes to undo. */
 static void soak(double seconds, uint64_t seed)
 {
     const double tenth = seconds / 10;
