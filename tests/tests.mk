@@ -65,7 +65,7 @@ $(L)/unit/session/test_session_film: private ALL_LDFLAGS += -Wl,--wrap=fsync
 $(L)/unit/base/test_text_stream: private ALL_LDFLAGS += -Wl,--wrap=realloc
 # It lets allocations fail, counts what is freed, and does not wait for disks.
 WRAPPED := malloc calloc realloc aligned_alloc strdup strndup vasprintf \
-	__vasprintf_chk getline __getdelim free fsync
+	__vasprintf_chk getline __getdelim realpath free fsync
 $(L)/unit/api/test_out_of_memory: private ALL_LDFLAGS += \
 	$(WRAPPED:%=-Wl,--wrap=%)
 

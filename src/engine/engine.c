@@ -189,10 +189,12 @@ void engine_take_loaded(struct engine *e, struct engine *fresh)
     e->world = fresh->world;
     e->crop = fresh->crop;
     e->report = fresh->report;
+    e->options.scene.choice = fresh->options.scene.choice;
     fresh->scene = old.scene;
     fresh->world = old.world;
     fresh->crop = old.crop;
     fresh->report = old.report;
+    fresh->options.scene.choice = old.options.scene.choice;
     if (has_same_shape)
         world_take_shape(&e->world, &fresh->world);
 }

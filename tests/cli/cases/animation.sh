@@ -14,9 +14,10 @@ glim $b -o camera.png --camera 2 moving.gltf 2>/dev/null
 same 2.png camera.png
 same 1.png 2.png
 # the camera is at 0.5 0 9 and looks along -z; yfov is 0.4 radians
-glim $b -o camera.png --eye 0.5,0,9 --at 0.5,0,8 --fov 22.918312 moving.gltf \
+glim $b -o 2.pfm --camera Far moving.gltf 2>/dev/null
+glim $b -o camera.pfm --eye 0.5,0,9 --at 0.5,0,8 --fov 22.918312 moving.gltf \
     2>/dev/null
-same 2.png camera.png
+same 2.pfm camera.pfm
 
 for fps in 0 1001 x; do
     run $b --frames 0:1 --fps $fps moving.gltf

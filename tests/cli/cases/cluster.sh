@@ -66,10 +66,10 @@ awk -F '[:,]' '/"samples":/ { if (/answers/) { sum += $2; ranks++; none += $2 ==
 # ranks that the program starts have its kernels and instruction set
 cp -r "$root/kernels" k
 echo '/* another version */' >>k/path.h
-glim $b -s 3 -o one.png box.obj 2>/dev/null
-timeout -k 5 100 "$mpi" $b -s 3 --ranks 2 --kernels k -o many.png box.obj \
+glim $b -s 3 -o one.pfm box.obj 2>/dev/null
+timeout -k 5 100 "$mpi" $b -s 3 --ranks 2 --kernels k -o many.pfm box.obj \
     2>&1 | grep -E 'glim|spp' | untimed # the MPI library may complain
-same many.png one.png
+same many.pfm one.pfm
 timeout -k 5 60 "$mpi" $b -s 100000 -w 320 --ranks 2 --isa plain -o many.png \
     box.obj 2>/dev/null &
 until pgrep -f -- "$mpi --worker --backend cpu --isa plain -t 1" >/dev/null; do

@@ -124,6 +124,13 @@ ssize_t __wrap_getline(char **line, size_t *size, FILE *from)
     return __wrap___getdelim(line, size, '\n', from);
 }
 
+char *__real_realpath(const char *path, char *real);
+char *__wrap_realpath(const char *path, char *real);
+char *__wrap_realpath(const char *path, char *real)
+{
+    return fails() ? NULL : counted(__real_realpath(path, real));
+}
+
 void __real_free(void *p);
 void __wrap_free(void *p);
 void __wrap_free(void *p)
