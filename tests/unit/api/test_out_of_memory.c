@@ -211,7 +211,9 @@ static void check_scene(const char *scene)
     }
     print_message("%s: %ld of %ld allocations, %ld errors\n", scene, tried,
                   count, errors);
-    assert_true(errors >= tried * 8 / 10);
+    /* the rest are of what a picture can do without, as the texts in its
+     * file, of which there were none when this was 8 of 10 */
+    assert_true(errors >= tried * 7 / 10);
 }
 
 static void every_allocation_may_fail(void **state)
