@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/memory.h"
 
 /* Keeps room for the zero at the end. */
@@ -42,4 +43,17 @@ char *text_stream_close(struct text_stream *s, size_t *size_bytes)
     text[s->size_bytes] = '\0';
     *size_bytes = s->size_bytes;
     return text;
+}
+
+bool text_stream_write(struct text_stream *s, const char *path,
+                       struct error *err)
+{
+    size_t size_bytes;
+    char *text = text_stream_close(s, &size_bytes);
+    bool ok = text != NULL
+                  ? file_write(path, text, size_bytes, false, NULL, err)
+                  : fail(err, "%s: out of memory", path);
+
+    free(text);
+    return ok;
 }

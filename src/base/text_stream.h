@@ -8,7 +8,7 @@
  *
  * Ownership: text_stream_close() frees the stream and returns memory for free()
  * Threads:   one at a time
- * Errors:    out of memory
+ * Errors:    out of memory; those of file_write()
  */
 #ifndef GLIM_TEXT_STREAM_H
 #define GLIM_TEXT_STREAM_H
@@ -16,6 +16,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
+
+#include "base/error.h"
 
 /* Stays where it is while the stream is open. */
 struct text_stream {
@@ -31,5 +33,9 @@ bool text_stream_open(struct text_stream *s);
 /* Closes the stream, if it is open. Returns what was written, with a zero
  * behind it that does not count, or NULL without memory. */
 char *text_stream_close(struct text_stream *s, size_t *size_bytes);
+
+/* Closes the stream, if it is open, and writes what it has to a file. */
+bool text_stream_write(struct text_stream *s, const char *path,
+                       struct error *err);
 
 #endif

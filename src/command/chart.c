@@ -150,18 +150,14 @@ static void write_script(FILE *to, const struct chart *chart,
 
 bool chart_write(const struct chart *chart, const char *path, struct error *err)
 {
-    char *stem = path_stem(path), *script;
+    char *stem = path_stem(path);
     char *png_path = xformat("%s.png", stem);
-    size_t size_bytes;
     struct text_stream s;
     bool ok;
 
     if (text_stream_open(&s))
         write_script(s.to, chart, png_path);
-    script = text_stream_close(&s, &size_bytes);
-    ok = script != NULL ? file_write(path, script, size_bytes, false, NULL, err)
-                        : fail(err, "%s: out of memory", path);
-    free(script);
+    ok = text_stream_write(&s, path, err);
     free(png_path);
     free(stem);
     return ok;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "command/reference_info.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -103,15 +102,8 @@ bool reference_info_write(const struct reference_info *info,
                           const char *path, struct error *err)
 {
     struct text_stream s;
-    char *text;
-    size_t size_bytes;
-    bool ok;
 
     if (text_stream_open(&s))
         write_object(s.to, info, origin);
-    text = text_stream_close(&s, &size_bytes);
-    ok = text != NULL ? file_write(path, text, size_bytes, false, NULL, err)
-                      : fail(err, "%s: out of memory", path);
-    free(text);
-    return ok;
+    return text_stream_write(&s, path, err);
 }

@@ -291,7 +291,8 @@ static bool check_outputs(const struct batch *b, struct error *err)
 
 /* ---- pictures ---- */
 
-/* Returns the metadata of the film, which may be the filtered one. */
+/* Returns the metadata of the film, which may be the filtered one. It takes a
+ * while, by the hashes of the scene. */
 static struct image_metadata metadata_of(struct session *s,
                                          const struct film *film)
 {
@@ -305,10 +306,12 @@ static bool write_picture(struct session *s, struct film *film,
                           const struct frame *frame, struct error *err)
 {
     const char *path = s->options->output_path;
-    struct image_metadata metadata = metadata_of(s, film);
+    struct image_metadata metadata;
 
-    return frame ? image_write_frame(frame, path, err)
-                 : image_write(film, session_develop(s), &metadata, path, err);
+    if (frame)
+        return image_write_frame(frame, path, err);
+    metadata = metadata_of(s, film);
+    return image_write(film, session_develop(s), &metadata, path, err);
 }
 
 /* Writes to a file with a free name and returns the name, for free(). */
@@ -317,11 +320,16 @@ static char *write_numbered(struct session *s, struct film *film,
 {
     char *stem = xchecked(path_stem_of_input(s->options->scene_path));
     const char *last = path_name(stem);
-    struct image_metadata metadata = metadata_of(s, film);
-    char *name = frame ? image_write_frame_numbered(frame, NULL, last, err)
-                       : image_write_numbered(film, session_develop(s),
-                                              &metadata, last, "png", err);
+    struct image_metadata metadata;
+    char *name;
 
+    if (frame) {
+        name = image_write_frame_numbered(frame, NULL, last, err);
+    } else {
+        metadata = metadata_of(s, film);
+        name = image_write_numbered(film, session_develop(s), &metadata, last,
+                                    "png", err);
+    }
     free(stem);
     return name;
 }

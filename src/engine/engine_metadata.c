@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/decimal.h"
+#include "base/text_stream.h"
 #include "engine/engine_film.h"
 #include "read/view_file.h"
 #include "render/render_metadata.h"
@@ -66,17 +67,20 @@ static bool write_view(FILE *to, const struct engine *e, const struct view *of)
 void engine_metadata_write_view(const struct engine *e, const struct view *view,
                                 char text[FILM_VIEW_BYTES])
 {
-    FILE *to = fmemopen(text, FILM_VIEW_BYTES, "w");
-    bool ok = to != NULL;
+    struct text_stream s;
+    bool ok = text_stream_open(&s);
+    size_t size_bytes;
+    char *whole;
 
     if (ok) {
-        write_options(to, &e->options);
-        ok = write_view(to, e, view);
-        ok = fputc('\0', to) != EOF && ok;
-        ok = fclose(to) == 0 && ok;
+        write_options(s.to, &e->options);
+        ok = write_view(s.to, e, view);
     }
-    if (!ok)
-        text[0] = '\0';
+    whole = text_stream_close(&s, &size_bytes);
+    text[0] = '\0';
+    if (ok && whole != NULL && size_bytes < FILM_VIEW_BYTES)
+        memcpy(text, whole, size_bytes + 1);
+    free(whole);
 }
 
 char *engine_metadata_view(const struct image_metadata *m)

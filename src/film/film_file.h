@@ -76,9 +76,9 @@ struct film_header {
     struct film_identity identity;
     char version[32]; /* of the program */
     char scene[256];  /* end of the scene's path */
-    char
-        view[FILM_VIEW_BYTES]; /* how it was opened: engine_metadata.h; or "" */
-    uint32_t tone;             /* enum tone */
+    /* how the scene was opened: engine_metadata.h; or "" */
+    char view[FILM_VIEW_BYTES];
+    uint32_t tone; /* enum tone */
     /* sorted and disjoint, with gaps between them. All pixels have these
      * samples; those of the last range may have more, in a film that was saved
      * within a pass. */

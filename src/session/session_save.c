@@ -51,7 +51,7 @@ static bool filter(struct save_thread *s, struct film *film, struct film *draft)
     return s->was_filtered;
 }
 
-/* Adds the hashes of what the samples are made of to the metadata. */
+/* Adds the hashes of the scene, the view and the kernels to the metadata. */
 static void identify(struct picture_to_save *p)
 {
     struct error ignored;

@@ -34,8 +34,8 @@ struct picture_to_save {
     struct world world;
     struct develop how;
     struct image_metadata metadata, filtered_metadata;
-    /* the thread finds the hashes of the identity, for the metadata; no world:
-     * there is none */
+    /* of which the thread adds hashes to the metadata; without positions in
+     * `identified` there are none */
     struct film_identity identity;
     struct world identified;
     const char *kernels_path;
