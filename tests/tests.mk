@@ -120,8 +120,16 @@ search: $(FUZZERS)
 ##         FILTER=NAME selects one: samples geometry light films schedulers
 ##         error filter gltf blender extremes sizes keys rays faults oclgrind
 ##         valgrind
-stress: $(L)/glim $(MPI_PROGRAM) $(FAULTS) $(STRESSES) $(L)/unit/terminal/test_tty
+stress: $(L)/glim $(MPI_PROGRAM) $(FAULTS) $(STRESSES) $(UNITS)
 	@BUILD=$(L) FILTER='$(FILTER)' tests/stress/run.sh
+
+## check-sanitizers: runs all tests with address and undefined sanitizers, then
+##                   with that for threads, then unit tests under valgrind
+check-sanitizers:
+	@+status=0; \
+	$(MAKE_ALL) SAN=address,undefined test || status=1; \
+	$(MAKE_ALL) SAN=thread test || status=1; \
+	$(MAKE_ALL) BUILDS=few FILTER=valgrind stress || status=1; exit $$status
 
 ## soak: presses random keys for an hour, or TIME=SECONDS: the screen must be the
 ##       expected one after each, and memory must not grow
@@ -155,7 +163,7 @@ lint:
 	@printf '%s\n' $(C_FILES) | SOURCES='$(SOURCES) $(KERNEL_SOURCES)' \
 		FLAGS='$(ALL_CFLAGS)' BUILD='$(B)' tests/lint.sh
 
-.PHONY: test tests run-tests fuzz search stress soak mutants scenes tables format lint
+.PHONY: test tests run-tests check-sanitizers fuzz search stress soak mutants scenes tables format lint
 -include $(GENERATOR:.o=.d) $(B)/fuzz/replay.d $(B)/unit/paths.d \
 	$(B)/unit/gltf/draco_encode.d $(patsubst $(L)/%,$(B)/%.d,$(UNITS) \
 	$(STRESSES) $(FUZZERS) $(BENCHES) $(TOOLS))

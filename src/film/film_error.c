@@ -182,9 +182,11 @@ static void read_tile(struct tile *t, struct film *f, float exposure,
         read_row(t, f, row);
 }
 
-/* Differences e of a tile times the roots of their weights. */
+/* Differences e of a tile times the roots of their weights, and the means m
+ * around them likewise, which are at most 1. */
 struct weighted {
     float e[3][SIDE][SIDE];
+    float m[3][SIDE][SIDE];
 };
 
 /* Sums over the 7 rows from y on, then over 7 columns. */
@@ -209,7 +211,7 @@ static void sum_around(float values[WIDE][WIDE], int y, float sums[SIDE])
 /* Weighs a channel by the roots of 1 / (m^2 + FILM_ERROR_BLACK). The weights
  * are corrected for the noise of m, which enlarges their mean by a few per cent
  * at a few samples: that is the second term of Taylor's series. */
-static void weigh(struct tile *t, int c, float to[SIDE][SIDE])
+static void weigh(struct tile *t, int c, struct weighted *to)
 {
     float squares[WIDE][WIDE];
     float count[SIDE], mean[SIDE], square[SIDE];
@@ -235,7 +237,9 @@ static void weigh(struct tile *t, int c, float to[SIDE][SIDE])
 
             change = f_max(f_min(change, 0.5f), -0.5f);
             e *= sqrtf(w * (1.0f + change));
-            to[y][x] = f_max(f_min(e, LARGEST_WEIGHTED), -LARGEST_WEIGHTED);
+            to->e[c][y][x] =
+                f_max(f_min(e, LARGEST_WEIGHTED), -LARGEST_WEIGHTED);
+            to->m[c][y][x] = m * sqrtf(w);
         }
     }
 }
@@ -277,16 +281,16 @@ static void add_pair(struct total *t, float product)
     t->pair_count++;
 }
 
-/* Adds what the noise of the weights contributes to the variance. An error of m
- * changes the weights of the pixels around, and the estimate by twice the
- * relative error times their squares. These are taken from the neighbours, so
- * that the factors are independent. */
+/* Adds what the noise of the weights contributes to the variance. An error e
+ * changes m of the pixels around, their weights w by the factor 1 - 2 m w e,
+ * and the estimate by the sum of that times their squares. These are taken from
+ * the neighbours, so that the factors are independent. */
 static void add_corner(struct total *t, const struct weighted *w, int x, int y)
 {
     float right = 0.0f, below = 0.0f;
 
     for (int c = 0; c < 3; c++) {
-        float e = w->e[c][y][x];
+        float e = w->e[c][y][x] * w->m[c][y][x];
 
         right += e * w->e[c][y][x + 1] * w->e[c][y][x + 1];
         below += e * w->e[c][y + 1][x] * w->e[c][y + 1][x];
@@ -404,7 +408,7 @@ static bool take_tile(struct job *j, int x0, int y0, struct tile *t,
         return false;
     read_tile(t, j->film, j->exposure, j->colour, x0, y0);
     for (int c = 0; c < 3; c++)
-        weigh(t, c, weighted->e[c]);
+        weigh(t, c, weighted);
     if (!t->is_known)
         atomic_store(&j->is_unknown, true);
     return t->is_known;

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
-/* extremes.c - random scenes of extreme numbers|usage: extremes [COUNT
- * [FIRST]]|Every EACH_DEVICE-th scene is also rendered on the device. */
+/*
+ * extremes - random scenes of extreme numbers
+ *
+ * usage: extremes [COUNT [FIRST]]
+ *
+ * Every EACH_DEVICE-th scene is also rendered on the device.
+ */
 #include "extremes.h"
 #include "rows.h"
 #include "tests/unit/folder.h"

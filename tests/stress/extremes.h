@@ -5,8 +5,9 @@
  * Scene n is a function of n. It is written as text into the current folder,
  * loaded like any file, and rendered on the CPU with each instruction set, and
  * perhaps on a device. No finite numbers in a file may cause a crash, a sample
- * that is not finite, or pictures with different bits. Nor may they cause a
- * filtered picture or a stated error that is not finite.
+ * that is not finite, pictures with different bits, or a render of more than
+ * 10 s. Nor may they cause a filtered picture or a stated error that is not
+ * finite, or stated errors that are too low.
  *
  * Units:     file units, radiance
  * Ownership: extremes_close() frees all and removes the files
@@ -34,6 +35,16 @@
 #define EXTREMES_RENDERERS 5
 #define EXTREMES_SIDE      8
 #define EXTREMES_SPP       2
+
+/* Longest render, in milliseconds. */
+#define EXTREMES_LIMIT_MS 10000
+
+/* Renders of a scene with seeds of their own, and samples a pixel of each, to
+ * compare the stated error with their spread; and the deviations by which it
+ * may be too low: chance exceeds them once in 1e6 scenes. */
+#define EXTREMES_SEEDS      16
+#define EXTREMES_STATED_SPP 4
+#define EXTREMES_DEVIATIONS 7.5
 
 struct extremes {
     struct backend *backends[EXTREMES_RENDERERS]; /* the device is the last */
@@ -155,23 +166,32 @@ static inline void put_any_medium(FILE *f, uint64_t *seed)
     put_numbers(f, "Tf_anisotropy", 1, cosine, seed);
 }
 
+/* Writes each statement of a colour or number with this probability. */
+static inline void put_any_statements(FILE *f, double probability,
+                                      uint64_t *seed)
+{
+    for (size_t i = 0; i < MTL_PROPERTIES; i++) {
+        const struct mtl_property *p = &mtl_properties[i];
+        bool is_cosine =
+            strcmp(p->key, "Sg") == 0 || strcmp(p->key, "Tf_anisotropy") == 0;
+
+        if (check_random(seed) < probability && strcmp(p->key, "illum") != 0)
+            put_numbers(f, p->key,
+                        p->is_color && check_random(seed) < 0.5 ? 3 : 1,
+                        is_cosine ? cosine : amount, seed);
+    }
+}
+
 static inline void put_any_material(FILE *f, int number, uint64_t *seed)
 {
-    static const char *const numbers[] = {"Ns", "Ni", "d",           "Tr",
-                                          "Pr", "Pm", "Kd_roughness"};
-    static const char *const colors[] = {"Kd", "Ks", "Ke", "Tf"};
     static const char *const maps[] = {"map_Kd", "map_Ks",  "map_Ke",
                                        "map_Pr", "map_Pm",  "map_d",
                                        "norm",   "map_Bump"};
 
     fprintf(f, "newmtl m%d\nillum %d\n", number, (int)one_of(seed, 11));
-    for (size_t i = 0; i < sizeof colors / sizeof *colors; i++)
-        if (check_random(seed) < 0.5)
-            put_numbers(f, colors[i], check_random(seed) < 0.5 ? 1 : 3, amount,
-                        seed);
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        if (check_random(seed) < 0.25)
-            put_numbers(f, numbers[i], 1, amount, seed);
+    put_any_statements(f, check_random(seed) < 0.5 ? 0.15 : 0.4, seed);
+    if (check_random(seed) < 0.5)
+        put_numbers(f, "Ke", 3, amount, seed);
     if (check_random(seed) < 0.1)
         fprintf(f, "Ke_blackbody %g %.9g\n", 500 + 5000 * check_random(seed),
                 amount(seed));
@@ -182,6 +202,11 @@ static inline void put_any_material(FILE *f, int number, uint64_t *seed)
                     coordinate(seed));
     if (check_random(seed) < 0.2)
         put_any_medium(f, seed);
+    if (check_random(seed) < 0.1) {
+        fprintf(f, "illum 2\nd 1\nPm 0\n");
+        put_numbers(f, "Sf", 1, amount, seed);
+        put_numbers(f, "Sr", 3, amount, seed);
+    }
 }
 
 static inline void put_faces(FILE *f, int materials, int vertices,
@@ -400,7 +425,8 @@ static inline bool extremes_render(struct extremes *x, struct session *s,
     if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view,
                     number, &job.world, &err))
         return true; /* the camera is out of the world's range */
-    if (!render_start(render, &job, &err) || !render_wait(render, 60000)) {
+    if (!render_start(render, &job, &err) ||
+        !render_wait(render, EXTREMES_LIMIT_MS)) {
         printf("scene %u: does not end\n", number);
         exit(2);
     }
@@ -472,11 +498,84 @@ static inline bool extremes_filter(struct extremes *x, struct session *s,
         return true; /* the camera is out of the world's range */
     job.world.settings.features |= FEATURE_FILTER;
     if (!render_start(x->renders[0], &job, &err) ||
-        !render_wait(x->renders[0], 60000)) {
+        !render_wait(x->renders[0], EXTREMES_LIMIT_MS)) {
         printf("scene %u: does not end\n", number);
         exit(2);
     }
     return extremes_conclude(render_film(x->renders[0]), number);
+}
+
+/* Adds up the squares of a film's errors, by its own estimate, and copies its
+ * means. */
+static inline double extremes_stated(const struct film *film, float *means)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < EXTREMES_NUMBERS / 3; i++) {
+        float e[3];
+
+        if (!film_pixel_error(film, i, means + 3 * i, e))
+            return 0;
+        for (int c = 0; c < 3; c++)
+            sum += (double)e[c] * (double)e[c];
+    }
+    return sum;
+}
+
+/* Returns by how many of its standard deviations the mean of `stated` exceeds
+ * that of the squared differences between each render and the mean of all. */
+static inline double extremes_excess(const double stated[EXTREMES_SEEDS],
+                                     float (*means)[EXTREMES_NUMBERS])
+{
+    const double n = EXTREMES_SEEDS;
+    double excess[EXTREMES_SEEDS], sum = 0, squares = 0;
+
+    memcpy(excess, stated, sizeof excess);
+    for (size_t i = 0; i < EXTREMES_NUMBERS; i++) {
+        double mean = 0;
+
+        for (int k = 0; k < EXTREMES_SEEDS; k++)
+            mean += (double)means[k][i] / n;
+        for (int k = 0; k < EXTREMES_SEEDS; k++)
+            excess[k] -= pow((double)means[k][i] - mean, 2) * n / (n - 1);
+    }
+    for (int k = 0; k < EXTREMES_SEEDS; k++)
+        sum += excess[k] / n;
+    for (int k = 0; k < EXTREMES_SEEDS; k++)
+        squares += pow(excess[k] - sum, 2);
+    return squares > 0 ? sum / sqrt(squares / n / (n - 1)) : 0;
+}
+
+/* Renders with many seeds. Returns false, with a line, if the errors that they
+ * state are below their true ones by more than chance. */
+static inline bool extremes_state(struct extremes *x, struct session *s,
+                                  uint32_t number)
+{
+    struct render_job job = {.host = &s->engine.world,
+                             .crop = s->engine.crop,
+                             .limits.spp = EXTREMES_STATED_SPP};
+    static float means[EXTREMES_SEEDS][EXTREMES_NUMBERS];
+    double stated[EXTREMES_SEEDS], excess;
+    struct error err;
+
+    for (uint32_t k = 0; k < EXTREMES_SEEDS; k++) {
+        if (!world_lend(&s->engine.world, &s->engine.scene, &s->edit.now.view,
+                        k, &job.world, &err))
+            return true; /* the camera is out of the world's range */
+        if (!render_start(x->renders[0], &job, &err) ||
+            !render_wait(x->renders[0], EXTREMES_LIMIT_MS)) {
+            printf("scene %u: does not end\n", number);
+            exit(2);
+        }
+        stated[k] = extremes_stated(render_film(x->renders[0]), means[k]);
+        render_halt(x->renders[0]);
+    }
+    excess = extremes_excess(stated, means);
+    if (excess > -EXTREMES_DEVIATIONS)
+        return true;
+    printf("scene %u: the stated error is too low by %.3g deviations\n", number,
+           -excess);
+    return false;
 }
 
 /* Checks scene `number`, with on_device also on the device. Returns false, with
@@ -503,6 +602,7 @@ static inline bool extremes_check(struct extremes *x, uint32_t number,
         for (int i = 0; i < count; i++)
             ok = extremes_render(x, &s, i, number, first) && ok;
         ok = extremes_filter(x, &s, number) && ok;
+        ok = extremes_state(x, &s, number) && ok;
     } else {
         x->refused++;
     }

@@ -63,16 +63,26 @@ stress_oclgrind() {
     done
 }
 
-# Checks the host's memory accesses and leaks with valgrind, with a device too.
+# Runs a command under valgrind, which must find no error and no leak.
+checked() # COMMAND...
+{
+    valgrind -q --error-exitcode=9 --leak-check=full \
+        --show-leak-kinds=definite,indirect \
+        --errors-for-leak-kinds=definite,indirect --fair-sched=yes \
+        --suppressions=tests/stress/drivers.supp "$@"
+}
+
+# Checks the host's memory accesses and leaks with valgrind: of the program, with
+# a device too, and of unit tests.
 stress_valgrind() {
     missing valgrind valgrind && return
     for backend in cpu opencl; do
-        check "valgrind $backend" valgrind -q --error-exitcode=9 \
-            --leak-check=full --show-leak-kinds=definite,indirect \
-            --errors-for-leak-kinds=definite,indirect \
-            --suppressions=tests/stress/drivers.supp "$build/glim" -b \
+        check "valgrind $backend" checked "$build/glim" -b \
             --backend "$backend" -w 32 -h 18 -s 2 -o "$work/picture.png" \
             scenes/glass_mirror.obj
+    done
+    for test in "$build"/unit/*/test_*; do
+        [ -x "$test" ] && check "valgrind ${test##*/}" checked "$test"
     done
 }
 
