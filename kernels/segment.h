@@ -75,6 +75,8 @@ static inline bool segment_passes_first(const struct world *w,
 static inline bool segment_passes_lights(const struct world *w,
                                          const struct segment *s)
 {
+    uint32_t count = 0; /* all of them, so that compilers make vectors */
+
     if (light_tree_count(w) < 2)
         return light_tree_count(w) == 1 && segment_passes_first(w, s);
     for (uint32_t i = 0; i < LIGHT_WIDTH; i++) {
@@ -84,9 +86,9 @@ static inline bool segment_passes_lights(const struct world *w,
 
         if (w->light_nodes[0].power[i] > 0.0f &&
             segment_passes(s, middle, radius))
-            return true;
+            count++;
     }
-    return false;
+    return count > 0;
 }
 
 /* Returns the segment of a ray up to t, where it ends. */
