@@ -5,10 +5,13 @@
  * No ray may leak, hit the face it leaves, or find another triangle than brute
  * force. These rows have no false alarms. The seeds are fixed.
  *
- * usage: rays
+ * usage: rays [FACTOR]
+ *
+ * Closed meshes get 1e8 rays times the factor.
  */
 #include <math.h>
 #include <stdatomic.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include "base/thread_pool.h"
@@ -31,6 +34,7 @@ struct shots {
 };
 
 static struct pool *pool;
+static uint32_t factor = 1;
 
 /* Counts rays, and rays that fail, over `chunks` items. */
 static void shoot(struct shots *s, pool_job *job, uint32_t chunks)
@@ -165,12 +169,12 @@ static void closed_mesh(const char *name, struct mesh *m, struct vec3 center,
     struct shots s = {.world = &m->world, .center = center, .size = inside};
 
     mesh_finish(m);
-    shoot(&s, aim_at_edges, 200);
+    shoot(&s, aim_at_edges, 200 * factor);
     row(atomic_load(&s.bad) == 0, name,
         "%llu rays from within to edges and vertices, leaks: %llu, want 0",
         count_of(&s.shot), count_of(&s.bad));
     if (!has_knife_edges) {
-        shoot(&s, leave_edges, 30);
+        shoot(&s, leave_edges, 30 * factor);
         row(atomic_load(&s.bad) == 0, name,
             "%llu rays that go on from there, leaks: %llu, want 0",
             count_of(&s.shot), count_of(&s.bad));
@@ -542,10 +546,12 @@ static void many_triangles(void)
     mesh_free(&m);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     struct error err;
 
+    if (argc > 1)
+        factor = (uint32_t)strtoul(argv[1], NULL, 10);
     pool = pool_create((int)sysconf(_SC_NPROCESSORS_ONLN), &err);
     if (pool == NULL) {
         fprintf(stderr, "rays: %s\n", err.text);

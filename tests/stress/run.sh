@@ -123,7 +123,7 @@ stress_blender() {
 }
 
 stress_rays() {
-    rows rays
+    rows rays "${RAYS:-1}"
 }
 
 stress_samples() {
