@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 # tests.mk - unit tests, fuzz targets, stress programs, and other checks
 
-# Compiler of `make fuzz`, since only clang has libFuzzer, and seconds for each
-# target.
+# Compiler of `make fuzz`, since only clang has libFuzzer, and seconds or runs for
+# each target.
 FUZZ_CC ?= clang
 TIME ?= 60
+RUNS ?=
 
 C_FILES = $(foreach d,include/glim src src/* src/*/* kernels scenes tests/unit tests/unit/* \
 	tests/bench tests/api tests/bench/error tests/bench/rays tests/fuzz \
@@ -107,14 +108,18 @@ tests: $(TESTED) lib $(if $(filter all,$(BUILDS)),$(BENCHES) $(STRESSES) $(TOOLS
 run-tests:
 	@BUILD=$(L) BUILDS=$(BUILDS) SAN='$(SAN)' CC='$(CC)' tests/run.sh
 
-## fuzz: tests parsers of files, options and keys with random inputs;
-##       TIME=60 seconds for each target, FILTER=PART of a target's name
+## fuzz: tests parsers of files, options and keys, and whole renders, with random
+##       inputs; TIME=60 seconds or RUNS=N inputs for each target, FILTER=PART of
+##       a target's name; BUILDS=all has all builds of the kernel
+fuzz: private BUILDS := $(if $(filter command%,$(origin BUILDS)),$(BUILDS),few)
 fuzz:
 	@CC='$(FUZZ_CC)' tests/tools/deps.sh build fuzz
-	@+$(MAKE_ALL) CC='$(FUZZ_CC)' SAN=fuzzer-no-link,address,undefined BUILDS=few \
+	@+$(MAKE_ALL) CC='$(FUZZ_CC)' SAN=fuzzer-no-link,address,undefined \
+		BUILDS=$(BUILDS) \
 		CFLAGS='$(if $(filter file,$(origin CFLAGS)),-O1 -g,$(CFLAGS))' search
 search: $(FUZZERS)
-	@BUILD=$(L) TIME='$(TIME)' FILTER='$(FILTER)' tests/fuzz/search.sh
+	@BUILD=$(L) TIME='$(TIME)' RUNS='$(RUNS)' FILTER='$(FILTER)' \
+		tests/fuzz/search.sh
 
 ## stress: runs checks at numerical limits, and others that take minutes;
 ##         FILTER=NAME selects one: samples geometry light films schedulers

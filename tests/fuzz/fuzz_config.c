@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /* The user's configuration file, and the keys that remain for other actions. */
 #include "fuzz.h"
+#include "mutate_text.h"
 #include "session/config.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -6,10 +6,14 @@
  */
 #include <math.h>
 
+#include <zlib.h>
+
 #include "base/hash.h"
 #include "film/film_error.h"
 #include "film/film_file.h"
+#include "film/film_pack.h"
 #include "fuzz.h"
+#include "mutate.h"
 
 static void check_picture(struct film *film)
 {
@@ -143,9 +147,71 @@ static void try_sums(const uint8_t *data, size_t size)
     free(bytes);
 }
 
+/* Takes the input as packed rows, as processes of a cluster send them. */
+static void try_rows(const uint8_t *data, size_t size)
+{
+    const uint8_t *p = data;
+    struct film row;
+    struct error err = {""};
+
+    require(film_init(&row, 3, 1, &err), err.text);
+    require(size % 2 == 0 || film_init_surfaces(&row, &err), err.text);
+    for (int i = 0; i < 4; i++) {
+        if (!film_unpack_row(&row, &p, data + size, &err)) {
+            fuzz_check_message(err.text);
+            break;
+        }
+        check_picture(&row);
+    }
+    film_free(&row);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     try_file(data, size);
     try_sums(data, size);
+    try_rows(data, size);
     return 0;
+}
+
+/* Bytes before a packed band: its size and its checksum. */
+#define BAND_HEAD 8
+
+/* Changes a band of pixels behind zlib, and sets its size and checksum. */
+static void mutate_band(struct mutation *m, size_t at)
+{
+    static uint8_t planes[1 << 16], packed[1 << 17];
+    size_t length = (size_t)mutation_get(m, at, 4);
+    uLongf count = sizeof planes, bytes = sizeof packed;
+
+    if (at + BAND_HEAD > m->size || length > m->size - at - BAND_HEAD ||
+        uncompress(planes, &count, m->data + at + BAND_HEAD, length) != Z_OK)
+        return;
+    mutation_fixed(m, planes, count);
+    require(compress(packed, &bytes, planes, count) == Z_OK, "packed");
+    if (!mutation_replace(m, at + BAND_HEAD, length, packed, bytes))
+        return;
+    mutation_put(m, at, 4, bytes);
+    mutation_put(m, at + 4, 4, crc32(0, packed, (uInt)bytes));
+}
+
+/* Changes the lines, whose checksum mend_checksum() sets, or a band. */
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max,
+                               unsigned seed)
+{
+    static const char last[] = "\ndata ";
+    struct mutation m = mutation_begin(data, size, max, seed);
+    uint8_t *end = memmem(data, size, last, sizeof last - 1);
+    size_t at = end != NULL ? (size_t)(end - data) + 15 : size;
+    size_t kind = mutation_pick(&m, 4), next;
+
+    if (at >= size || kind == 0)
+        return LLVMFuzzerMutate(data, size, max);
+    if (kind == 1) {
+        mutation_text(&m, 0, at - 15);
+        return m.size;
+    }
+    next = at + BAND_HEAD + (size_t)mutation_get(&m, at, 4);
+    mutate_band(&m, kind == 2 || next >= size ? at : next);
+    return m.size;
 }

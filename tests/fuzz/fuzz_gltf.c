@@ -5,6 +5,7 @@
  * file's size: libFuzzer limits it.
  */
 #include "fuzz_tris.h"
+#include "mutate_gltf.h"
 #include "read/gltf/gltf.h"
 
 static bool parse_posed(struct scene *scene, const char *bytes,
@@ -20,4 +21,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_check_scene(gltf_parse, "none/fuzz.gltf", data, size);
     fuzz_check_scene(parse_posed, "none/fuzz.gltf", data, size);
     return 0;
+}
+
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max,
+                               unsigned seed)
+{
+    struct mutation m = mutation_begin(data, size, max, seed);
+
+    mutation_gltf(&m);
+    return m.size;
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "fuzz.h"
+#include "mutate_text.h"
 #include "read/ies.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

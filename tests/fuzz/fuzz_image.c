@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "fuzz.h"
+#include "mutate_exr.h"
 #include "tests/unit/whole_image.h"
 
 static void check_size(const struct image *image)
@@ -62,4 +63,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     check_linear(path);
     free(path);
     return 0;
+}
+
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max,
+                               unsigned seed)
+{
+    struct mutation m = mutation_begin(data, size, max, seed);
+
+    mutation_image(&m);
+    return m.size;
 }

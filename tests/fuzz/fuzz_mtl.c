@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "fuzz.h"
+#include "mutate_text.h"
 #include "read/mtl.h"
 
 static int is_light(struct vec3 c)

@@ -6,6 +6,7 @@
  */
 #include "base/lexer.h"
 #include "fuzz.h"
+#include "mutate_text.h"
 #include "read/mtl.h"
 #include "scene/material.h"
 #include "session/session_save.h"

@@ -6,6 +6,7 @@
  */
 #include "engine/scene_load.h"
 #include "fuzz_tris.h"
+#include "mutate_text.h"
 #include "world/world.h"
 
 static void check_textures(const struct host_world *host,

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "command/reference_info.h"
 #include "fuzz.h"
+#include "mutate_text.h"
 
 /* Numbers are written with six digits. */
 static int is_same(double a, double b)

@@ -4,6 +4,7 @@
  * with one sample per pixel. fuzz_put_scene() describes the input.
  */
 #include "fuzz.h"
+#include "mutate_text.h"
 #include "session/session.h"
 
 static void render(struct session *s)

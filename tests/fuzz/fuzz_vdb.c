@@ -4,6 +4,7 @@
  * the majorant of its place.
  */
 #include "fuzz_grid.h"
+#include "mutate_vdb.h"
 #include "read/vdb.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -17,4 +18,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         fuzz_check_message(err.text);
     voxel_grid_free(&grid);
     return 0;
+}
+
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max,
+                               unsigned seed)
+{
+    struct mutation m = mutation_begin(data, size, max, seed);
+
+    mutation_vdb(&m);
+    return m.size;
 }

@@ -4,6 +4,7 @@
  * read again from both. All three views are equal.
  */
 #include "fuzz.h"
+#include "mutate_text.h"
 #include "read/view_file.h"
 
 static int is_same_text(const char *a, const char *b)
