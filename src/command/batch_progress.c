@@ -116,7 +116,8 @@ bool batch_catch_signals(struct error *err)
     struct sigaction action = {.sa_handler = on_stop_signal,
                                .sa_flags = SA_RESTART};
 
-    stop_fd = event_fd_open("signals", err);
+    if (stop_fd < 0)
+        stop_fd = event_fd_open("signals", err);
     if (stop_fd < 0 || !stop_begin(err))
         return false;
     stop_at_end(say_end);
