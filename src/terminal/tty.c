@@ -14,6 +14,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "base/min_max.h"
 #include "base/stop.h"
 #include "terminal/curses_windows.h"
 #include "terminal/kitty.h"
@@ -22,6 +23,11 @@
 /* Mouse reports of drags and the wheel, with coordinates of any size (SGR). */
 #define MOUSE_ON  "\033[?1002h\033[?1006h"
 #define MOUSE_OFF "\033[?1002l\033[?1006l"
+
+/* Largest window that is used: the characters of a wall of screens. Curses
+ * takes 100 bytes for each cell, and counts cells in 16 bits with a sign. */
+#define COLS_MAX 2000
+#define ROWS_MAX 1000
 
 /* Marks of pasted text around it. */
 #define PASTE_ON  "\033[?2004h"
@@ -248,6 +254,30 @@ static bool write_bytes(const char *bytes, size_t size_bytes, bool ends_early)
     return true;
 }
 
+/* Returns the size that the system reports, at most COLS_MAX and ROWS_MAX, or
+ * false if it reports none. */
+static bool window_size(struct winsize *w, int *cols, int *rows)
+{
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, w) != 0 || w->ws_col == 0 ||
+        w->ws_row == 0)
+        return false;
+    *cols = int_min(w->ws_col, COLS_MAX);
+    *rows = int_min(w->ws_row, ROWS_MAX);
+    return true;
+}
+
+/* Opens the screen of curses. It begins with the size of the terminal's
+ * description where that of the window is too large for curses. */
+static SCREEN *open_screen(const char *name)
+{
+    struct winsize w;
+    int cols, rows;
+
+    if (window_size(&w, &cols, &rows) && (cols < w.ws_col || rows < w.ws_row))
+        use_env(FALSE);
+    return newterm(name, stdout, stdin);
+}
+
 static void set_modes(void)
 {
     raw();
@@ -315,7 +345,7 @@ bool tty_open(struct error *err)
     xmalloc_set_hook(restore_now);
     stop_at_end(restore_now);
     is_open = 1;
-    term.screen = newterm(name, stdout, stdin);
+    term.screen = open_screen(name);
     if (!term.screen) {
         is_open = 0;
         give_back();
@@ -411,11 +441,11 @@ bool tty_scrolls_at_end(void)
 
 struct tty_size term_size(void)
 {
-    struct winsize w = {0};
+    struct winsize w;
     struct tty_size size = {.cols = COLS, .rows = LINES};
+    int cols, rows;
 
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) != 0 || w.ws_col == 0 ||
-        w.ws_row == 0)
+    if (!window_size(&w, &cols, &rows))
         return size;
     if (w.ws_xpixel >= w.ws_col && w.ws_ypixel >= w.ws_row) {
         size.cell_aspect =
@@ -424,8 +454,8 @@ struct tty_size term_size(void)
         size.cell_height_px = w.ws_ypixel / w.ws_row;
     }
     if (COLS == 0 || LINES == 0) {
-        size.cols = w.ws_col;
-        size.rows = w.ws_row;
+        size.cols = cols;
+        size.rows = rows;
     }
     return size;
 }
@@ -503,11 +533,11 @@ void tty_flush_input(void)
 
 bool tty_relayout(bool must_clear)
 {
-    struct winsize w = {0};
+    struct winsize w;
+    int cols, rows;
 
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) == 0 && w.ws_col > 0 &&
-        w.ws_row > 0)
-        resizeterm(w.ws_row, w.ws_col);
+    if (window_size(&w, &cols, &rows))
+        resizeterm(rows, cols);
     return windows_reset(must_clear);
 }
 

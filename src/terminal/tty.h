@@ -91,7 +91,7 @@ void tty_resume(void);
 /* Discards input that was not read. */
 void tty_flush_input(void);
 
-/* Applies a new size, and resets the windows: windows_reset(). */
+/* Applies a new size, at most 2000x1000 characters, and resets the windows: windows_reset(). */
 bool tty_relayout(bool must_clear);
 
 void tty_set_mouse(bool is_on);

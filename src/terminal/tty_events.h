@@ -15,14 +15,15 @@
 
 struct tty_events {
     struct tty_input input;
-    uint64_t byte_ns; /* time of the last byte of input */
+    uint64_t byte_ns;  /* time of the last byte of input */
+    uint64_t paste_ns; /* time of the last character of pasted text */
 };
 
 /* Takes an event. Returns false if no others are wanted. */
 typedef bool tty_take_event(void *context, const struct event *event);
 
-/* Reads all input that waits, and takes its events. Returns false if the
- * terminal is gone. */
+/* Reads all input that waits, for a frame's time at most, and takes its events.
+ * Returns false if the terminal is gone. */
 bool tty_events_read(struct tty_events *e, tty_take_event *take, void *context);
 
 /* Takes what is incomplete if its time is over. */

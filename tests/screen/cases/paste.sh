@@ -48,3 +48,14 @@ keys C-q
 wait_for "Unsaved changes. Quit?"
 keys y
 expect_end 0
+# A paste whose end is lost is over two seconds after its last character, though
+# the terminal answers every frame meanwhile.
+fresh
+cp "$root"/scenes/cornell.* .
+start cornell.obj
+wait_for "LIVE .* spp"
+raw_keys "$(printf '\033[200~lost')"
+wait_for "pasted text is dropped"
+sleep 2.5
+keys C-q
+expect_end 0
