@@ -41,6 +41,12 @@ $(eval $(call program,tools))
 $(B)/unit/%.o $(B)/fuzz/%.o: private ALL_CFLAGS := \
 	$(patsubst -O3,-O1 $(NO_MAYBE),$(ALL_CFLAGS))
 
+# Comparisons in loops over rays and voxels teach libFuzzer nothing and take half
+# of the time.
+ifneq ($(findstring fuzzer,$(SAN)),)
+$(PATHS) $(B)/fuzz/%.o $(B)/world/%.o $(B)/film/%.o $(B)/scene/%.o: \
+	private ALL_CFLAGS += -fno-sanitize-coverage=trace-cmp
+endif
 # Paths for tests, as fast as on the CPU
 $(B)/unit/paths.o: private ALL_CFLAGS += -O3 $(FLAGS_$(HOST_ISA))
 # Tests with flags of their own.
