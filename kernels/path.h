@@ -107,6 +107,8 @@ static inline void path_open(const struct world *w, struct path *p,
         p->along = v3(0.0f, 0.0f, 0.0f);
         p->crossings = 0;
     }
+    if (HAS(FEATURE_GRIDS))
+        p->smoke_steps = 0;
     if (HAS(FEATURE_SUBSURFACE))
         p->below.steps = 0;
     if (HAS(FEATURE_DISPERSION))
@@ -268,14 +270,14 @@ APART static struct collision path_travel_smoke(const struct world *w,
                             .shares = q,
                             .channel = channel_chosen(q, u.y),
                             .key = smoke_key(p),
-                            .first = path_medium_2d(p, DIMENSION_SMOKE)};
+                            .first = path_medium_2d(p, DIMENSION_SMOKE),
+                            .steps = &p->smoke_steps};
     struct smoke_flight f = smoke_fly(w, &ray, t);
     struct vec3 left = f.left, factor = one, densities = one;
     bool scatters = medium_scatters(m);
 
     path_add(p, f.glow, 1.0f);
     if (f.is_cut) {
-        p->out.cut = 1;
         p->beta = *beta = none;
         c.is_there = true;
         return c;
@@ -292,7 +294,8 @@ APART static struct collision path_travel_smoke(const struct world *w,
         c.is_there = depth < medium_depth(m, p->ray, f.t);
         if (c.is_there) {
             c.t = f_min(medium_distance(m, p->ray, depth), f.t);
-            left = smoke_fly(w, &ray, c.t).left;
+            f = smoke_fly(w, &ray, c.t);
+            left = f.is_cut ? none : f.left;
             factor = m->scattering;
             densities = m->extinction;
         }
@@ -688,6 +691,8 @@ static inline struct path_sample path_close(const struct world *w,
         }
         *surface = p->surface;
     }
+    if (HAS(FEATURE_GRIDS) && p->smoke_steps == SMOKE_STEPS_MAX)
+        p->out.cut = 1;
     p->out.radiance = path_light(p);
     return p->out;
 }

@@ -75,15 +75,14 @@ static inline uint32_t smoke_key(const struct path *p)
 }
 
 /* Estimates the share of light that comes through smokes along a distance t of
- * a ray. `light` is its value in the pixel. Nothing comes to a path that was
- * cut before, so that its time has a bound. */
+ * a ray. `light` is its value in the pixel. */
 static inline struct vec3 path_smoke_share(const struct world *w,
                                            struct path *p, struct ray r,
                                            float t, struct vec3 light,
                                            uint32_t key)
 {
     struct smoke_passage a = {
-        .r = r, .t = t, .weights = light, .key = key, .cut = &p->out.cut};
+        .r = r, .t = t, .weights = light, .key = key, .steps = &p->smoke_steps};
 
     return smoke_transmittance(w, a);
 }

@@ -66,7 +66,8 @@ struct path {
     struct media light_media; /* where the shadow ray begins */
     uint32_t crossings;       /* of boundaries since that vertex */
     struct segment segment;   /* on which the last vertex is */
-    struct vec3 along; /* light that media scatter before the first vertex */
+    struct vec3 along;    /* light that media scatter before the first vertex */
+    uint32_t smoke_steps; /* tentative collisions in smokes. FEATURE_GRIDS */
     struct subsurface_walk below; /* FEATURE_SUBSURFACE */
 };
 

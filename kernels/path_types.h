@@ -41,7 +41,7 @@ struct cell_estimates {
 struct path_sample {
     struct vec3 radiance;
     uint32_t rays; /* closest-hit and any-hit queries */
-    uint32_t cut;  /* 1: the path ended at PATH_HARD_STOP */
+    uint32_t cut;  /* 1: the path ended at PATH_HARD_STOP or a limit like it */
 };
 
 #endif

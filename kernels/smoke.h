@@ -24,7 +24,9 @@
 #include "kernels/medium.h"
 #include "kernels/rng.h"
 
-/* Tentative collisions along a ray after which a path is cut. */
+/* Tentative collisions of a path after which it is cut: a bound for its time,
+ * since media may be white and without end, and majorants far above densities.
+ */
 #define SMOKE_STEPS_MAX 65536u
 
 /* Share of light below which roulette decides whether it comes through. */
@@ -272,6 +274,15 @@ static inline struct vec3 smoke_passing(GLOBAL const struct smoke_medium *s,
               f_max(1.0f - s->extinction.z * part, 0.0f));
 }
 
+/* Counts a tentative collision of a path. Returns false if it has had all. */
+static inline bool smoke_may_step(uint32_t *steps)
+{
+    if (*steps == SMOKE_STEPS_MAX)
+        return false;
+    ++*steps;
+    return true;
+}
+
 /* A request for the share of light that comes along a ray, whose direction is a
  * unit vector. */
 struct smoke_passage {
@@ -280,7 +291,8 @@ struct smoke_passage {
     struct vec3 weights; /* of the channels, of which the largest is 1: where
                             nothing that counts is left, roulette ends it */
     uint32_t key;
-    uint32_t *cut; /* becomes 1 if light is lost after too many steps */
+    uint32_t *steps; /* tentative collisions of the path, which grow: no light
+                        comes after SMOKE_STEPS_MAX */
 };
 
 /* Estimates the share that comes through one smoke. */
@@ -297,6 +309,8 @@ static inline struct vec3 smoke_share(const struct world *w,
     while (brick_walk_go(w, s, collision_depth(1.0f, u.x), &b)) {
         float most;
 
+        if (!smoke_may_step(a->steps))
+            return v3(0.0f, 0.0f, 0.0f);
         left = v3_mul(left, smoke_passing(s, brick_walk_density(w, s, &b),
                                           b.majorant));
         most = v3_max_component(v3_mul(left, a->weights));
@@ -306,21 +320,22 @@ static inline struct vec3 smoke_share(const struct world *w,
             return v3(0.0f, 0.0f, 0.0f);
         if (most < SMOKE_SHARE_MIN)
             left = v3_scale(left, 1.0f / most);
-        if (b.steps == SMOKE_STEPS_MAX) {
-            *a->cut = 1;
-            return v3(0.0f, 0.0f, 0.0f);
-        }
     }
     return left;
 }
 
-/* Returns a weight in parts of the largest one. Below 1e-20 nothing counts, so
- * that what roulette multiplies stays finite. */
-static inline float relative_weight(float weight, float most)
+/* Returns a share of the largest channel, or 0 if it does not count. What
+ * roulette multiplies stays finite then, and numbers are none of the smallest,
+ * with which processors are slow. */
+static inline float share_that_counts(float share)
 {
-    float part = weight / most;
+    return share > 1e-20f ? share : 0.0f;
+}
 
-    return part > 1e-20f ? part : 0.0f;
+static inline struct vec3 shares_that_count(struct vec3 shares)
+{
+    return v3(share_that_counts(shares.x), share_that_counts(shares.y),
+              share_that_counts(shares.z));
 }
 
 /* Returns weights of which the largest is 1, or 0. */
@@ -329,8 +344,7 @@ static inline struct vec3 relative_weights(struct vec3 weights)
     struct vec3 w = v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), weights);
     float most = v3_max_component(w);
 
-    return v3(relative_weight(w.x, most), relative_weight(w.y, most),
-              relative_weight(w.z, most));
+    return shares_that_count(v3(w.x / most, w.y / most, w.z / most));
 }
 
 /* Estimates the share of light that comes through all smokes. The weights may
@@ -374,6 +388,7 @@ struct smoke_ray {
     uint32_t channel;   /* and the one that decides */
     uint32_t key;       /* of random numbers after the first */
     struct vec2 first;  /* random numbers of the first step */
+    uint32_t *steps;    /* as in struct smoke_passage */
 };
 
 /* Returns the radiance of a black body of the smoke's temperature there. */
@@ -439,7 +454,7 @@ static inline bool smoke_meet(const struct world *w,
     f->left = v3_mul(f->left, passing);
     most = v3_max_component(f->left);
     if (most > 0.0f)
-        f->left = v3_scale(f->left, 1.0f / most);
+        f->left = shares_that_count(v3_scale(f->left, 1.0f / most));
     return false;
 }
 
@@ -470,6 +485,9 @@ APART static struct smoke_flight smoke_fly(const struct world *w,
         b = &walks[nearest];
         if (!(b->t < t))
             return f;
+        f.is_cut = !smoke_may_step(ray->steps);
+        if (f.is_cut)
+            return f;
         u = smoke_2d(hash_u32(ray->key + nearest), b->steps);
         if (smoke_meet(w, &w->smokes[nearest], ray, b,
                        nearest == 0 && b->steps == 1 ? ray->first.y : u.y,
@@ -478,9 +496,6 @@ APART static struct smoke_flight smoke_fly(const struct world *w,
             f.smoke = nearest;
             return f;
         }
-        f.is_cut = b->steps == SMOKE_STEPS_MAX;
-        if (f.is_cut)
-            return f;
         if (!brick_walk_go(w, &w->smokes[nearest], collision_depth(1.0f, u.x),
                            b))
             b->t = INFINITY;

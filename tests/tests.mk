@@ -124,7 +124,8 @@ fuzz:
 		BUILDS=$(BUILDS) \
 		CFLAGS='$(if $(filter file,$(origin CFLAGS)),-O1 -g,$(CFLAGS))' search
 search: $(FUZZERS)
-	@BUILD=$(L) TIME='$(TIME)' RUNS='$(RUNS)' FILTER='$(FILTER)' \
+	@BUILD=$(L) RUNS='$(RUNS)' FILTER='$(FILTER)' \
+		TIME='$(if $(and $(RUNS),$(filter file,$(origin TIME))),,$(TIME))' \
 		tests/fuzz/search.sh
 
 ## stress: runs checks at numerical limits, and others that take minutes;

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: MIT
 # search.sh - runs each fuzz target with random inputs (`make fuzz`)
 #
-# BUILD is the folder of the targets, TIME the seconds for each of them, or RUNS
-# the inputs; FILTER=PART selects some by name. Inputs that reach new code are
-# kept in build/fuzz/NAME for the next time, failing ones in build/fuzz/found.
-# Each input has a minute and 2 GiB. A line says how many inputs a target had,
-# how many in a second, and libFuzzer's counts of edges (cov) and features (ft).
-# The last line is "N passed, N failed".
+# BUILD is the folder of the targets, TIME the seconds for each of them and RUNS
+# the inputs, whichever ends first; FILTER=PART selects some by name. Inputs that
+# reach new code are kept in build/fuzz/NAME for the next time, failing ones in
+# build/fuzz/found. Each input has a minute and 2 GiB. A line says how many inputs
+# a target had, how many in a second, and libFuzzer's counts of edges (cov) and
+# features (ft). The last line is "N passed, N failed".
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 shared=${GLIM_SHARED:-../shared}/suites
@@ -16,8 +16,9 @@ trap 'rm -rf "$work"' EXIT
 mkdir -p build/fuzz/found
 export TMPDIR=$work
 export LSAN_OPTIONS=suppressions=$PWD/tests/tools/lsan.supp:print_suppressions=0
-limit=-max_total_time=${TIME:-60}
-[ -n "${RUNS-}" ] && limit=-runs=$RUNS
+limits=()
+[ -n "${TIME-}" ] && limits+=("-max_total_time=$TIME")
+[ -n "${RUNS-}" ] && limits+=("-runs=$RUNS")
 passed=0
 failed=0
 
@@ -48,7 +49,7 @@ search() # NAME
     *) seeds "$name" ;;
     esac
     mkdir -p "build/fuzz/$name"
-    if nice "$BUILD/fuzz/fuzz_$name" "$limit" \
+    if nice "$BUILD/fuzz/fuzz_$name" "${limits[@]}" \
         -timeout=60 -rss_limit_mb=2048 -max_len=16384 -print_final_stats=1 \
         -artifact_prefix="build/fuzz/found/$name-" "build/fuzz/$name" \
         "tests/fuzz/corpus/$name" "$work/$name" >"$work/log" 2>&1; then

@@ -167,23 +167,32 @@ static inline void put_any_medium(FILE *f, uint64_t *seed)
     put_numbers(f, "Tf_anisotropy", 1, cosine, seed);
 }
 
+/* Writes each statement of a colour or number with this probability. */
+static inline void put_any_statements(FILE *f, double probability,
+                                      uint64_t *seed)
+{
+    for (size_t i = 0; i < MTL_PROPERTIES; i++) {
+        const struct mtl_property *p = &mtl_properties[i];
+        bool is_cosine =
+            strcmp(p->key, "Sg") == 0 || strcmp(p->key, "Tf_anisotropy") == 0;
+
+        if (check_random(seed) < probability && strcmp(p->key, "illum") != 0)
+            put_numbers(f, p->key,
+                        p->is_color && check_random(seed) < 0.5 ? 3 : 1,
+                        is_cosine ? cosine : amount, seed);
+    }
+}
+
 static inline void put_any_material(FILE *f, int number, uint64_t *seed)
 {
-    static const char *const numbers[] = {"Ns", "Ni", "d",           "Tr",
-                                          "Pr", "Pm", "Kd_roughness"};
-    static const char *const colors[] = {"Kd", "Ks", "Ke", "Tf"};
     static const char *const maps[] = {"map_Kd", "map_Ks",  "map_Ke",
                                        "map_Pr", "map_Pm",  "map_d",
                                        "norm",   "map_Bump"};
 
     fprintf(f, "newmtl m%d\nillum %d\n", number, (int)one_of(seed, 11));
-    for (size_t i = 0; i < sizeof colors / sizeof *colors; i++)
-        if (check_random(seed) < 0.5)
-            put_numbers(f, colors[i], check_random(seed) < 0.5 ? 1 : 3, amount,
-                        seed);
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        if (check_random(seed) < 0.25)
-            put_numbers(f, numbers[i], 1, amount, seed);
+    put_any_statements(f, check_random(seed) < 0.5 ? 0.15 : 0.4, seed);
+    if (check_random(seed) < 0.5)
+        put_numbers(f, "Ke", 3, amount, seed);
     if (check_random(seed) < 0.1)
         fprintf(f, "Ke_blackbody %g %.9g\n", 500 + 5000 * check_random(seed),
                 amount(seed));
@@ -194,6 +203,11 @@ static inline void put_any_material(FILE *f, int number, uint64_t *seed)
                     coordinate(seed));
     if (check_random(seed) < 0.2)
         put_any_medium(f, seed);
+    if (check_random(seed) < 0.1) {
+        fprintf(f, "illum 2\nd 1\nPm 0\n");
+        put_numbers(f, "Sf", 1, amount, seed);
+        put_numbers(f, "Sr", 3, amount, seed);
+    }
 }
 
 static inline void put_faces(FILE *f, int materials, int vertices,

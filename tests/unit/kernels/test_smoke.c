@@ -337,13 +337,13 @@ static void check_transmittance(const struct grid *g, const struct ray *r,
     double depth = depth_of(r, (double)t_max);
     double sum[3] = {0}, squares[3] = {0};
     const int n = 4000;
-    uint32_t cut = 0;
 
     for (int i = 0; i < n; i++) {
+        uint32_t steps = 0;
         struct vec3 s = smoke_transmittance(
             &g->world,
             (struct smoke_passage){*r, t_max, weights,
-                                   hash_u32(seed + (uint32_t)i), &cut});
+                                   hash_u32(seed + (uint32_t)i), &steps});
         const double share[3] = {(double)s.x, (double)s.y, (double)s.z};
 
         for (int k = 0; k < 3; k++) {
