@@ -37,6 +37,8 @@ static _Atomic uint64_t allow_ns, release_ns; /* the latest of each */
 static void (*_Atomic lasts[LASTS_MAX])(void);
 static atomic_int last_count;
 
+static void (*_Atomic wait_said)(void); /* may be NULL */
+
 /* Returns true if the program has had its time to end by itself. */
 static bool is_over(void)
 {
@@ -52,14 +54,27 @@ static bool is_over(void)
     return clock_ns() >= since_ns + STOP_MS * MS_NS;
 }
 
+/* Says once that the end is held for long. */
+static void say_wait(void)
+{
+    void (*say)(void) = atomic_load(&wait_said);
+
+    if (say == NULL || clock_ns() < atomic_load(&asked_ns) + AGAIN_NS)
+        return;
+    atomic_store(&wait_said, NULL);
+    say();
+}
+
 static void *watch(void *unused)
 {
     const struct timespec look = {.tv_nsec = LOOK_NS};
 
     while (sem_wait(&asked) != 0)
         continue; /* interrupted */
-    while (!is_over())
+    while (!is_over()) {
         nanosleep(&look, NULL);
+        say_wait();
+    }
     atomic_store(&is_ending, true);
     for (int i = atomic_load(&last_count); i-- > 0;)
         atomic_load (&lasts[i])();
@@ -92,6 +107,9 @@ void stop_request(int status, bool may_be_impatient)
         atomic_store(&asked_status, status);
         sem_post(&asked);
     } else if (may_be_impatient && now_ns - first_ns >= AGAIN_NS) {
+        int done = 0;
+
+        atomic_compare_exchange_strong(&asked_status, &done, status);
         atomic_store(&is_impatient, true);
     }
 }
@@ -126,6 +144,11 @@ void stop_at_end(void (*last)(void))
         atomic_store(&lasts[i], last);
     else
         atomic_fetch_sub(&last_count, 1);
+}
+
+void stop_when_waiting(void (*say)(void))
+{
+    atomic_store(&wait_said, say);
 }
 
 void stop_stay(void)

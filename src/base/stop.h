@@ -26,8 +26,8 @@
 bool stop_begin(struct error *err);
 
 /* Asks for the end with this exit status. Later calls change nothing, except
- * that an impatient one ends work on files as well. Signal handlers that
- * restore errno may call it. */
+ * that an impatient one ends work on files as well, with its own status if the
+ * first was 0. Signal handlers that restore errno may call it. */
 void stop_request(int status, bool may_be_impatient);
 
 /* Holds the end off until the matching stop_release(). Calls may nest. */
@@ -44,8 +44,12 @@ void stop_allow_end(void);
  * first. Other threads still run, and may hold any lock. */
 void stop_at_end(void (*last)(void));
 
-/* Returns unless these functions are called: whatever fails meanwhile fails
- * because of them, and must not end the program with another status. */
+/* Registers what the thread calls, once, when a second signal would end the
+ * program at once, which goes on with work on files. */
+void stop_when_waiting(void (*say)(void));
+
+/* Returns unless those of stop_at_end() are called: whatever fails meanwhile
+ * fails because of them, and must not end the program with another status. */
 void stop_stay(void);
 
 #endif

@@ -7,6 +7,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -19,8 +20,6 @@
 #include "base/xdg.h"
 #include "engine/engine_film.h"
 #include "film/film_file.h"
-
-/* ---- files ---- */
 
 /* ---- files ---- */
 
@@ -126,6 +125,13 @@ static bool fail_line(const struct reader *r, const char *expected,
                 expected);
 }
 
+static bool fail_memory(const struct reader *r, struct autosave_file *k,
+                        struct error *err)
+{
+    k->is_damaged = false;
+    return fail(err, "%s: out of memory", r->path);
+}
+
 /* Reads the line `KEY NUMBER`. A NUL is after the text. */
 static bool read_number(struct reader *r, const char *key, uint64_t *value,
                         struct error *err)
@@ -156,7 +162,7 @@ static bool read_scene(struct reader *r, struct autosave_file *k,
         return fail_line(r, "the path of a scene", err);
     k->scene = format_text("%.*s", (int)(length - key), r->p + key);
     r->p += length + 1;
-    return k->scene != NULL || fail(err, "%s: out of memory", r->path);
+    return k->scene != NULL || fail_memory(r, k, err);
 }
 
 /* Reads the head. The sizes of the parts must make up the rest of the file,
@@ -210,7 +216,7 @@ static bool take_parts(struct autosave_file *k, const struct reader *r,
     for (int i = 0; i < AUTOSAVE_PARTS; i++) {
         k->parts[i] = malloc(k->sizes[i] + 1);
         if (k->parts[i] == NULL)
-            return fail(err, "%s: out of memory", r->path);
+            return fail_memory(r, k, err);
         memcpy(k->parts[i], p, k->sizes[i]);
         k->parts[i][k->sizes[i]] = '\0';
         if (i != AUTOSAVE_FILM)
@@ -227,9 +233,12 @@ static bool parse(struct autosave_file *k, const char *path, const char *bytes,
     struct reader r = {.path = path, .p = bytes};
     uint64_t texts = 0;
 
-    *k = (struct autosave_file){.scene = NULL};
-    return read_head(&r, k, size_bytes, &texts, err) &&
-           (!has_parts || take_parts(k, &r, texts, err));
+    *k = (struct autosave_file){.is_damaged = true};
+    if (!read_head(&r, k, size_bytes, &texts, err) ||
+        (has_parts && !take_parts(k, &r, texts, err)))
+        return false;
+    k->is_damaged = false;
+    return true;
 }
 
 bool autosave_file_parse(struct autosave_file *k, const char *path,
@@ -258,12 +267,14 @@ bool autosave_file_read_head(struct autosave_file *k, const char *path,
                              struct error *err)
 {
     char bytes[HEAD_BYTES_MAX + 1];
-    struct file_identity file = file_identify(path);
     int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    ssize_t count;
+    struct stat file;
+    ssize_t count = -1;
 
     *k = (struct autosave_file){.scene = NULL};
-    count = fd >= 0 ? read(fd, bytes, HEAD_BYTES_MAX) : -1;
+    /* the size is that of this version: the name may get another one */
+    if (fd >= 0 && fstat(fd, &file) == 0)
+        count = read(fd, bytes, HEAD_BYTES_MAX);
     if (count < 0)
         fail(err, "%s: %s", path, strerror(errno));
     if (fd >= 0)
@@ -271,9 +282,9 @@ bool autosave_file_read_head(struct autosave_file *k, const char *path,
     if (count < 0)
         return false;
     bytes[count] = '\0';
-    if ((off_t)count > file.size_bytes)
+    if ((off_t)count > file.st_size)
         return fail(err, "%s: found a file that changes", path);
-    return parse(k, path, bytes, (size_t)file.size_bytes, false, err);
+    return parse(k, path, bytes, (size_t)file.st_size, false, err);
 }
 
 void autosave_file_free(struct autosave_file *k)
@@ -599,13 +610,17 @@ static bool pack_film(struct autosave_writer *w, struct copy *c)
     return true;
 }
 
+/* Writes the file, and makes its folder again if that was removed. */
 static bool write_file(struct autosave_writer *w)
 {
     size_t size;
     char *bytes = autosave_file_bytes(&w->kept, &size);
-    bool ok = bytes != NULL
-                  ? file_write(w->path, bytes, size, false, NULL, &w->error)
-                  : fail(&w->error, "%s: out of memory", w->path);
+    bool ok;
+
+    free(folder_path());
+    ok = bytes != NULL
+             ? file_write(w->path, bytes, size, false, NULL, &w->error)
+             : fail(&w->error, "%s: out of memory", w->path);
 
     free(bytes);
     return ok;

@@ -59,6 +59,9 @@ struct autosave_file {
     bool is_live;       /* the film is of live mode */
     bool has_edits;     /* materials, assignments or light were not saved */
     uint64_t render_ns; /* time of rendering of the film */
+    /* the bytes that were read are no session; otherwise reading may succeed
+     * later */
+    bool is_damaged;
     /* for free(); NULL without a part, and after autosave_file_read_head() */
     char *parts[AUTOSAVE_PARTS];
     size_t sizes[AUTOSAVE_PARTS];

@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/clock.h"
 #include "base/file.h"
@@ -12,6 +13,8 @@
 #include "film/image_write.h"
 #include "session/session_save.h"
 #include "terminal/xmalloc.h"
+
+static const char text_ending[] = "ans";
 
 /* Returns the scene's file name without folder and extension, for free(). */
 static char *scene_name(const struct live_render *control)
@@ -44,7 +47,7 @@ static bool begin(struct live_render *control, struct picture_to_save picture)
     ok = save_thread_begin(&control->saver, &picture, &err);
     if (ok) {
         int length = snprintf(control->saving_what, sizeof control->saving_what,
-                              "%dx%d", control->session->engine.crop.width,
+                              " %dx%d", control->session->engine.crop.width,
                               control->session->engine.crop.height);
 
         control->saving_samples = control->saved_samples;
@@ -117,6 +120,8 @@ static const char *how_saved(const struct live_render *control)
 {
     const struct save_thread *s = &control->saver;
 
+    if (strcmp(s->picture.ending, text_ending) == 0)
+        return "";
     if (s->picture.film == NULL)
         return ", as it is shown";
     return s->was_filtered                 ? ", filtered"
@@ -137,7 +142,7 @@ bool save_finish(struct live_render *control)
         live_render_add_result(control, err.text);
         return false;
     }
-    say_saved(control, xformat("saved %s %s%s", name, control->saving_what,
+    say_saved(control, xformat("saved %s%s%s", name, control->saving_what,
                                how_saved(control)));
     control->saved_samples = control->saving_samples;
     free(name);
@@ -147,22 +152,19 @@ bool save_finish(struct live_render *control)
 void save_text(struct live_render *control, const struct frame *frame,
                const struct ansi_text_style *style)
 {
-    char *stem = scene_name(control);
+    struct picture_to_save picture = {.ending = text_ending};
     struct error err;
-    char *text, *name = NULL;
-    size_t size_bytes;
 
-    if (ansi_text_of_frame(frame, style, &text, &size_bytes, &err)) {
-        name = file_write_numbered(stem, "ans", text, size_bytes, &err);
-        free(text);
-    }
-    free(stem);
-    if (name)
-        say_saved(control, xformat("saved %s, text of %dx%d characters", name,
-                                   style->cols, style->rows));
-    else
+    if (!ansi_text_of_frame(frame, style, &picture.text, &picture.text_bytes,
+                            &err)) {
         live_render_say_error(control, err.text);
-    free(name);
+        return;
+    }
+    if (begin(control, picture))
+        snprintf(control->saving_what, sizeof control->saving_what,
+                 ", text of %dx%d characters", style->cols, style->rows);
+    else
+        free(picture.text);
 }
 
 void save_view(struct live_render *control)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "base/print.h"
 #include "base/stop.h"
 #include "base/thread_pool.h"
@@ -88,6 +89,12 @@ static void save(void *context)
     s->was_filtered = false;
     if (s->picture.film != NULL) {
         save_film(s);
+    } else if (s->picture.text != NULL) {
+        background_has_copied(&s->copying);
+        s->name =
+            file_write_numbered(s->stem, s->picture.ending, s->picture.text,
+                                s->picture.text_bytes, &s->error);
+        free(s->picture.text);
     } else {
         background_has_copied(&s->copying);
         s->name =

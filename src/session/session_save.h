@@ -24,10 +24,13 @@
 
 /* ---- pictures ---- */
 
-/* A picture to be saved as stem.ending or the next free name. */
+/* A picture to be saved as stem.ending or the next free name: a film, a frame
+ * or a text. */
 struct picture_to_save {
     struct film *film;
     struct frame frame; /* in place of the film; the thread frees it */
+    char *text;         /* in place of both; the thread frees it */
+    size_t text_bytes;
     /* the film is filtered as PNG: the world, with its tree, for the draft; its
      * camera has the film's pixels */
     bool is_filtered;

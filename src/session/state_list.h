@@ -34,8 +34,14 @@ struct state_list_file {
 void state_list_read(struct state_list *list,
                      const struct state_list_file *file);
 
-/* Puts a line first, in the place of the one with the same key. */
+/* Puts a line first, in the place of the one with the same key. A thread writes
+ * the file, so that nobody waits for a slow disk. Nothing is written if the
+ * lines of before cannot be read, or if another program writes the file for
+ * long. */
 void state_list_put(const struct state_list_file *file, const char *line);
+
+/* Blocks until all lines are in their files. */
+void state_list_finish(void);
 
 void state_list_free(struct state_list *list);
 

@@ -45,7 +45,8 @@ static void hurry(struct autosave *k)
     set_timer(k, (struct timespec){.tv_nsec = CHANGE_NS});
 }
 
-/* Offers a file if it is one of the scene. A damaged one is removed. */
+/* Offers a file if it is one of the scene. A damaged one is removed; one that
+ * cannot be read now stays for later. */
 static void offer(struct autosave *k, const char *path)
 {
     char what[AUTOSAVE_TEXT_BYTES];
@@ -56,7 +57,8 @@ static void offer(struct autosave *k, const char *path)
         return;
     if (!autosave_file_read_head(&head, path, &err)) {
         live_render_say_error(k->control, err.text);
-        unlink(path);
+        if (head.is_damaged)
+            unlink(path);
     } else if (strcmp(head.scene, k->scene) == 0) {
         autosave_describe(what, &head);
         live_render_say(k->control, "kept: %s; %s goes on with it", what,
@@ -303,7 +305,9 @@ static bool take_film(struct autosave *k, const struct autosave_file *kept,
     return ok;
 }
 
-static void restore(struct autosave *k, const struct autosave_file *kept)
+/* Restores what the file has. Returns false, with a message, if not even the
+ * edits are restored. */
+static bool restore(struct autosave *k, const struct autosave_file *kept)
 {
     struct live_render *control = k->control;
     uint32_t missing;
@@ -312,7 +316,7 @@ static void restore(struct autosave *k, const struct autosave_file *kept)
     if (!autosave_history_restore(kept, control->session, k->path, &missing,
                                   &err)) {
         live_render_say_error(control, err.text);
-        return;
+        return false;
     }
     camera_control_set_scene(k->camera);
     live_render_go_on(control, true, NULL);
@@ -327,6 +331,7 @@ static void restore(struct autosave *k, const struct autosave_file *kept)
         live_render_say(control, "restored: %s",
                         kept->sizes[AUTOSAVE_FILM] > 0 ? "view, changes, render"
                                                        : "view and changes");
+    return true;
 }
 
 void autosave_go_on(struct autosave *k)
@@ -334,14 +339,19 @@ void autosave_go_on(struct autosave *k)
     const char *path = k->offer_path;
     struct autosave_file kept;
     struct error err;
+    bool ends;
 
     if (path == NULL)
         return;
-    if (autosave_file_read(&kept, path, &err))
-        restore(k, &kept);
-    else
+    if (autosave_file_read(&kept, path, &err)) {
+        ends = restore(k, &kept);
+    } else {
         live_render_say_error(k->control, err.text);
+        ends = kept.is_damaged;
+    }
     autosave_file_free(&kept);
+    if (!ends)
+        return; /* the offer stays */
     if (path == k->path)
         k->has_file = true;
     else

@@ -19,6 +19,7 @@
 #include "session/keymap.h"
 #include "session/live_render.h"
 #include "session/save.h"
+#include "session/state_list.h"
 #include "session/stats_json.h"
 #include "studio/autosave.h"
 #include "studio/camera/camera_control.h"
@@ -53,6 +54,7 @@ struct studio {
     enum question question; /* question that waits for an answer */
     char question_text[96]; /* of QUESTION_VIEW */
     bool may_write_view;    /* the person has agreed */
+    bool quits_when_saved;  /* the person quits, and a picture is being saved */
     bool is_ending;
     bool is_gone; /* the terminal has gone */
     int status;   /* exit status */
@@ -129,11 +131,19 @@ static void restart(struct studio *studio)
         live_render_restart(&studio->control);
 }
 
-/* Ends the loop. Asks first, once, if something would be lost. */
+/* Ends the loop, after a picture that is being saved unless the key is pressed
+ * again. Asks first, once, if something would be lost. */
 static void studio_quit(struct studio *studio)
 {
-    if (!save_finish(&studio->control))
+    if (studio->control.saver.copying.is_busy && !studio->quits_when_saved) {
+        studio->quits_when_saved = true;
+        live_render_say_long(&studio->control, "%s when the picture is saved",
+                             studio->control.session->next_scene != NULL
+                                 ? "leaves"
+                                 : "quits");
         return;
+    }
+    studio->quits_when_saved = false;
     if (studio->question != QUESTION_QUIT &&
         (live_render_has_unsaved(&studio->control) ||
          live_render_has_unsaved_edit(&studio->control)))
@@ -505,6 +515,19 @@ static void stay(struct studio *studio)
     studio->control.session->next_scene = NULL;
 }
 
+/* Ends the save in progress, and goes on with quitting after it. */
+static void end_save(struct studio *studio)
+{
+    bool quits = studio->quits_when_saved;
+    bool is_saved = save_finish(&studio->control);
+
+    studio->quits_when_saved = false;
+    if (quits && is_saved)
+        studio_quit(studio);
+    else if (quits)
+        stay(studio);
+}
+
 /* Takes any key as the answer and removes the question. */
 static void question_answer(struct studio *studio, int key)
 {
@@ -769,6 +792,10 @@ static void take_action(struct studio *studio, int key, enum action action)
     bool is_taken = false;
 
     live_render_acknowledge_error(&studio->control);
+    if (studio->quits_when_saved && action != ACTION_QUIT) {
+        studio->quits_when_saved = false;
+        stay(studio);
+    }
     studio->pace = key >= 'A' && key <= 'Z' ? MOVES_FAST : 1;
     for (size_t i = 0; i < PARTS && !is_taken && !is_urgent(action); i++)
         is_taken = part_takes(&parts[i], studio, key, action);
@@ -949,7 +976,7 @@ static void take_events(struct studio *studio, struct pollfd fds[FDS])
     if (fds[FD_RENDER].revents)
         event_fd_clear(fds[FD_RENDER].fd); /* live_render_update() follows */
     if (fds[FD_SAVER].revents)
-        save_finish(&studio->control);
+        end_save(studio);
     if (fds[FD_AUTOSAVE].revents)
         autosave_finish(&studio->autosave);
     if (fds[FD_KEEPER_TIMER].revents)
@@ -1025,6 +1052,18 @@ static void loop(struct studio *studio)
     }
 }
 
+/* Says on the terminal that is left what the program waits for. */
+static void say_writing(void)
+{
+    static const char text[] = "glim: files are being written; ^C ends without "
+                               "them\n";
+
+    if (!tty_is_open() && write(STDOUT_FILENO, text, sizeof text - 1) < 0)
+        return; /* the terminal is gone */
+}
+
+/* Leaves the screen before the files, since a disk may be slow, or not answer
+ * at all: then ^C ends the program. */
 static void close_screen(struct studio *studio)
 {
     bool is_lost = studio->status > 128; /* by a signal, or its key */
@@ -1035,9 +1074,12 @@ static void close_screen(struct studio *studio)
         screen_drain(&studio->workspace.screen, &studio->events.input);
     /* before what may take longer than stop.h allows: a driver, or a tree */
     stop_hold();
+    stop_when_waiting(say_writing);
+    tty_leave(studio->is_gone);
     save_finish(&studio->control);
     workspace_keep_picture(&studio->workspace);
     autosave_end(&studio->autosave, is_lost);
+    state_list_finish();
     stop_release();
     /* before tty_close(): its end puts back the signal handlers of its start */
     backends_abandon_device(&studio->control.session->engine.backends);

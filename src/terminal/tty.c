@@ -393,7 +393,7 @@ static void write_restoring(void)
     write_bytes(text + skip, sizeof text - 1 - skip, false);
 }
 
-void tty_close(bool is_gone)
+void tty_leave(bool is_gone)
 {
     if (!is_open)
         return;
@@ -403,10 +403,23 @@ void tty_close(bool is_gone)
         leave_screen();
     }
     is_open = 0;
-    windows_free();
     if (!is_gone)
         tcsetattr(STDIN_FILENO, TCSANOW, &term.before);
+}
+
+bool tty_is_open(void)
+{
+    return is_open != 0;
+}
+
+void tty_close(bool is_gone)
+{
+    if (!term.screen)
+        return;
+    tty_leave(is_gone);
+    windows_free();
     delscreen(term.screen);
+    term.screen = NULL;
     give_back();
 }
 

@@ -31,8 +31,15 @@ struct tty_size {
  * arrive among the keys; the last is EVENT_ATTRIBUTES. */
 bool tty_open(struct error *err);
 
-/* Restores the terminal. is_gone means that it has hung up: nothing is
- * written. */
+/* Restores the terminal, but goes on taking signals. is_gone means that it has
+ * hung up: nothing is written. */
+void tty_leave(bool is_gone);
+
+/* Returns true between tty_open() and tty_leave(). Any thread may call it. */
+bool tty_is_open(void);
+
+/* Restores the terminal if that is not done, and the signal handlers of
+ * before. */
 void tty_close(bool is_gone);
 
 /* Ignores SIGHUP and SIGTERM from now on, after tty_close() too. Called when
@@ -91,7 +98,8 @@ void tty_resume(void);
 /* Discards input that was not read. */
 void tty_flush_input(void);
 
-/* Applies a new size, at most 2000x1000 characters, and resets the windows: windows_reset(). */
+/* Applies a new size, at most 2000x1000 characters, and resets the windows:
+ * windows_reset(). */
 bool tty_relayout(bool must_clear);
 
 void tty_set_mouse(bool is_on);

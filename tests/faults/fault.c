@@ -8,6 +8,10 @@
  * of one number, counts the calls of all processes with this environment.
  * Allocations of ncurses never fail, because it crashes without memory.
  *
+ * With FAULT_DISK=FILE, the file says how disks are at the moment: `slow MS`
+ * lets fsync() take so many milliseconds, and `fails N` lets write() to files
+ * fail with error number N.
+ *
  * Threads:   any
  */
 #include <dlfcn.h>
@@ -17,9 +21,11 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static char kind[16];
@@ -107,4 +113,52 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attr,
         return EAGAIN;
     *(void **)&next = dlsym(RTLD_NEXT, "pthread_create");
     return next(thread, attr, start, context);
+}
+
+/* ---- disks ---- */
+
+/* Returns the number behind the word in the file FAULT_DISK, or 0. */
+static int disk(const char *word)
+{
+    const char *path = getenv("FAULT_DISK");
+    int fd = path != NULL ? open(path, O_RDONLY | O_CLOEXEC) : -1;
+    char text[64], found[16];
+    ssize_t length = fd >= 0 ? read(fd, text, sizeof text - 1) : 0;
+    int number;
+
+    if (fd >= 0)
+        close(fd);
+    text[length > 0 ? length : 0] = '\0';
+    return sscanf(text, "%15s %d", found, &number) == 2 &&
+                   strcmp(found, word) == 0
+               ? number
+               : 0;
+}
+
+int fsync(int fd)
+{
+    int (*next)(int) = NULL;
+
+    usleep((useconds_t)disk("slow") * 1000);
+    *(void **)&next = dlsym(RTLD_NEXT, "fsync");
+    return next(fd);
+}
+
+ssize_t write(int fd, const void *bytes, size_t size)
+{
+    static ssize_t (*_Atomic known)(int, const void *, size_t);
+    ssize_t (*next)(int, const void *, size_t) = known;
+    struct stat file;
+    int error;
+
+    if (fstat(fd, &file) == 0 && S_ISREG(file.st_mode) &&
+        (error = disk("fails")) != 0) {
+        errno = error;
+        return -1;
+    }
+    if (next == NULL) {
+        *(void **)&next = dlsym(RTLD_NEXT, "write");
+        known = next;
+    }
+    return next(fd, bytes, size);
 }

@@ -7,13 +7,17 @@
 #include "tests/unit/folder.h"
 
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "session/state_list.h"
 
 static void write_file(const char *text)
 {
-    FILE *to = fopen("state/glim/glyphs", "w");
+    FILE *to;
 
+    state_list_finish();
+    to = fopen("state/glim/glyphs", "w");
     assert_non_null(to);
     fputs(text, to);
     fclose(to);
@@ -65,12 +69,55 @@ static void other_lines_are_left_out(void **state)
     assert_int_equal(glyph_memory_read("c"), GLYPH_ASCII);
 }
 
+/* A choice is remembered before it is in the file, and in its order. */
+static void threads_write_all(void **state)
+{
+    struct state_list list;
+    FILE *from;
+    char line[32];
+
+    (void)state;
+    write_file("");
+    glyph_memory_write("a", GLYPH_HALF);
+    glyph_memory_write("b", GLYPH_SHADE);
+    glyph_memory_write("a", GLYPH_ASCII);
+    assert_int_equal(glyph_memory_read("a"), GLYPH_ASCII);
+    state_list_finish();
+    from = fopen("state/glim/glyphs", "r");
+    assert_non_null(from);
+    assert_non_null(fgets(line, sizeof line, from));
+    assert_string_equal(line, "ascii a\n");
+    assert_non_null(fgets(line, sizeof line, from));
+    assert_string_equal(line, "shade b\n");
+    assert_null(fgets(line, sizeof line, from));
+    fclose(from);
+    state_list_read(&list, &(struct state_list_file){"none", 1, NULL});
+    assert_int_equal(list.count, 0);
+}
+
+/* A file that cannot be read is not replaced: this one is too large. */
+static void unreadable_lists_stay(void **state)
+{
+    struct stat found;
+
+    (void)state;
+    write_file("block b\n");
+    if (truncate("state/glim/glyphs", (off_t)1 << 40) != 0)
+        skip();
+    glyph_memory_write("c", GLYPH_ASCII);
+    state_list_finish();
+    assert_int_equal(stat("state/glim/glyphs", &found), 0);
+    assert_int_equal(found.st_size, (off_t)1 << 40);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_terminal_has_its_own),
         cmocka_unit_test(the_last_fifty_are_remembered),
         cmocka_unit_test(other_lines_are_left_out),
+        cmocka_unit_test(threads_write_all),
+        cmocka_unit_test(unreadable_lists_stay),
     };
 
     return cmocka_run_group_tests(tests, enter_folder_with_state,

@@ -440,8 +440,10 @@ static void texts_are_written(void **state)
     assert_true(ansi_text_frame_init(&frame, &style, &err));
     render_whole(w);
     save_text(w, &frame, &style);
+    assert_true(save_finish(w));
     assert_string_equal(w->message.text, "saved s.ans, text of 8x2 characters");
     save_text(w, &frame, &style);
+    assert_true(save_finish(w));
     assert_string_equal(w->message.text,
                         "saved s-2.ans, text of 8x2 characters");
     frame_free(&frame);

@@ -39,6 +39,7 @@ static void forget(void)
 {
     char path[256];
 
+    state_list_finish();
     snprintf(path, sizeof path, "%s/state/glim/recent", folder);
     unlink(path);
 }

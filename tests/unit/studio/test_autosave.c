@@ -5,6 +5,7 @@
  */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/timerfd.h>
 #include <unistd.h>
 
@@ -264,6 +265,52 @@ static void damaged_files_are_removed(void **state)
     free(path);
 }
 
+/* A file that cannot be read now, for want of a descriptor, is offered again.
+ */
+static void unreadable_files_stay(void **state)
+{
+    struct rlimit before, none;
+    struct work w;
+
+    (void)state;
+    begin(&w);
+    set_exposure(&w, 1);
+    end(&w, true);
+    begin(&w);
+    assert_non_null(w.autosave.offer_path);
+    assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
+    none = before;
+    none.rlim_cur = 0;
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &none), 0);
+    autosave_go_on(&w.autosave);
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
+    assert_non_null(strstr(w.control.message.text, "Too many open files"));
+    assert_non_null(w.autosave.offer_path);
+    check_close(exposure(&w), 0, 0);
+    autosave_go_on(&w.autosave);
+    assert_null(w.autosave.offer_path);
+    check_close(exposure(&w), 1, 0);
+    end(&w, false);
+    assert_int_equal(count_sessions(), 0);
+}
+
+/* The folder of sessions is made again where it was removed. */
+static void removed_folders_are_made_again(void **state)
+{
+    struct work w;
+
+    (void)state;
+    begin(&w);
+    assert_int_equal(system("rm -r state"), 0);
+    set_exposure(&w, 1);
+    end(&w, true);
+    begin(&w);
+    assert_non_null(w.autosave.offer_path);
+    autosave_drop(&w.autosave);
+    end(&w, false);
+    assert_int_equal(count_sessions(), 0);
+}
+
 static int enter(void **state)
 {
     if (enter_folder_with_state(state) != 0)
@@ -281,6 +328,8 @@ int main(void)
         cmocka_unit_test(changes_are_written_at_once),
         cmocka_unit_test(films_go_on),
         cmocka_unit_test(damaged_files_are_removed),
+        cmocka_unit_test(unreadable_files_stay),
+        cmocka_unit_test(removed_folders_are_made_again),
     };
 
     return cmocka_run_group_tests(tests, enter, remove_folder);
