@@ -24,10 +24,8 @@
 #include "kernels/medium.h"
 #include "kernels/rng.h"
 
-/* Tentative collisions of a path after which it is cut: a bound for its time,
- * since media may be white and without end, and majorants far above densities.
- */
-#define SMOKE_STEPS_MAX 65536u
+/* Share of the largest channel below which another does not count. */
+#define SHARE_MIN 1e-20f
 
 /* Share of light below which roulette decides whether it comes through. */
 #define SMOKE_SHARE_MIN 0.1f
@@ -123,6 +121,7 @@ struct brick_walk {
     uint32_t at[3];   /* the brick */
     float t, t_max;   /* distance; that of the end */
     float majorant;   /* of the density in the brick */
+    float extinction; /* for which the tentative collision was sampled */
     uint32_t steps;   /* tentative collisions so far */
 };
 
@@ -218,16 +217,31 @@ static inline void brick_walk_step(const struct world *w,
     brick_meet(w, f, b);
 }
 
+/* Returns the largest extinction of the channels of which something is left: a
+ * channel that is stopped at once must not make steps tiny for the others. */
+static inline float smoke_most(GLOBAL const struct smoke_medium *s,
+                               struct vec3 left)
+{
+    float x = left.x > 0.0f ? s->extinction.x : 0.0f;
+    float y = left.y > 0.0f ? s->extinction.y : 0.0f;
+    float z = left.z > 0.0f ? s->extinction.z : 0.0f;
+
+    return f_max(x, f_max(y, z));
+}
+
 /* Goes on to the next tentative collision, which is this deep in a medium of
- * the majorant's density. Returns false if the ray ends before. */
+ * the majorant's density and this extinction. Returns false if the ray ends
+ * before. */
 static inline bool brick_walk_go(const struct world *w,
                                  GLOBAL const struct smoke_medium *s,
-                                 float depth, struct brick_walk *b)
+                                 float extinction, float depth,
+                                 struct brick_walk *b)
 {
+    b->extinction = extinction;
     for (;;) {
         float end =
             f_min(f_min(b->next.x, b->next.y), f_min(b->next.z, b->t_max));
-        float most = b->majorant * s->most;
+        float most = b->majorant * extinction;
         float way = f_max(end - b->t, 0.0f);
 
         if (most * way > depth) {
@@ -267,7 +281,7 @@ static inline struct vec2 smoke_2d(uint32_t key, uint32_t step)
 static inline struct vec3 smoke_passing(GLOBAL const struct smoke_medium *s,
                                         float density, float majorant)
 {
-    float part = density / (majorant * s->most);
+    float part = density / majorant;
 
     return v3(f_max(1.0f - s->extinction.x * part, 0.0f),
               f_max(1.0f - s->extinction.y * part, 0.0f),
@@ -275,9 +289,9 @@ static inline struct vec3 smoke_passing(GLOBAL const struct smoke_medium *s,
 }
 
 /* Counts a tentative collision of a path. Returns false if it has had all. */
-static inline bool smoke_may_step(uint32_t *steps)
+static inline bool smoke_may_step(const struct world *w, uint32_t *steps)
 {
-    if (*steps == SMOKE_STEPS_MAX)
+    if (*steps == w->settings.smoke_steps_max)
         return false;
     ++*steps;
     return true;
@@ -292,7 +306,7 @@ struct smoke_passage {
                             nothing that counts is left, roulette ends it */
     uint32_t key;
     uint32_t *steps; /* tentative collisions of the path, which grow: no light
-                        comes after SMOKE_STEPS_MAX */
+                        comes after the limit */
 };
 
 /* Estimates the share that comes through one smoke. */
@@ -306,14 +320,20 @@ static inline struct vec3 smoke_share(const struct world *w,
 
     if (!brick_walk_begin(w, &s->density, a->r, a->t, &b))
         return left;
-    while (brick_walk_go(w, s, collision_depth(1.0f, u.x), &b)) {
+    while (brick_walk_go(w, s, smoke_most(s, left), collision_depth(1.0f, u.x),
+                         &b)) {
+        struct vec3 part;
         float most;
 
-        if (!smoke_may_step(a->steps))
+        if (!smoke_may_step(w, a->steps))
             return v3(0.0f, 0.0f, 0.0f);
         left = v3_mul(left, smoke_passing(s, brick_walk_density(w, s, &b),
-                                          b.majorant));
-        most = v3_max_component(v3_mul(left, a->weights));
+                                          b.majorant * b.extinction));
+        part = v3_mul(left, a->weights);
+        most = v3_max_component(part);
+        left = v3(part.x > most * SHARE_MIN ? left.x : 0.0f,
+                  part.y > most * SHARE_MIN ? left.y : 0.0f,
+                  part.z > most * SHARE_MIN ? left.z : 0.0f);
         u = smoke_2d(a->key, b.steps);
         /* the number is the middle of its step: 0 saves nothing */
         if (most < SMOKE_SHARE_MIN && !(u.y + 0x1p-25f < most))
@@ -329,7 +349,7 @@ static inline struct vec3 smoke_share(const struct world *w,
  * with which processors are slow. */
 static inline float share_that_counts(float share)
 {
-    return share > 1e-20f ? share : 0.0f;
+    return share > SHARE_MIN ? share : 0.0f;
 }
 
 static inline struct vec3 shares_that_count(struct vec3 shares)
@@ -433,7 +453,7 @@ static inline void smoke_glow(const struct world *w,
         !field_has(&s->temperature, p))
         return;
     part = v3_scale(v3_mul(v3_sub(s->extinction, s->scattering), f->left),
-                    density / (b->majorant * s->most) / even);
+                    density / (b->majorant * b->extinction) / even);
     f->glow = v3_add(f->glow, attenuated(v3_mul(part, smoke_emission(w, s, p)),
                                          &ray->fog, ray->r, b->t));
 }
@@ -446,7 +466,8 @@ static inline bool smoke_meet(const struct world *w,
                               struct smoke_flight *f)
 {
     float density = brick_walk_density(w, s, b), most;
-    struct vec3 passing = smoke_passing(s, density, b->majorant);
+    struct vec3 passing =
+        smoke_passing(s, density, b->majorant * b->extinction);
 
     smoke_glow(w, s, ray, b, density, f);
     if (!(u < channel_of(passing, ray->channel)))
@@ -472,7 +493,7 @@ APART static struct smoke_flight smoke_fly(const struct world *w,
         float u = i == 0 ? ray->first.x : smoke_2d(hash_u32(ray->key + i), 0).x;
 
         if (!brick_walk_begin(w, &s->density, ray->r, t, &walks[i]) ||
-            !brick_walk_go(w, s, collision_depth(1.0f, u), &walks[i]))
+            !brick_walk_go(w, s, s->most, collision_depth(1.0f, u), &walks[i]))
             walks[i].t = INFINITY;
     }
     for (;;) {
@@ -485,7 +506,7 @@ APART static struct smoke_flight smoke_fly(const struct world *w,
         b = &walks[nearest];
         if (!(b->t < t))
             return f;
-        f.is_cut = !smoke_may_step(ray->steps);
+        f.is_cut = !smoke_may_step(w, ray->steps);
         if (f.is_cut)
             return f;
         u = smoke_2d(hash_u32(ray->key + nearest), b->steps);
@@ -496,8 +517,9 @@ APART static struct smoke_flight smoke_fly(const struct world *w,
             f.smoke = nearest;
             return f;
         }
-        if (!brick_walk_go(w, &w->smokes[nearest], collision_depth(1.0f, u.x),
-                           b))
+        if (!brick_walk_go(w, &w->smokes[nearest],
+                           smoke_most(&w->smokes[nearest], f.left),
+                           collision_depth(1.0f, u.x), b))
             b->t = INFINITY;
     }
 }

@@ -445,6 +445,12 @@ enum order {
  * long before; those that come so far are counted. */
 #define PATH_HARD_STOP 1000u
 
+/* Tentative collisions in smokes after which a path is cut: a bound for its
+ * time, since media may be white and without end, and majorants far above
+ * densities. Paths that only measure how light a scene is have few. */
+#define SMOKE_STEPS_MAX 65536u
+#define SMOKE_STEPS_FEW 2048u
+
 /* The part of struct world that is not arrays. */
 struct settings {
     struct camera camera;
@@ -494,6 +500,7 @@ struct settings {
     uint32_t directional_light_count;
     uint32_t profile_value_count;
     uint32_t smoke_count;
+    uint32_t smoke_steps_max; /* of a path */
     uint32_t voxel_place_count;
     uint32_t voxel_count;
     uint32_t glow_count;

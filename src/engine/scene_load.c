@@ -172,6 +172,7 @@ bool light_probe_take(struct light_probe *probe, struct host_world *host,
     ok = world_ensure_tree(host, &j.w, pool, err);
     if (ok) {
         j.w.settings.features |= FEATURE_FILTER;
+        j.w.settings.smoke_steps_max = SMOKE_STEPS_FEW;
         j.light = light = light_of_paths(&j, host, small.height_px, pool);
         pool_each(pool, (uint32_t)small.height_px, probe_row, &j);
     }

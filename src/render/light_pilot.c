@@ -222,6 +222,7 @@ struct light_pilot *light_pilot_begin(const struct backend_picture *picture)
     if (p == NULL)
         return NULL;
     *c = light_pilot_camera(c);
+    w.settings.smoke_steps_max = SMOKE_STEPS_FEW;
     if (!light_image_init(&p->image, PILOT_WIDTH, PILOT_HEIGHT)) {
         light_pilot_free(p);
         return NULL;

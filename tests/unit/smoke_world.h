@@ -111,6 +111,7 @@ static inline void smoke_world_lend(struct smoke_world *w, struct world *to)
     to->voxels = w->host.voxels;
     to->glows = w->host.glows;
     to->settings.smoke_count = w->host.smoke_count;
+    to->settings.smoke_steps_max = SMOKE_STEPS_MAX;
     to->settings.voxel_place_count = w->host.voxel_place_count;
     to->settings.voxel_count = w->host.voxel_count;
     to->settings.glow_count = w->host.glow_count;

@@ -568,13 +568,16 @@ static void extremes_are_finite(void **state)
     assert_true(lit > 15);
 }
 
-/* A channel that passes a smoke in which another is stopped at once takes many
- * steps. Paths and light samples that are cut are counted. */
-static void cuts_are_counted(void **state)
+/* A channel that is stopped at once makes no steps for the others, which pass
+ * with their share of light. */
+static void channels_do_not_wait(void **state)
 {
     struct ray r = {.o = {0, 0, 2}, .d = {0, 0, -1}, .t_max = FLOAT_MAX};
-    uint32_t cuts = 0, steps = 0;
+    uint32_t steps = 0;
     struct smoke_passage a = {r, FLOAT_MAX, {1, 1, 1}, 1, &steps};
+    const double depth = 2 * HALF * 0.5;
+    struct path_sample sum = {.cut = 0};
+    double mean = 0;
     struct scenery s;
     struct vec3 share;
 
@@ -582,7 +585,52 @@ static void cuts_are_counted(void **state)
     open_scenery(&s);
     smoke_world_add_even(&s.parts, "d", 9, 1);
     set_medium(smoke_world_fill(&s.parts, "d", "", -HALF, HALF), v3(0, 0, 0),
-               v3(1e6f, 0, 0), 0);
+               v3(1e6f, 0.5f, 0), 0);
+    s.lit.mesh.world.settings.sky.color = v3(1, 1, 1);
+    finish_scenery(&s);
+    lit_mesh_lend(&s.lit, DIRECT_MIS);
+    for (uint64_t i = 0; i < 2000; i++) {
+        struct path_sample p =
+            trace_path(&s.lit.mesh.world, r, sampler_start(3, 1, i, 1), NULL);
+
+        sum.radiance = v3_add(sum.radiance, p.radiance);
+        sum.cut += p.cut;
+        a.key = hash_u32((uint32_t)i);
+        share = smoke_transmittance(&s.lit.mesh.world, a);
+        mean += (double)share.y / 2000;
+        assert_true(share.x == 0 && share.z == 1);
+    }
+    assert_int_equal(sum.cut, 0);
+    assert_in_range(steps, 0, 2000 * 200); /* a million a ray without it */
+    assert_true(sum.radiance.x == 0);
+    check_close((double)sum.radiance.y / 2000, exp(-depth), 0.05);
+    check_close((double)sum.radiance.z / 2000, 1, 0.05);
+    check_close(mean, exp(-depth), 0.05);
+    steps = 0;
+    a.weights = v3(1, 0, 0); /* nothing else counts */
+    assert_true(smoke_transmittance(&s.lit.mesh.world, a).x == 0);
+    a.t = 1.4f;
+    share = smoke_transmittance(&s.lit.mesh.world, a);
+    assert_true(steps < 100 && share.x == 1 && share.y == 0);
+    close_scenery(&s);
+}
+
+/* A voxel far above the others of its brick lets rays take many steps. Paths
+ * and light samples that are cut are counted. */
+static void cuts_are_counted(void **state)
+{
+    struct ray r = {.o = {0, 0, 2}, .d = {0, 0, -1}, .t_max = FLOAT_MAX};
+    uint32_t cuts = 0, steps = 0;
+    struct smoke_passage a = {r, FLOAT_MAX, {1, 1, 1}, 1, &steps};
+    float numbers[9 * 9 * 9] = {1e6f};
+    struct voxel_grid grid = grid_of((const uint32_t[3]){9, 9, 9}, numbers);
+    struct scenery s;
+
+    (void)state;
+    open_scenery(&s);
+    smoke_world_add(&s.parts, "d", &grid);
+    set_medium(smoke_world_fill(&s.parts, "d", "", -HALF, HALF), v3(0, 0, 0),
+               v3(1, 1, 1), 0);
     s.lit.mesh.world.settings.sky.color = v3(1, 1, 1);
     finish_scenery(&s);
     lit_mesh_lend(&s.lit, DIRECT_MIS);
@@ -590,22 +638,12 @@ static void cuts_are_counted(void **state)
         cuts +=
             trace_path(&s.lit.mesh.world, r, sampler_start(3, 1, i, 1), NULL)
                 .cut;
-    assert_in_range(cuts, 10, 29); /* the other two channels decide */
-    share = smoke_transmittance(&s.lit.mesh.world, a);
-    assert_int_equal(steps, SMOKE_STEPS_MAX);
-    assert_true(v3_is_zero(share));
-    steps = 0;
-    a.weights = v3(1, 0, 0); /* nothing else counts */
-    share = smoke_transmittance(&s.lit.mesh.world, a);
-    assert_true(steps < 100 && share.x == 0);
-    a.t = 1.4f;
-    share = smoke_transmittance(&s.lit.mesh.world, a);
-    assert_true(steps < 100 && share.x == 1 && share.y == 0);
-    /* the limit is that of the path, not of the ray */
-    a.r.o = v3(0, 0, 2);
-    a.t = FLOAT_MAX;
-    steps = SMOKE_STEPS_MAX;
+    assert_int_equal(cuts, 30);
     assert_true(v3_is_zero(smoke_transmittance(&s.lit.mesh.world, a)));
+    assert_int_equal(steps, SMOKE_STEPS_MAX);
+    /* the limit is that of the path, not of the ray */
+    assert_true(v3_is_zero(smoke_transmittance(&s.lit.mesh.world, a)));
+    assert_int_equal(steps, SMOKE_STEPS_MAX);
     close_scenery(&s);
 }
 
@@ -620,6 +658,7 @@ int main(void)
         cmocka_unit_test(cubes_are_like_bodies),
         cmocka_unit_test(bodies_have_no_smoke),
         cmocka_unit_test(extremes_are_finite),
+        cmocka_unit_test(channels_do_not_wait),
         cmocka_unit_test(cuts_are_counted),
     };
 
