@@ -80,8 +80,12 @@ $(L)/unit/api/test_out_of_memory: private ALL_LDFLAGS += \
 FUZZ_MAIN := $(if $(findstring fuzzer,$(SAN)),-fsanitize=fuzzer,$(B)/fuzz/replay.o)
 $(FUZZERS): $(filter %.o,$(FUZZ_MAIN))
 
-# The library that lets calls of glim fail.
-FAULTS := $(if $(SAN),,$(L)/faults/fault.so)
+# Libraries that let calls of glim and of OpenCL fail.
+FAULTS := $(if $(SAN),,$(L)/faults/fault.so $(L)/faults/opencl/libOpenCL.so.1)
+$(L)/faults/opencl/libOpenCL.so.1: tests/faults/opencl_fault.c
+	@mkdir -p $(@D)
+	$(SAY) CC $@
+	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O1 -Wall -Wextra -fPIC -shared -o $@ $<
 $(L)/faults/fault.so: tests/faults/fault.c
 	@mkdir -p $(@D)
 	$(SAY) CC $@

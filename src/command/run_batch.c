@@ -542,30 +542,53 @@ static bool run_show(struct batch *b, struct error *err)
 
 /* ---- one or several ---- */
 
-/* Renders. If a device fails, the CPU renders from the start. */
+/* Starts the render, from the film to be resumed, if there is one. */
+static bool start(struct batch *b, struct error *err)
+{
+    struct session_start start = {.limits =
+                                      session_film_limits(b->session->options),
+                                  .first_sample = b->film.first_sample};
+
+    return session_film_resume(&b->film, &start.from, err) &&
+           session_start(b->session, &start, err);
+}
+
+/* Goes on with the samples of a device that has failed. */
+static bool go_on_with_cpu(struct batch *b, const char *reason,
+                           struct error *err)
+{
+    struct session_start start = {.limits =
+                                      session_film_limits(b->session->options),
+                                  .first_sample = b->film.first_sample,
+                                  .keeps_film = true};
+
+    batch_warn_of_device(reason);
+    engine_use_cpu(&b->session->engine);
+    return session_start(b->session, &start, err);
+}
+
+/* Renders, until the film is complete or a signal comes. */
 static bool render_all(struct batch *b, struct error *err)
 {
     struct batch_bar bar = batch_bar_begin();
     struct session *s = b->session;
-    struct session_start start = {.limits = session_film_limits(s->options),
-                                  .first_sample = b->film.first_sample};
     struct render_progress p;
+    bool ok = start(b, err) && session_film_watch(&b->film, err);
 
-    if (!session_film_resume(&b->film, &start.from, err) ||
-        !session_start(s, &start, err) || !session_film_watch(&b->film, err))
+    if (!ok)
         return false;
     bar.film = &b->film;
     bar.series = b->series.session != NULL ? &b->series : NULL;
     p = batch_wait(s, &bar);
+    if (p.state == RENDER_FAILED && engine_uses_device(&s->engine)) {
+        ok = go_on_with_cpu(b, p.error.text, err);
+        if (ok)
+            p = batch_wait(s, &bar);
+    }
     session_film_stop(&b->film);
-    if (p.state != RENDER_FAILED)
-        return true;
-    *err = p.error;
-    if (!engine_uses_device(&s->engine))
-        return false;
-    batch_warn_of_device(err->text);
-    engine_use_cpu(&s->engine);
-    return render_all(b, err);
+    if (ok && p.state == RENDER_FAILED)
+        ok = fail(err, "%s", p.error.text);
+    return ok;
 }
 
 /* Returns true if a signal has stopped the render before its end. */

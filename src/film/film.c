@@ -263,6 +263,16 @@ void film_count_more(struct film *f, const struct tally *tally)
         atomic_fetch_add(&f->cut_paths, tally->cut_paths);
 }
 
+void film_count_again(struct film *f)
+{
+    size_t pixels = (size_t)f->width * (size_t)f->height;
+    uint64_t samples = 0;
+
+    for (size_t i = 0; i < pixels; i++)
+        samples += f->counts[i];
+    atomic_store(&f->samples, samples);
+}
+
 static inline f4 mean_of(const struct sum *sums, uint64_t count)
 {
     f4 all =

@@ -137,6 +137,9 @@ bool film_copy(struct film *to, struct film *from, struct error *err);
 /* Adds to the counters for samples whose sums are stored elsewhere or later. */
 void film_count_more(struct film *film, const struct tally *tally);
 
+/* Counts the samples of all pixels again, where a tally was lost. */
+void film_count_again(struct film *film);
+
 /* Writes linear means, 3 floats per pixel, row 0 at the top. */
 void film_linear(struct film *film, float *rgb);
 

@@ -221,7 +221,7 @@ bool live_render_awaits_picture(const struct live_render *control)
             (p->draft_is_coarse && p->render_ns < DRAFT_WAIT_NS));
 }
 
-/* Replaces a device that failed by the CPU, and restarts. */
+/* Replaces a device that failed by the CPU, which goes on with its samples. */
 static void replace_device(struct live_render *control)
 {
     struct session *s = control->session;
@@ -230,8 +230,8 @@ static void replace_device(struct live_render *control)
                          has_cpu ? "; the CPU renders" : "");
 
     if (has_cpu) {
-        render_set_backend(s->engine.render, s->engine.backends.cpu);
-        restart(control);
+        engine_use_cpu(&s->engine);
+        begin(control, (struct session_start){.keeps_film = true});
     }
     live_render_say_error(control, text);
     free(text);

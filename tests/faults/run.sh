@@ -9,7 +9,8 @@
 # system calls that return errors, if strace is there. Each time glim must
 # write the right picture, or say in one line why there is none and leave
 # nothing behind. Films are whole: those from before, or the new ones. The
-# screen must be left as it was found.
+# screen must be left as it was found. Calls of an OpenCL driver fail, once or
+# from then on, or do not return: the CPU goes on, and the picture is the same.
 #
 # BUILD is the folder of the program; FILTER=PART selects runs by name. Rows are
 # those of `make stress`.
@@ -37,7 +38,7 @@ attempt() # WITH... -- COMMAND...
     shift
     rm -rf "$work/run" "$work/state" "$FAULT_COUNT"
     cp -r "$work/given" "$work/run"
-    (cd "$work/run" && timeout 60 "${with[@]}" "$@" </dev/null >"$work/out" \
+    (cd "$work/run" && timeout 150 "${with[@]}" "$@" </dev/null >"$work/out" \
         2>"$work/said")
     status=$?
 }
@@ -241,6 +242,60 @@ screen()
     tally 'screen, memory' $tried $bad $errors
 }
 
+# Lets calls of a driver fail. FAULT_DEVICE=other is a device with memory of its
+# own.
+# shellcheck disable=SC2086 # words
+device()
+{
+    local fault kind n total tried bad errors=0
+
+    [[ opencl == *"${FILTER-}"* ]] || return
+    FAULT_OPENCL=$(ldconfig -p | awk '/libOpenCL.so.1 / { print $NF; exit }')
+    if [ -z "$FAULT_OPENCL" ] || ! "$glim" --list-devices >/dev/null 2>&1; then
+        echo 'skip opencl (no device)'
+        return
+    fi
+    export FAULT_OPENCL
+    rm -rf "$work/good" "$work/given"
+    mkdir "$work/good" "$work/given"
+    "$glim" $small -o "$work/good/out.pfm" "$scenes/cornell.obj" 2>/dev/null
+    for kind in '' other; do
+        tried=0 bad=0
+        try_device opencl:-1 ${kind:+FAULT_DEVICE=$kind}
+        total=$(od -An -t d8 "$FAULT_COUNT" | tr -d ' ')
+        for ((n = 1; n <= total; n += step)); do
+            try_device opencl:$n ${kind:+FAULT_DEVICE=$kind}
+            try_device opencl:$n+ ${kind:+FAULT_DEVICE=$kind}
+        done
+        tally "opencl${kind:+, $kind}" $tried $bad $errors
+    done
+    tried=0 bad=0
+    for fault in clGetPlatformIDs:1 clEnqueueNDRangeKernel:3; do
+        try_device $fault FAULT_CODE=hang
+    done
+    tally 'opencl, hanging' $tried $bad $errors
+}
+
+# Renders on the device with a fault: the picture is that of the CPU, with one
+# warning at most.
+# shellcheck disable=SC2086 # words
+try_device() # FAULT VARIABLE...
+{
+    local problem
+
+    attempt env "FAULT=$1" "LD_LIBRARY_PATH=$build/faults/opencl" "${@:2}" -- \
+        "$glim" $small --backend opencl -o out.pfm "$scenes/cornell.obj"
+    problem=$(differing "$work/run" "$work/good")
+    if [ "$status" != 0 ] || [ "$(grep -vc '^out.pfm' "$work/said")" -gt 1 ]; then
+        problem="status $status $problem"
+    fi
+    tried=$((tried + 1))
+    [ -z "$problem" ] && return
+    bad=$((bad + 1))
+    echo "-- $*: $problem"
+    sed 's/^/-- /' "$work/said" | head -n 3
+}
+
 # shellcheck disable=SC2086 # words
 pictures()
 {
@@ -259,4 +314,5 @@ pictures()
 
 pictures
 screen
+device
 exit $failed

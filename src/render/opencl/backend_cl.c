@@ -4,7 +4,9 @@
  * makes the camera rays of a task, traces the paths and adds them to a film of
  * its own. Two tasks are in the queue, so that the device never waits for the
  * host. Complete rows are read back every READ_NS, and the rest at the end of a
- * pass.
+ * pass. Only whole points are stored in the film of the host, so it is good
+ * after a failure. The driver's calls have a thread, which is left alone with
+ * all that it uses if the driver does not answer.
  */
 #include "render/opencl/backend_cl.h"
 
@@ -56,9 +58,22 @@ struct slot {
     cl_event done; /* NULL: the slot is free */
 };
 
+/* What the thread of the driver is asked for, and its answer. */
+struct request {
+    const struct cl_request *start;
+    char *log; /* of a build that failed */
+    struct backend_picture picture;
+    struct pass pass;
+    const struct cancel *cancel;
+    enum pass_result result;
+    struct error error;
+};
+
 struct backend_cl {
     struct backend base;
     struct cl_machine machine;
+    struct cl_thread thread;
+    struct request request;
     char *text;             /* source text of the kernels */
     struct cl_kernels full; /* with the features of the request */
     struct cl_kernels special;
@@ -217,12 +232,34 @@ static bool call_done(struct backend_cl *b, cl_int code, const char *call,
 
 /* ---- geometry, picture ---- */
 
+/* Lets the thread do some work, until it ends or the driver does not answer. */
+static enum pass_result ask(struct backend_cl *b, void (*work)(void *context),
+                            struct error *err)
+{
+    b->request.result = PASS_DONE;
+    if (!cl_thread_run(&b->thread, work, b, b->request.cancel)) {
+        fail(err, "OpenCL: the driver does not answer");
+        return PASS_FAILED;
+    }
+    if (b->request.result == PASS_FAILED)
+        *err = b->request.error;
+    return b->request.result;
+}
+
+static void free_world(void *context)
+{
+    struct backend_cl *b = context;
+
+    cl_world_free(&b->world, &b->machine);
+}
+
 static bool cl_load(struct backend *base, struct host_world *host,
                     struct world *world, struct error *err)
 {
     struct backend_cl *b = (struct backend_cl *)base;
 
-    cl_world_free(&b->world, &b->machine);
+    if (ask(b, free_world, err) == PASS_FAILED)
+        return false;
     if (base->pool == NULL)
         base->pool = world_pool(host);
     if (!world_ensure_tree(host, world, base->pool, err))
@@ -233,9 +270,9 @@ static bool cl_load(struct backend *base, struct host_world *host,
 
 static void cl_unload(struct backend *base)
 {
-    struct backend_cl *b = (struct backend_cl *)base;
+    struct error ignored;
 
-    cl_world_free(&b->world, &b->machine);
+    ask((struct backend_cl *)base, free_world, &ignored);
     base->tree_bytes = 0;
 }
 
@@ -283,10 +320,9 @@ static void choose_kernels(struct backend_cl *b, uint64_t features)
             : &b->full;
 }
 
-static bool cl_begin(struct backend *base, const struct backend_picture *p,
-                     struct error *err)
+static bool begin_picture(struct backend_cl *b, const struct backend_picture *p,
+                          struct error *err)
 {
-    struct backend_cl *b = (struct backend_cl *)base;
     size_t pixel_count = (size_t)p->film->width * (size_t)p->film->height;
 
     choose_kernels(b, p->world->settings.features);
@@ -295,7 +331,7 @@ static bool cl_begin(struct backend *base, const struct backend_picture *p,
     b->x0 = (uint32_t)p->x0;
     b->y0 = (uint32_t)p->y0;
     b->complete_points = 0;
-    return cl_world_update(&b->world, &b->machine, p, &base->upload_count,
+    return cl_world_update(&b->world, &b->machine, p, &b->base.upload_count,
                            err) &&
            cl_film_begin(&b->film, &b->machine, p->film, err) &&
            cl_readback_begin(&b->slots[0].reading, &b->film, err) &&
@@ -303,6 +339,24 @@ static bool cl_begin(struct backend *base, const struct backend_picture *p,
            (atomic_load(&p->film->samples) > 0
                 ? cl_film_upload(&b->film, &b->machine, err)
                 : clear_film(b, pixel_count, err));
+}
+
+static void begin_work(void *context)
+{
+    struct backend_cl *b = context;
+    struct request *r = &b->request;
+
+    if (!begin_picture(b, &r->picture, &r->error))
+        r->result = PASS_FAILED;
+}
+
+static bool cl_begin(struct backend *base, const struct backend_picture *p,
+                     struct error *err)
+{
+    struct backend_cl *b = (struct backend_cl *)base;
+
+    b->request.picture = *p;
+    return ask(b, begin_work, err) != PASS_FAILED;
 }
 
 /* ---- tasks ---- */
@@ -552,6 +606,8 @@ static bool bind_light(struct backend_cl *b, const struct pass *pass,
 /* Waits until a failed pass can no longer write to the host's memory. */
 static void drain(struct backend_cl *b)
 {
+    if (cl_thread_is_left(&b->thread))
+        return;
     b->machine.api->Finish(b->machine.queue);
     for (int i = 0; i < 2; i++) {
         if (b->slots[i].done != NULL)
@@ -577,10 +633,9 @@ static bool run_tasks(struct backend_cl *b, struct progress *p,
     }
 }
 
-static enum pass_result cl_pass(struct backend *base, const struct pass *pass,
-                                const struct cancel *cancel, struct error *err)
+static enum pass_result run_pass(struct backend_cl *b, const struct pass *pass,
+                                 const struct cancel *cancel, struct error *err)
 {
-    struct backend_cl *b = (struct backend_cl *)base;
     const struct film *film = b->film.film;
     uint32_t stride = (uint32_t)pass->stride;
     struct progress p = {
@@ -603,16 +658,39 @@ static enum pass_result cl_pass(struct backend *base, const struct pass *pass,
     return cancel_requested(cancel) ? PASS_CANCELLED : PASS_DONE;
 }
 
-/* ---- life ---- */
+static void pass_work(void *context)
+{
+    struct backend_cl *b = context;
+    struct request *r = &b->request;
 
-static void cl_destroy(struct backend *base)
+    r->result = run_pass(b, &r->pass, r->cancel, &r->error);
+}
+
+static enum pass_result cl_pass(struct backend *base, const struct pass *pass,
+                                const struct cancel *cancel, struct error *err)
 {
     struct backend_cl *b = (struct backend_cl *)base;
+    enum pass_result result;
+
+    b->request.pass = *pass;
+    b->request.cancel = cancel;
+    result = ask(b, pass_work, err);
+    b->request.cancel = NULL;
+    if (result == PASS_FAILED)
+        film_count_again(b->film.film);
+    return result;
+}
+
+/* ---- life ---- */
+
+static void release(void *context)
+{
+    struct backend_cl *b = context;
 
     for (int i = 0; i < 2; i++)
         free_slot(b, &b->slots[i]);
     cl_film_free(&b->film, &b->machine);
-    cl_unload(base);
+    cl_world_free(&b->world, &b->machine);
     cl_machine_drop(&b->machine, &b->cancel);
     cl_machine_drop(&b->machine, &b->shares);
     cl_machine_drop(&b->machine, &b->light);
@@ -620,6 +698,16 @@ static void cl_destroy(struct backend *base)
     cl_kernels_free(&b->special, &b->machine);
     cl_kernels_free(&b->full, &b->machine);
     cl_machine_close(&b->machine);
+}
+
+static void cl_destroy(struct backend *base)
+{
+    struct backend_cl *b = (struct backend_cl *)base;
+    const struct cancel at_once = {.requested = 1};
+
+    if (!cl_thread_run(&b->thread, release, b, &at_once))
+        return; /* the driver may still use all of it */
+    cl_thread_end(&b->thread);
     pool_destroy(base->pool);
     pthread_mutex_destroy(&b->lock);
     free(b->text);
@@ -641,16 +729,26 @@ bool backend_cl_specialise(struct backend *base, uint64_t features, char **log,
     return true;
 }
 
-static bool open_machine(struct cl_machine *m, const struct cl_request *r,
-                         struct error *err)
+/* Opens the device and builds the kernels. */
+static bool open_machine(struct backend_cl *b, const struct cl_request *r,
+                         char **log, struct error *err)
 {
-    if (!cl_machine_open(m, r->device, err))
+    struct cl_machine *m = &b->machine;
+
+    if (!cl_machine_open(m, r->device, &b->thread, err))
         return false;
-    if (!r->needs_gpu || m->device->is_gpu)
-        return true;
-    fail(err, "OpenCL: found no GPU, only %s", m->device->name);
-    cl_machine_close(m);
-    return false;
+    if (r->needs_gpu && !m->device->is_gpu)
+        return fail(err, "OpenCL: found no GPU, only %s", m->device->name);
+    return cl_kernels_build(&b->full, m, b->text, r->features, log, err);
+}
+
+static void open_work(void *context)
+{
+    struct backend_cl *b = context;
+    struct request *r = &b->request;
+
+    if (!open_machine(b, r->start, &r->log, &r->error))
+        r->result = PASS_FAILED;
 }
 
 struct backend *backend_cl_create(const struct cl_request *r, char **log,
@@ -663,12 +761,20 @@ struct backend *backend_cl_create(const struct cl_request *r, char **log,
         fail(err, "OpenCL: out of memory");
         return NULL;
     }
-    if (!open_machine(&b->machine, r, err)) {
+    b->text = cl_source_text(r->kernels_path, err);
+    if (b->text == NULL || !cl_thread_init(&b->thread, err)) {
+        free(b->text);
         free(b);
         return NULL;
     }
     pthread_mutex_init(&b->lock, NULL);
     b->task_paths = TASK_PATHS_FIRST;
+    b->request.start = r;
+    if (ask(b, open_work, err) == PASS_FAILED) {
+        *log = b->request.log;
+        cl_destroy(&b->base);
+        return NULL;
+    }
     b->base.name = "opencl";
     b->base.device = b->machine.device->name;
     b->base.driver = b->machine.device->driver_version;
@@ -679,10 +785,5 @@ struct backend *backend_cl_create(const struct cl_request *r, char **log,
     b->base.takes_light = true;
     b->base.pass = cl_pass;
     b->base.destroy = cl_destroy;
-    b->text = cl_source_text(r->kernels_path, err);
-    if (b->text != NULL &&
-        cl_kernels_build(&b->full, &b->machine, b->text, r->features, log, err))
-        return &b->base;
-    cl_destroy(&b->base);
-    return NULL;
+    return &b->base;
 }

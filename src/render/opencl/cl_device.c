@@ -348,6 +348,8 @@ void cl_devices_print(const struct cl_devices *list, FILE *out)
 bool cl_machine_check(const struct cl_machine *m, cl_int code, const char *call,
                       struct error *err)
 {
+    if (m->thread != NULL && !cl_thread_beat(m->thread))
+        return fail(err, "OpenCL: %s: too late", call);
     if (code == CL_SUCCESS)
         return true;
     return fail(err, "OpenCL device %s: %s: %s", m->device->name, call,
@@ -368,10 +370,12 @@ static bool open_device(struct cl_machine *m, struct error *err)
     return cl_machine_check(m, code, "clCreateCommandQueue", err);
 }
 
-bool cl_machine_open(struct cl_machine *m, const char *word, struct error *err)
+bool cl_machine_open(struct cl_machine *m, const char *word,
+                     struct cl_thread *thread, struct error *err)
 {
-    *m = (struct cl_machine){.api = cl_api_open(err)};
-    if (m->api == NULL || !cl_device_list(&m->devices, err))
+    *m = (struct cl_machine){.api = cl_api_open(err), .thread = thread};
+    if (m->api == NULL || !cl_device_list(&m->devices, err) ||
+        !cl_machine_check(m, CL_SUCCESS, "the list of devices", err))
         return false;
     m->device = cl_device_find(&m->devices, word, err);
     if (m->device != NULL && open_device(m, err))
@@ -464,8 +468,11 @@ bool cl_machine_wait(const struct cl_machine *m, cl_event *event,
     while (code == CL_SUCCESS && status > CL_COMPLETE) {
         code = m->api->GetEventInfo(*event, CL_EVENT_COMMAND_EXECUTION_STATUS,
                                     sizeof status, &status, NULL);
-        if (code == CL_SUCCESS && status > CL_COMPLETE)
+        if (code == CL_SUCCESS && status > CL_COMPLETE) {
+            if (m->thread != NULL && cl_thread_is_left(m->thread))
+                return fail(err, "OpenCL: a command: too late");
             nanosleep(&pause, NULL);
+        }
     }
     m->api->ReleaseEvent(*event);
     *event = NULL;

@@ -20,6 +20,7 @@
 #include <stdio.h>
 
 #include "render/opencl/cl_api.h"
+#include "render/opencl/cl_thread.h"
 
 /* ---- devices ---- */
 
@@ -65,15 +66,17 @@ struct cl_machine {
     struct cl_devices devices;
     const struct cl_device *device; /* points into the list of devices */
     cl_context context;
-    cl_command_queue queue; /* in order */
+    cl_command_queue queue;   /* in order */
+    struct cl_thread *thread; /* gets the signs of the driver; may be NULL */
 };
 
 /* Opens the device that cl_device_find() selects for the word. */
-bool cl_machine_open(struct cl_machine *m, const char *word, struct error *err);
+bool cl_machine_open(struct cl_machine *m, const char *word,
+                     struct cl_thread *thread, struct error *err);
 void cl_machine_close(struct cl_machine *m);
 
 /* Returns true for CL_SUCCESS; otherwise the error names the call and the
- * code. */
+ * code. It is one, too, if the thread was left. */
 bool cl_machine_check(const struct cl_machine *m, cl_int code, const char *call,
                       struct error *err);
 
@@ -94,7 +97,8 @@ bool cl_machine_set(const struct cl_machine *m, cl_kernel kernel, cl_uint first,
 bool cl_machine_enqueue(const struct cl_machine *m, cl_kernel kernel,
                         size_t count, struct error *err);
 
-/* Waits for an event without busy waiting, and releases it. */
+/* Waits for an event without busy waiting, and releases it. Returns false if it
+ * has failed, or if the thread was left. */
 bool cl_machine_wait(const struct cl_machine *m, cl_event *event,
                      struct error *err);
 

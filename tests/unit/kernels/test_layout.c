@@ -240,7 +240,7 @@ static void device_has_the_host_layout(void **state)
 
     (void)state;
     cl_environment_prepare(1);
-    if (!cl_machine_open(&m, "Portable", &err)) {
+    if (!cl_machine_open(&m, "Portable", NULL, &err)) {
         print_message("skipped: %s\n", err.text);
         return;
     }
