@@ -89,7 +89,7 @@ static void functions_have_the_same_bits(void **state)
 
     (void)state;
     cl_environment_prepare(2);
-    if (!cl_machine_open(&m, "Portable", &err)) {
+    if (!cl_machine_open(&m, "Portable", NULL, &err)) {
         print_message("skipped: %s\n", err.text);
         return;
     }
