@@ -360,7 +360,7 @@ static void check_truths(struct stress_scene *s)
         {"G9", "a chain of 200 halves", chain_room, 200, 1, 0, inside, true},
         {"G10", "one triangle", one_or_none, 1, share + 0.25 * (1 - share), 0,
          before, false},
-        {"G10", "points and lines", one_or_none, 0, 0.25, 0, before, true},
+        {"G10", "points and lines", one_or_none, 0, 0.25, 0, before, false},
         {"G12", "a corridor of mirrors", mirror_corridor, 40, 1, 0, across,
          false},
         {"G14", "flat across x", flat_scene, 0, 1, 0, flats[0], false},

@@ -612,6 +612,27 @@ static void check_truths(struct stress_scene *s)
         check_truth(s, &truths[i]);
 }
 
+/* C6: the mean of many samples of one pixel is as good as its sum. */
+static void check_one_pixel(struct stress_scene *s)
+{
+    const double count = 1e8, want = lit_floor();
+    struct shot shot = at_floor;
+    struct outcome o;
+    double off;
+
+    stress_scene_begin(s);
+    lamp_over_floor(s, 1);
+    stress_scene_end(s);
+    shot.side_px = 1;
+    shot.spp = (uint64_t)count;
+    o = stress_scene_render(s, &shot, 1);
+    off = fabs(o.mean - want);
+    row(!o.is_refused && (double)o.last.samples == count && off < 1e-5 * want,
+        "C6", "%g samples of one pixel: %.9g, want %.9g, off by %.1e of it",
+        count, o.mean, want, off / want);
+    free(o.rgb);
+}
+
 int main(int argc, char **argv)
 {
     struct stress_scene s;
@@ -625,6 +646,7 @@ int main(int argc, char **argv)
     check_brightest(&s);
     check_skies(&s);
     check_sky_of_nan(&s);
+    check_one_pixel(&s);
     stress_scene_close(&s);
     return rows_status();
 }
