@@ -691,7 +691,7 @@ static inline struct path_sample path_close(const struct world *w,
         }
         *surface = p->surface;
     }
-    if (HAS(FEATURE_GRIDS) && p->smoke_steps == w->settings.smoke_steps_max)
+    if (HAS(FEATURE_GRIDS) && p->smoke_steps > w->settings.smoke_steps_max)
         p->out.cut = 1;
     p->out.radiance = path_light(p);
     return p->out;

@@ -288,13 +288,13 @@ static inline struct vec3 smoke_passing(GLOBAL const struct smoke_medium *s,
               f_max(1.0f - s->extinction.z * part, 0.0f));
 }
 
-/* Counts a tentative collision of a path. Returns false if it has had all. */
+/* Counts a tentative collision of a path. Returns false, and counts one more
+ * than there may be, if the path has had all. */
 static inline bool smoke_may_step(const struct world *w, uint32_t *steps)
 {
-    if (*steps == w->settings.smoke_steps_max)
-        return false;
-    ++*steps;
-    return true;
+    uint32_t most = w->settings.smoke_steps_max;
+
+    return *steps <= most && ++*steps <= most;
 }
 
 /* A request for the share of light that comes along a ray, whose direction is a

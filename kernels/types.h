@@ -448,7 +448,7 @@ enum order {
 /* Tentative collisions in smokes after which a path is cut: a bound for its
  * time, since media may be white and without end, and majorants far above
  * densities. Paths that only measure how light a scene is have few. */
-#define SMOKE_STEPS_MAX 65536u
+#define SMOKE_STEPS_MAX 16384u
 #define SMOKE_STEPS_FEW 2048u
 
 /* The part of struct world that is not arrays. */
@@ -504,6 +504,7 @@ struct settings {
     uint32_t voxel_place_count;
     uint32_t voxel_count;
     uint32_t glow_count;
+    uint32_t pad;
 
     struct guide_grid guide;
 };

@@ -66,6 +66,9 @@ $(B)/unit/gltf/draco_encode.o: tests/unit/gltf/draco_encode.cc $(B)/flags
 endif
 # It lets the clock jump.
 $(L)/unit/studio/test_autosave: private ALL_LDFLAGS += -Wl,--wrap=clock_ns
+# It makes the clocks fast.
+$(L)/unit/opencl/test_cl_thread: private ALL_LDFLAGS += \
+	-Wl,--wrap=clock_ns -Wl,--wrap=clock_cpu_ns
 # It makes the disk slow.
 $(L)/unit/session/test_session_film: private ALL_LDFLAGS += -Wl,--wrap=fsync
 # It lets allocations fail.

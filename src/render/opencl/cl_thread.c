@@ -10,8 +10,10 @@
 /* Longest time without a sign of the driver: compilers take seconds. */
 #define ANSWER_NS (60 * S_NS)
 
-/* The same once somebody waits for a halt, which takes milliseconds. */
+/* The same once somebody waits for a halt, which takes milliseconds, unless the
+ * program computes meanwhile, as it does in a compiler. */
 #define HALT_NS (10 * S_NS)
+#define COMPUTING_SHARE 0.1
 
 /* Interval in which a cancel is looked for. */
 #define LOOK_NS (S_NS / 10)
@@ -54,7 +56,7 @@ bool cl_thread_init(struct cl_thread *t, struct error *err)
 bool cl_thread_run(struct cl_thread *t, void (*work)(void *context),
                    void *context, const struct cancel *cancel)
 {
-    uint64_t cancel_ns = 0, now_ns;
+    uint64_t halt_ns = 0, computed_ns = 0, now_ns;
     bool is_left;
 
     pthread_mutex_lock(&t->lock);
@@ -69,12 +71,18 @@ bool cl_thread_run(struct cl_thread *t, void (*work)(void *context),
 
         pthread_cond_timedwait(&t->end, &t->lock, &until);
         now_ns = clock_ns();
-        if (cancel_ns == 0 && cancel != NULL && cancel_requested(cancel))
-            cancel_ns = now_ns;
-        t->is_left = t->work != NULL &&
-                     (now_ns > t->beat_ns + ANSWER_NS ||
-                      (cancel_ns != 0 && now_ns > cancel_ns + HALT_NS &&
-                       now_ns > t->beat_ns + HALT_NS));
+        if (halt_ns == 0 && cancel != NULL && cancel_requested(cancel)) {
+            halt_ns = now_ns + HALT_NS;
+            computed_ns = clock_cpu_ns();
+        }
+        t->is_left = t->work != NULL && now_ns > t->beat_ns + ANSWER_NS;
+        if (t->work != NULL && halt_ns != 0 && now_ns > halt_ns &&
+            now_ns > t->beat_ns + HALT_NS) {
+            if (clock_cpu_ns() - computed_ns < HALT_NS * COMPUTING_SHARE)
+                t->is_left = true;
+            halt_ns = now_ns + HALT_NS;
+            computed_ns = clock_cpu_ns();
+        }
         if (t->is_left)
             pthread_detach(t->thread);
     }

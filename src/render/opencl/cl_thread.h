@@ -34,8 +34,9 @@ struct cl_thread {
 bool cl_thread_init(struct cl_thread *t, struct error *err);
 
 /* Runs work(context) on the thread. Returns false if the driver shows no sign
- * for a minute, or for ten seconds after a cancel, which may be NULL: then the
- * thread is left, and later calls return false at once. */
+ * for a minute, or for ten seconds after a cancel, which may be NULL, in which
+ * the program does not compute either: then the thread is left, and later calls
+ * return false at once. */
 bool cl_thread_run(struct cl_thread *t, void (*work)(void *context),
                    void *context, const struct cancel *cancel);
 

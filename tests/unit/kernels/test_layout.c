@@ -100,7 +100,7 @@
       M(settings, sphere_count) M(settings, directional_light_count)          \
       M(settings, profile_value_count) M(settings, smoke_count)               \
       M(settings, voxel_place_count) M(settings, voxel_count)                 \
-      M(settings, glow_count)                                                 \
+      M(settings, smoke_steps_max) M(settings, glow_count) M(settings, pad)   \
       M(settings, tri_count) M(settings, instance_count)                      \
       M(settings, position_count)                                             \
       M(settings, normal_count) M(settings, uv_count)                         \

@@ -640,10 +640,10 @@ static void cuts_are_counted(void **state)
                 .cut;
     assert_int_equal(cuts, 30);
     assert_true(v3_is_zero(smoke_transmittance(&s.lit.mesh.world, a)));
-    assert_int_equal(steps, SMOKE_STEPS_MAX);
+    assert_int_equal(steps, SMOKE_STEPS_MAX + 1);
     /* the limit is that of the path, not of the ray */
     assert_true(v3_is_zero(smoke_transmittance(&s.lit.mesh.world, a)));
-    assert_int_equal(steps, SMOKE_STEPS_MAX);
+    assert_int_equal(steps, SMOKE_STEPS_MAX + 1);
     close_scenery(&s);
 }
 
