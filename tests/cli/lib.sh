@@ -111,3 +111,25 @@ npy() # SHAPE BYTES
         "{'descr': '|u1', 'fortran_order': False, 'shape': ($1), }"
     printf "$2"
 }
+
+# Finds the program of clusters, and lets the superuser run it.
+mpi_program()
+{
+    mpi=${BUILD:-build/release}/mpi/glim
+    case $mpi in
+    /*) ;;
+    *) mpi=$root/$mpi ;;
+    esac
+    command -v mpirun >/dev/null || skip no mpirun
+    [ -x "$mpi" ] || skip no program with MPI
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+}
+
+# Runs that many ranks, and shows what they say of a picture or of an error.
+ranks() # COUNT OPTION...
+{
+    count=$1
+    shift
+    timeout -k 5 60 mpirun --oversubscribe -n $count "$mpi" "$@" 2>&1 |
+        grep -E 'glim|spp' | untimed
+}

@@ -12,7 +12,7 @@
 
 /* The same once somebody waits for a halt, which takes milliseconds, unless the
  * program computes meanwhile, as it does in a compiler. */
-#define HALT_NS (10 * S_NS)
+#define HALT_NS         (10 * S_NS)
 #define COMPUTING_SHARE 0.1
 
 /* Interval in which a cancel is looked for. */
